@@ -1,0 +1,30 @@
+//! # asperity
+//!
+//! Transient mixed elastohydrodynamic lubrication of rough rolling-sliding contacts, subsurface
+//! stress, stress-cycle counting and relative fatigue life.
+//!
+//! ## Floors
+//! Imports go downward only (`tests/architecture.rs` reads them):
+//!
+//! `math < physics < scene < plan < solve < sim < observe < run < tui < cli/main`
+//!
+//! * [`math`]: grids, fixed-order sums, planned FFTs, convolution. No contact words.
+//! * [`physics`]: closed forms: Hertz, fluid laws, waviness, film regressions, stress, fatigue.
+//! * [`scene`]: what the user asked, in SI, validated.
+//! * [`plan`]: what that scene needs, and why each stage that is left out is left out.
+//! * [`solve`]: one equation per file, dimensionless.
+//! * [`sim`]: the simulation loop: `step`, `set`, `fill`.
+//! * [`observe`]: what watches a run: latest frame, bounded queue, table, Rerun recording.
+//! * [`run`]: a session: threads, commands, outcome.
+//! * `tui` (feature `tui`): the live screen. The engine never names it.
+
+pub mod math;
+pub mod observe;
+pub mod physics;
+pub mod plan;
+pub mod run;
+pub mod scene;
+pub mod sim;
+pub mod solve;
+#[cfg(feature = "tui")]
+pub mod tui;

@@ -1,0 +1,1 @@
+//! Grids, fixed-order sums, planned FFTs, convolution. No contact words here.

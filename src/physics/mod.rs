@@ -1,0 +1,1 @@
+//! Closed forms of contact mechanics, lubrication, stress and fatigue.

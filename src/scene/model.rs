@@ -1,0 +1,441 @@
+//! The scene's types: one field per key of the scene file, SI units in the names.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// A whole scene: what the user asks for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// One line naming the scene.
+    #[serde(default)]
+    pub title: String,
+    /// A sentence or two: what is looked at, and where the numbers come from.
+    #[serde(default)]
+    pub about: String,
+    /// Shape of the contact.
+    pub contact: Contact,
+    /// The body below; z points into it.
+    #[serde(default)]
+    pub body_1: Body,
+    /// The body above.
+    #[serde(default)]
+    pub body_2: Body,
+    /// The oil; `None` (table left out): a dry scene.
+    pub lubricant: Option<Lubricant>,
+    /// Friction where the film is gone.
+    #[serde(default)]
+    pub friction: Friction,
+    /// Entrainment and sliding.
+    pub motion: Motion,
+    /// Load, by force or by Hertz pressure.
+    pub load: Load,
+    /// Nodes and domain.
+    #[serde(default)]
+    pub grid: Grid,
+    /// Time step and length of the run.
+    #[serde(default)]
+    pub time: Time,
+    /// Tolerances.
+    #[serde(default)]
+    pub numerics: Numerics,
+    /// Subsurface stress; `None`: not computed.
+    pub stress: Option<Stress>,
+    /// Fatigue life; `None`: not computed.
+    pub life: Option<Life>,
+    /// Recording; `None`: no recording.
+    pub record: Option<Record>,
+    /// Scripted knob changes and captions, the path that keys take too.
+    #[serde(default, rename = "event", skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<Event>,
+}
+
+/// Shape of the contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ContactKind {
+    /// Circular or elliptical contact.
+    Point,
+}
+
+/// `[contact]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Kind of contact.
+    pub kind: ContactKind,
+    /// Equivalent radius along the rolling direction x, m.
+    pub rx_m: f64,
+    /// Equivalent radius across, m.
+    pub ry_m: f64,
+}
+
+/// `[body_1]`, `[body_2]`: elastic constants and surface.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Body {
+    /// Young's modulus, Pa.
+    pub young_pa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Surface roughness.
+    pub surface: Surface,
+}
+
+impl Default for Body {
+    fn default() -> Self {
+        Self {
+            young_pa: 2.1e11,
+            poisson: 0.3,
+            surface: Surface::Smooth {},
+        }
+    }
+}
+
+/// `[body_i.surface]`: the micro-geometry that moves with the body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Surface {
+    /// No roughness.
+    Smooth {},
+    /// `A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy)`, x', y' turned by `angle_deg`.
+    Sinusoid {
+        /// A, m; peak to valley is 2 A.
+        amplitude_m: f64,
+        /// Wx, m; `inf`: longitudinal ridges.
+        #[serde(default = "infinite")]
+        wavelength_x_m: f64,
+        /// Wy, m; `inf`: transverse ridges.
+        #[serde(default = "infinite")]
+        wavelength_y_m: f64,
+        /// Angle of x' from x, degrees.
+        #[serde(default)]
+        angle_deg: f64,
+        /// Phase of the x' wave at t = 0, x = 0, degrees.
+        #[serde(default)]
+        phase_deg: f64,
+    },
+}
+
+fn infinite() -> f64 {
+    f64::INFINITY
+}
+
+/// Viscosity law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ViscosityLaw {
+    /// `eta0 exp(alpha p)`.
+    Barus,
+    /// Roelands with the same slope at p = 0.
+    Roelands,
+}
+
+/// Density law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DensityLaw {
+    /// Constant.
+    Incompressible,
+    /// `1 + 0.6e-9 p/(1 + 1.7e-9 p)`.
+    DowsonHigginson,
+}
+
+/// Shear law of the film.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rheology {
+    /// Shear stress proportional to shear rate.
+    Newtonian,
+    /// Ree-Eyring: `tau0 asinh(eta gamma/tau0)`.
+    Eyring,
+}
+
+/// How the film ruptures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cavitation {
+    /// p >= 0, the gap behind the contact counted as full.
+    Reynolds,
+    /// Mass-conserving (Jakobsson-Floberg-Olsson).
+    Jfo,
+}
+
+/// `[lubricant]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Lubricant {
+    /// Viscosity at ambient pressure, Pa s.
+    pub viscosity_pa_s: f64,
+    /// Pressure-viscosity coefficient, 1/Pa.
+    pub pressure_viscosity_per_pa: f64,
+    /// Viscosity law.
+    #[serde(default = "roelands")]
+    pub viscosity_law: ViscosityLaw,
+    /// Density law.
+    #[serde(default = "dowson_higginson")]
+    pub density_law: DensityLaw,
+    /// Shear law.
+    #[serde(default = "newtonian")]
+    pub rheology: Rheology,
+    /// Eyring stress tau0, Pa (rheology = "eyring").
+    #[serde(default = "eyring_stress")]
+    pub eyring_stress_pa: f64,
+    /// Limiting shear stress as a fraction of the pressure.
+    #[serde(default = "limiting_shear")]
+    pub limiting_shear_ratio: f64,
+    /// How the film ruptures.
+    #[serde(default = "reynolds")]
+    pub cavitation: Cavitation,
+}
+
+fn roelands() -> ViscosityLaw {
+    ViscosityLaw::Roelands
+}
+fn dowson_higginson() -> DensityLaw {
+    DensityLaw::DowsonHigginson
+}
+fn newtonian() -> Rheology {
+    Rheology::Newtonian
+}
+fn reynolds() -> Cavitation {
+    Cavitation::Reynolds
+}
+fn eyring_stress() -> f64 {
+    5.0e6
+}
+fn limiting_shear() -> f64 {
+    0.08
+}
+
+/// `[friction]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Friction {
+    /// Friction coefficient where the film is gone.
+    pub boundary: f64,
+    /// Film thickness at or below which a spot counts as contact, m (a few molecules of oil).
+    pub contact_film_m: f64,
+}
+
+impl Default for Friction {
+    fn default() -> Self {
+        Self {
+            boundary: 0.10,
+            contact_film_m: 5.0e-9,
+        }
+    }
+}
+
+/// `[motion]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Entrainment speed U = (U1 + U2)/2, m/s.
+    pub entrainment_m_s: f64,
+    /// Slide-to-roll ratio S = (U2 - U1)/U; S > 0: body 1 is the slower.
+    #[serde(default)]
+    pub slide_roll: f64,
+}
+
+/// `[load]`: exactly one of the two.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Normal load, N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<f64>,
+    /// Maximum Hertz pressure, Pa.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hertz_pressure_pa: Option<f64>,
+}
+
+/// `[grid]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Grid {
+    /// Nodes per side, 2^k + 1.
+    pub nodes: usize,
+    /// Inlet edge in Hertz half-widths along x; left out: chosen by the plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_min_a: Option<f64>,
+    /// Outlet edge in Hertz half-widths along x; left out: chosen by the plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_max_a: Option<f64>,
+    /// Half-width of the domain across, in Hertz half-widths along y; left out: chosen by the plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_half_a: Option<f64>,
+}
+
+impl Default for Grid {
+    fn default() -> Self {
+        Self {
+            nodes: 129,
+            x_min_a: None,
+            x_max_a: None,
+            y_half_a: None,
+        }
+    }
+}
+
+/// `[time]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Time {
+    /// Time step in nodes travelled at the entrainment speed: U dt/dx.
+    pub step_nodes: f64,
+    /// Length of the run after the start-up, in lengths of 4 a travelled at U.
+    pub passages: f64,
+}
+
+impl Default for Time {
+    fn default() -> Self {
+        Self {
+            step_nodes: 1.0,
+            passages: 2.0,
+        }
+    }
+}
+
+/// `[numerics]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Numerics {
+    /// Relative change of pressure at which a time step counts as converged.
+    pub tolerance: f64,
+    /// Most Newton iterations of one step.
+    pub max_iterations: usize,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Self {
+            tolerance: 1.0e-3,
+            max_iterations: 20,
+        }
+    }
+}
+
+/// Scalar measure of stress that drives fatigue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StressMeasure {
+    /// Von Mises.
+    VonMises,
+    /// Maximum shear (half of Tresca).
+    MaxShear,
+    /// Octahedral shear, sqrt(2)/3 of von Mises.
+    Octahedral,
+}
+
+/// `[stress]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Stress {
+    /// Number of depths.
+    pub depths: usize,
+    /// Deepest point, in Hertz half-widths.
+    pub depth_max_a: f64,
+    /// Scalar measure.
+    pub measure: StressMeasure,
+}
+
+impl Default for Stress {
+    fn default() -> Self {
+        Self {
+            depths: 32,
+            depth_max_a: 3.0,
+            measure: StressMeasure::VonMises,
+        }
+    }
+}
+
+/// Life model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LifeModel {
+    /// Zaretsky 1987: `ln(1/Ps) = C M^e int sigma^(c e) dV`.
+    Zaretsky,
+}
+
+/// How cycles enter the life.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CycleBasis {
+    /// One global n for the whole volume (the paper's form; an upper bound on damage).
+    Global,
+}
+
+/// Which volume integral is averaged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum VolumeIntegral {
+    /// Mean of the integral over the phases of a passage.
+    Snapshot,
+}
+
+/// `[life]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Life {
+    /// Model.
+    pub model: LifeModel,
+    /// Stress exponent c (assumption, not from the paper).
+    pub stress_exponent: f64,
+    /// Weibull slope e (assumption, not from the paper).
+    pub weibull_slope: f64,
+    /// Probability of survival.
+    pub survival: f64,
+    /// Cycle basis.
+    pub cycles: CycleBasis,
+    /// Volume integral.
+    pub volume: VolumeIntegral,
+}
+
+impl Default for Life {
+    fn default() -> Self {
+        Self {
+            model: LifeModel::Zaretsky,
+            stress_exponent: 31.0 / 3.0,
+            weibull_slope: 10.0 / 9.0,
+            survival: 0.5,
+            cycles: CycleBasis::Global,
+            volume: VolumeIntegral::Snapshot,
+        }
+    }
+}
+
+/// `[record]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Record {
+    /// A frame every so many time steps.
+    pub every_steps: usize,
+    /// Most megabytes that the recording may take.
+    pub budget_mb: f64,
+}
+
+impl Default for Record {
+    fn default() -> Self {
+        Self {
+            every_steps: 1,
+            budget_mb: 200.0,
+        }
+    }
+}
+
+/// `[[event]]`: a scripted knob change or caption.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Event {
+    /// Simulated time after the start-up, s.
+    pub at_s: f64,
+    /// Knobs to set: `motion.slide_roll`, `load.force_n`, `body_i.surface.amplitude_m`,
+    /// `motion.entrainment_m_s`.
+    #[serde(default)]
+    pub set: BTreeMap<String, f64>,
+    /// Text shown beside the run.
+    #[serde(default)]
+    pub caption: String,
+}

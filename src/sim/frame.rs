@@ -1,0 +1,188 @@
+//! What one time step looks like from outside: SI, plain data, `f32` fields.
+//!
+//! Fields are stored row by row: index `j * nx + i`, `i` along x (rolling direction), `j` along y.
+//! Frames always hold the full domain, also where the solver worked on half of it.
+
+use std::sync::Arc;
+
+/// Which part of a run a frame belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Stage {
+    /// From Hertz to the smooth reference and to the developed rough contact; not part of the results.
+    #[default]
+    StartUp,
+    /// The passage: every number counts.
+    Passage,
+}
+
+/// One frame.
+#[derive(Debug, Clone, Default)]
+pub struct Frame {
+    /// Time step, counted from the first step of the passage (start-up: 0).
+    pub step: u64,
+    /// Simulated time since the start of the passage, s.
+    pub time_s: f64,
+    /// Part of the run.
+    pub stage: Stage,
+    /// Lengths of 4 a travelled at U since the start of the passage.
+    pub passages: f64,
+    /// Nodes along x.
+    pub nx: usize,
+    /// Nodes along y.
+    pub ny: usize,
+    /// Inlet edge, m.
+    pub x_min_m: f64,
+    /// Node spacing along x, m.
+    pub dx_m: f64,
+    /// Edge of the domain across, m (the domain is symmetric: y from `y_min_m` to `-y_min_m`).
+    pub y_min_m: f64,
+    /// Node spacing along y, m.
+    pub dy_m: f64,
+    /// Hertz half-width along x at the load of this frame, m.
+    pub a_m: f64,
+    /// Hertz half-width along y, m.
+    pub b_m: f64,
+    /// Maximum Hertz pressure at the load of this frame, Pa.
+    pub p_hertz_pa: f64,
+    /// Pressure, Pa.
+    pub pressure_pa: Vec<f32>,
+    /// Film thickness, m.
+    pub film_m: Vec<f32>,
+    /// Roughness of body 1 in the place where it now is, m (height towards the mating body).
+    pub roughness_1_m: Vec<f32>,
+    /// Roughness of body 2, m.
+    pub roughness_2_m: Vec<f32>,
+    /// Shear traction on body 1 along +x, Pa (positive when body 2 is the faster).
+    pub traction_pa: Vec<f32>,
+    /// 1 where asperities touch (film at or below the scene's contact film), else 0.
+    pub contact: Vec<u8>,
+    /// Stress of body 1 in the plane y = 0; `None` where the scene asks for none.
+    pub slice: Option<StressSlice>,
+    /// The material point that is followed through the contact.
+    pub material_point: Option<MaterialPoint>,
+    /// Scalars.
+    pub metrics: Metrics,
+}
+
+/// Stress in the plane y = 0 below body 1's surface: index `k * nx + i`, `k` over depths.
+#[derive(Debug, Clone, Default)]
+pub struct StressSlice {
+    /// Depths below the surface, m, increasing.
+    pub depths_m: Arc<[f64]>,
+    /// Effective stress by the scene's measure (von Mises by default), Pa.
+    pub effective_pa: Vec<f32>,
+    /// Signed orthogonal shear, Pa.
+    pub tau_xz_pa: Vec<f32>,
+}
+
+/// A point of body 1 or 2 that crosses the contact at its body's speed.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct MaterialPoint {
+    /// Body: 1 or 2.
+    pub body: u8,
+    /// Where it is now, m.
+    pub x_m: f64,
+    /// Depth at which its stress is given, m.
+    pub depth_m: f64,
+    /// Pressure on the surface above it, Pa.
+    pub pressure_pa: f64,
+    /// Effective stress at the point, Pa.
+    pub effective_pa: f64,
+    /// Signed orthogonal shear at the point, Pa.
+    pub tau_xz_pa: f64,
+    /// Cycles counted so far in this crossing (rainflow of the pressure, gate 5 % of p_h).
+    pub cycles_counted: f64,
+}
+
+/// Scalars of one step. NaN never appears: what is not known yet is `None`.
+#[derive(Debug, Clone, Default)]
+pub struct Metrics {
+    /// Whether the step converged.
+    pub converged: bool,
+    /// Relative change of pressure in the last iteration.
+    pub residual: f64,
+    /// Newton iterations of the step.
+    pub newton_iterations: u32,
+    /// Linear (Krylov) iterations of the step.
+    pub linear_iterations: u32,
+    /// Times that the step was halved and tried again.
+    pub retries: u32,
+    /// Slide-to-roll ratio S = (U2 - U1)/U of this step.
+    pub slide_roll: f64,
+    /// Where S is going.
+    pub slide_roll_target: f64,
+    /// Entrainment speed, m/s.
+    pub entrainment_m_s: f64,
+    /// Load asked for in this step, N.
+    pub load_n: f64,
+    /// Where the load is going, N.
+    pub load_target_n: f64,
+    /// Amplitude of body 1's roughness in this step, m.
+    pub amplitude_1_m: f64,
+    /// Amplitude of body 2's roughness, m.
+    pub amplitude_2_m: f64,
+    /// Greatest pressure, Pa.
+    pub p_max_pa: f64,
+    /// Film thickness at the origin, m.
+    pub h_central_m: f64,
+    /// Least film thickness inside the Hertz ellipse, m.
+    pub h_min_m: f64,
+    /// Mean film over the central part (r < 2a/3), m.
+    pub h_mean_m: f64,
+    /// Smooth film over the composite root-mean-square roughness; `None` for smooth surfaces.
+    pub lambda_ratio: Option<f64>,
+    /// Part of the Hertz ellipse's area that is in contact.
+    pub contact_ratio: f64,
+    /// Part of the load that contacts carry.
+    pub contact_load_ratio: f64,
+    /// |carried - asked|/asked.
+    pub load_error: f64,
+    /// Sum of |mass residual| over sum of the mass in the pressurised zone.
+    pub mass_error: f64,
+    /// Friction force over load, positive.
+    pub friction_coefficient: f64,
+    /// Greatest effective stress in the slice (or volume), Pa.
+    pub sigma_eff_max_pa: Option<f64>,
+    /// Its depth, m.
+    pub sigma_eff_max_depth_m: Option<f64>,
+    /// Its x, m.
+    pub sigma_eff_max_x_m: Option<f64>,
+    /// Life and its factors.
+    pub life: Option<LifeEstimate>,
+    /// Contacts per loading cycle by formula, body 1 (`None`: the body does not move).
+    pub n_body_1: Option<f64>,
+    /// Same for body 2.
+    pub n_body_2: Option<f64>,
+    /// Cycles counted by rainflow, mean over the crossings finished so far, body 1.
+    pub n_counted_body_1: Option<f64>,
+    /// Same for body 2.
+    pub n_counted_body_2: Option<f64>,
+}
+
+/// Relative life (reference: smooth, frictionless, S = 0, same load and geometry) and its factors:
+/// `life_relative = cycle_factor * stress_factor`, `stress_factor = peak_factor * traction_factor`.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct LifeEstimate {
+    /// Volume integral of the reference, in Pa^(c e) m^3 scaled by p_h^(c e) a^3.
+    pub i_ref: f64,
+    /// Same integral, mean over the phases seen so far (last full passage period).
+    pub i_mean: f64,
+    /// Phases in the mean.
+    pub phases: u32,
+    /// n_ref/n, least of the two bodies.
+    pub cycle_factor: f64,
+    /// (I_ref/I)^(1/e).
+    pub stress_factor: f64,
+    /// Part of the stress factor due to pressure peaks.
+    pub peak_factor: f64,
+    /// Part of the stress factor due to traction.
+    pub traction_factor: f64,
+    /// Relative life.
+    pub life_relative: f64,
+    /// Lower end of the band from the discretisation error.
+    pub life_relative_low: f64,
+    /// Upper end of the band.
+    pub life_relative_high: f64,
+    /// Whether a full period has been averaged since the last knob change.
+    pub settled: bool,
+}

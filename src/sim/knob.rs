@@ -1,0 +1,44 @@
+//! The knobs that may be turned while a simulation runs.
+
+/// A knob. Values are SI; a knob is a target that the drive walks towards, so that turning it is a
+/// physical ramp and not a jump.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Knob {
+    /// `motion.slide_roll`, S = (U2 - U1)/U.
+    SlideRoll,
+    /// `load.force_n`, N.
+    ForceN,
+    /// `body_1.surface.amplitude_m`, m.
+    Amplitude1M,
+    /// `body_2.surface.amplitude_m`, m.
+    Amplitude2M,
+    /// `motion.entrainment_m_s`, m/s.
+    EntrainmentMS,
+}
+
+impl Knob {
+    /// Every knob.
+    pub const ALL: [Self; 5] = [
+        Self::SlideRoll,
+        Self::ForceN,
+        Self::Amplitude1M,
+        Self::Amplitude2M,
+        Self::EntrainmentMS,
+    ];
+
+    /// The scene key that this knob turns.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::SlideRoll => "motion.slide_roll",
+            Self::ForceN => "load.force_n",
+            Self::Amplitude1M => "body_1.surface.amplitude_m",
+            Self::Amplitude2M => "body_2.surface.amplitude_m",
+            Self::EntrainmentMS => "motion.entrainment_m_s",
+        }
+    }
+
+    /// The knob with that scene key.
+    pub fn from_key(key: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|knob| knob.key() == key)
+    }
+}

@@ -1,0 +1,1 @@
+//! The solvers: one equation per file, dimensionless, slices and own scratch in.

@@ -1,0 +1,1 @@
+//! The live screen: the only folder that names ratatui and crossterm.
