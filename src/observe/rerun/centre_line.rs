@@ -41,8 +41,7 @@ impl CentreLine {
             left_ticks: ticks_at(&ticks(0.0, p_top, 5), up(p_top)),
             right_ticks: ticks_at(&ticks(0.0, h_top, 5), up(h_top)),
             x_title: "x, mm   (grey: Hertz)".into(),
-            left_title: "p, GPa".into(),
-            right_title: "h, µm".into(),
+            titles: vec![(0.1, "p, GPa".into(), ORANGE), (0.9, "h, µm".into(), SKY)],
             left_colour: Some(ORANGE),
             right_colour: Some(SKY),
         };

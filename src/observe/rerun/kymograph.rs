@@ -6,6 +6,7 @@
 
 use rerun::components::Colormap;
 
+use super::colour::WHITE;
 use super::geometry::{Geometry, number, ticks};
 use super::maps::GPA;
 use super::plot::{PlotBox, ticks_at};
@@ -62,7 +63,7 @@ impl Kymograph {
                 "x, mm   (a = {} mm)",
                 number((geometry.a * 1e4).round() / 1e4)
             ),
-            left_title: "time, ms".into(),
+            titles: vec![(0.1, "time, ms".into(), WHITE)],
             ..PlotBox::default()
         };
         let pixels = Pixels {

@@ -131,7 +131,9 @@ impl Views {
         series::log_styles(stream)?;
         let cadence = Cadence::new(record, steps, frame_bytes(geometry));
         let exaggeration = space.as_ref().map(Space::note).unwrap_or_default();
-        text::log_notes(stream, maps.scales(), &cadence.note(), &exaggeration)?;
+        let slice_scales = slice.as_ref().map(Slice::scales).unwrap_or_default();
+        let scales = maps.scales().iter().chain(slice_scales);
+        text::log_notes(stream, scales, &cadence.note(), &exaggeration)?;
         let views = Self {
             geometry,
             cadence,
@@ -149,6 +151,7 @@ impl Views {
     fn shown(&self, first: &Frame) -> Shown {
         Shown {
             map: maps::plot_box(self.geometry),
+            interferogram: self.maps.interferogram().plot().clone(),
             centre_line: self.centre_line.plot().clone(),
             slice: self.slice.as_ref().map(|slice| slice.plot().clone()),
             trace: self.trace.as_ref().map(|trace| trace.plot().clone()),

@@ -43,9 +43,9 @@ pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), O
 }
 
 /// How numbers are stored.
-pub(super) fn log_notes(
+pub(super) fn log_notes<'a>(
     stream: &Stream,
-    scales: &[(&'static str, Scale)],
+    scales: impl Iterator<Item = &'a (&'static str, Scale)>,
     cadence: &str,
     exaggeration: &str,
 ) -> Result<(), ObserveError> {
@@ -87,8 +87,8 @@ fn now(frame: &Frame, caption: &str) -> String {
         let settled = if life.settled { "" } else { " *(settling)*" };
         let _ = writeln!(
             text,
-            "## Relative life {:.3}{settled}\n\nband {:.3} to {:.3} = cycles {:.3} × peaks {:.3} × \
-             traction {:.3}\n",
+            "### Relative life {:.3}{settled}\n\n(band {:.3} to {:.3})\n\n= cycles {:.3} × peaks \
+             {:.3} × traction {:.3}\n",
             life.life_relative,
             life.life_relative_low,
             life.life_relative_high,
@@ -106,12 +106,11 @@ fn now(frame: &Frame, caption: &str) -> String {
     }
     let _ = writeln!(
         text,
-        "| | |\n|---|---|\n| time | {:.3} ms, step {}, passage {:.2} |\n| S | {:.3} (target {:.3}) |\n\
+        "| time | {:.3} ms, passage {:.2} |\n|---|---|\n| S | {:.3} (target {:.3}) |\n\
          | U1, U2 | {:.3}, {:.3} m/s |\n| load, p_Hertz | {:.1} N, {:.3} GPa |\n| p_max | {:.3} GPa |\n\
          | h central, min | {:.1}, {:.1} nm |\n| contact | {:.2} % of area, {:.2} % of load |\n\
          | friction | {:.4} |",
         frame.time_s * 1e3,
-        frame.step,
         frame.passages,
         m.slide_roll,
         m.slide_roll_target,
