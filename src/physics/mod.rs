@@ -1,1 +1,4 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
+
+pub mod fluid;
+pub mod waviness;
