@@ -185,7 +185,8 @@ fn syntax(origin: &str, error: &toml::de::Error) -> SceneError {
 
 /// Reads a scene file, but never more than a scene can be.
 fn read(path: &str) -> Result<String, SceneError> {
-    let looks_like_a_path = path.ends_with(".toml") || path.contains(['/', '\\']);
+    let has_extension = std::path::Path::new(path).extension().is_some();
+    let looks_like_a_path = has_extension || path.contains(['/', '\\']);
     let failed = |error: std::io::Error| {
         if error.kind() == std::io::ErrorKind::NotFound && !looks_like_a_path {
             return SceneError::UnknownScene {
