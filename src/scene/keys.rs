@@ -76,89 +76,32 @@ const fn key(
 use Kind::{Choice, Integer, IntegerOf, Number, NumberOrInf, Text};
 use Need::{Defaulted, Optional, Required};
 
+#[rustfmt::skip]
 const BODY: &[Key] = &[
-    key(
-        "young_pa",
-        "Pa",
-        Number(1e6, 1e13),
-        Defaulted,
-        "Young's modulus",
-    ),
-    key(
-        "poisson",
-        "",
-        Number(0.0, 0.5),
-        Defaulted,
-        "Poisson's ratio",
-    ),
+    key("young_pa", "Pa", Number(1e6, 1e13), Defaulted, "Young's modulus"),
+    key("poisson", "", Number(0.0, 0.5), Defaulted, "Poisson's ratio"),
 ];
 
+#[rustfmt::skip]
 const SURFACE: &[Key] = &[
-    key(
-        "kind",
-        "",
-        Choice(&["smooth", "sinusoid"]),
-        Required,
-        "micro-geometry that moves with the body",
-    ),
-    key(
-        "amplitude_m",
-        "m",
-        Number(0.0, 1e-4),
-        Required,
-        "A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy); peak to valley is 2 A",
-    ),
-    key(
-        "wavelength_x_m",
-        "m",
-        NumberOrInf(1e-7, 1.0),
-        Defaulted,
-        "Wx, at least 4 nodes; inf: longitudinal ridges",
-    ),
-    key(
-        "wavelength_y_m",
-        "m",
-        NumberOrInf(1e-7, 1.0),
-        Defaulted,
-        "Wy, at least 4 nodes; inf: transverse ridges",
-    ),
-    key(
-        "angle_deg",
-        "degrees",
-        Number(-360.0, 360.0),
-        Defaulted,
-        "angle of x' from the rolling direction x",
-    ),
-    key(
-        "phase_deg",
-        "degrees",
-        Number(-360.0, 360.0),
-        Defaulted,
-        "phase of the wave along x' at t = 0, x = 0",
-    ),
+    key("kind", "", Choice(&["smooth", "sinusoid"]), Required, "micro-geometry that moves with the body"),
+    key("amplitude_m", "m", Number(0.0, 1e-4), Required, "A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy); peak to valley is 2 A"),
+    key("wavelength_x_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wx, at least 4 nodes; inf: longitudinal ridges"),
+    key("wavelength_y_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wy, at least 4 nodes; inf: transverse ridges"),
+    key("angle_deg", "degrees", Number(-360.0, 360.0), Defaulted, "angle of x' from the rolling direction x"),
+    key("phase_deg", "degrees", Number(-360.0, 360.0), Defaulted, "phase of the wave along x' at t = 0, x = 0"),
 ];
 
 /// Every table of a scene in the order in which it is printed.
+#[rustfmt::skip] // one line a key
 pub const SECTIONS: &[Section] = &[
     Section {
         path: "",
         need: Required,
         doc: "",
         keys: &[
-            key(
-                "title",
-                "",
-                Text(200),
-                Defaulted,
-                "one line naming the scene",
-            ),
-            key(
-                "about",
-                "",
-                Text(4000),
-                Defaulted,
-                "what is looked at, and where the numbers come from",
-            ),
+            key("title", "", Text(200), Defaulted, "one line naming the scene"),
+            key("about", "", Text(4000), Defaulted, "what is looked at, and where the numbers come from"),
         ],
     },
     Section {
@@ -167,20 +110,8 @@ pub const SECTIONS: &[Section] = &[
         doc: "Shape of the contact, as equivalent radii: 1/R = 1/R_1 + 1/R_2.",
         keys: &[
             key("kind", "", Choice(&["point"]), Required, "kind of contact"),
-            key(
-                "rx_m",
-                "m",
-                Number(1e-6, 100.0),
-                Required,
-                "equivalent radius along the rolling direction x",
-            ),
-            key(
-                "ry_m",
-                "m",
-                Number(1e-6, 100.0),
-                Required,
-                "equivalent radius across",
-            ),
+            key("rx_m", "m", Number(1e-6, 100.0), Required, "equivalent radius along the rolling direction x"),
+            key("ry_m", "m", Number(1e-6, 100.0), Required, "equivalent radius across"),
         ],
     },
     Section {
@@ -212,62 +143,14 @@ pub const SECTIONS: &[Section] = &[
         need: Optional("dry contact"),
         doc: "The oil. Leave the table out for a dry scene.",
         keys: &[
-            key(
-                "viscosity_pa_s",
-                "Pa s",
-                Number(1e-6, 1e4),
-                Required,
-                "viscosity at ambient pressure",
-            ),
-            key(
-                "pressure_viscosity_per_pa",
-                "1/Pa",
-                Number(0.0, 1e-7),
-                Required,
-                "pressure-viscosity coefficient alpha",
-            ),
-            key(
-                "viscosity_law",
-                "",
-                Choice(&["barus", "roelands"]),
-                Defaulted,
-                "viscosity against pressure",
-            ),
-            key(
-                "density_law",
-                "",
-                Choice(&["incompressible", "dowson_higginson"]),
-                Defaulted,
-                "density against pressure",
-            ),
-            key(
-                "rheology",
-                "",
-                Choice(&["newtonian", "eyring"]),
-                Defaulted,
-                "shear law of the film",
-            ),
-            key(
-                "eyring_stress_pa",
-                "Pa",
-                Number(1e4, 1e9),
-                Defaulted,
-                "Eyring stress tau0; read when rheology = \"eyring\"",
-            ),
-            key(
-                "limiting_shear_ratio",
-                "",
-                Number(1e-3, 1.0),
-                Defaulted,
-                "limiting shear stress as a fraction of the pressure",
-            ),
-            key(
-                "cavitation",
-                "",
-                Choice(&["reynolds", "jfo"]),
-                Defaulted,
-                "how the film ruptures",
-            ),
+            key("viscosity_pa_s", "Pa s", Number(1e-6, 1e4), Required, "viscosity at ambient pressure"),
+            key("pressure_viscosity_per_pa", "1/Pa", Number(0.0, 1e-7), Required, "pressure-viscosity coefficient alpha"),
+            key("viscosity_law", "", Choice(&["barus", "roelands"]), Defaulted, "viscosity against pressure"),
+            key("density_law", "", Choice(&["incompressible", "dowson_higginson"]), Defaulted, "density against pressure"),
+            key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
+            key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
+            key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),
+            key("cavitation", "", Choice(&["reynolds", "jfo"]), Defaulted, "how the film ruptures"),
         ],
     },
     Section {
@@ -275,20 +158,8 @@ pub const SECTIONS: &[Section] = &[
         need: Defaulted,
         doc: "Where the film is gone.",
         keys: &[
-            key(
-                "boundary",
-                "",
-                Number(0.0, 1.0),
-                Defaulted,
-                "friction coefficient where surfaces touch",
-            ),
-            key(
-                "contact_film_m",
-                "m",
-                Number(0.0, 1e-6),
-                Defaulted,
-                "film at or below which a spot counts as touching",
-            ),
+            key("boundary", "", Number(0.0, 1.0), Defaulted, "friction coefficient where surfaces touch"),
+            key("contact_film_m", "m", Number(0.0, 1e-6), Defaulted, "film at or below which a spot counts as touching"),
         ],
     },
     Section {
@@ -296,20 +167,8 @@ pub const SECTIONS: &[Section] = &[
         need: Required,
         doc: "U = (U1 + U2)/2 and S = (U2 - U1)/U, so U1 = U (1 - S/2), U2 = U (1 + S/2).",
         keys: &[
-            key(
-                "entrainment_m_s",
-                "m/s",
-                Number(1e-6, 200.0),
-                Required,
-                "entrainment speed U along +x",
-            ),
-            key(
-                "slide_roll",
-                "",
-                Number(-2.0, 2.0),
-                Defaulted,
-                "slide-to-roll ratio S; 0: pure rolling",
-            ),
+            key("entrainment_m_s", "m/s", Number(1e-6, 200.0), Required, "entrainment speed U along +x"),
+            key("slide_roll", "", Number(-2.0, 2.0), Defaulted, "slide-to-roll ratio S; 0: pure rolling"),
         ],
     },
     Section {
@@ -317,20 +176,8 @@ pub const SECTIONS: &[Section] = &[
         need: Required,
         doc: "Exactly one of the two.",
         keys: &[
-            key(
-                "force_n",
-                "N",
-                Number(1e-6, 1e8),
-                Optional("the load is given as a Hertz pressure"),
-                "normal load; its Hertz pressure at most 10 GPa",
-            ),
-            key(
-                "hertz_pressure_pa",
-                "Pa",
-                Number(1e6, 1e10),
-                Optional("the load is given as a force"),
-                "maximum Hertz pressure",
-            ),
+            key("force_n", "N", Number(1e-6, 1e8), Optional("the load is given as a Hertz pressure"), "normal load; its Hertz pressure at most 10 GPa"),
+            key("hertz_pressure_pa", "Pa", Number(1e6, 1e10), Optional("the load is given as a force"), "maximum Hertz pressure"),
         ],
     },
     Section {
@@ -338,34 +185,10 @@ pub const SECTIONS: &[Section] = &[
         need: Defaulted,
         doc: "Nodes and domain, in Hertz half-widths along x and along y.",
         keys: &[
-            key(
-                "nodes",
-                "",
-                IntegerOf(&[33, 65, 129, 257, 513, 1025]),
-                Defaulted,
-                "nodes per side, 2^k + 1",
-            ),
-            key(
-                "x_min_a",
-                "a",
-                Number(-20.0, -1.2),
-                Optional("chosen by the plan"),
-                "inlet edge",
-            ),
-            key(
-                "x_max_a",
-                "a",
-                Number(1.1, 10.0),
-                Optional("chosen by the plan"),
-                "outlet edge",
-            ),
-            key(
-                "y_half_a",
-                "b",
-                Number(1.1, 10.0),
-                Optional("chosen by the plan"),
-                "half-width across, in half-widths along y",
-            ),
+            key("nodes", "", IntegerOf(&[33, 65, 129, 257, 513, 1025]), Defaulted, "nodes per side, 2^k + 1"),
+            key("x_min_a", "a", Number(-20.0, -1.2), Optional("chosen by the plan"), "inlet edge"),
+            key("x_max_a", "a", Number(1.1, 10.0), Optional("chosen by the plan"), "outlet edge"),
+            key("y_half_a", "b", Number(1.1, 10.0), Optional("chosen by the plan"), "half-width across, in half-widths along y"),
         ],
     },
     Section {
@@ -373,20 +196,8 @@ pub const SECTIONS: &[Section] = &[
         need: Defaulted,
         doc: "Time step and length of the run.",
         keys: &[
-            key(
-                "step_nodes",
-                "",
-                Number(0.05, 4.0),
-                Defaulted,
-                "time step in nodes travelled at U; 1 has no numerical diffusion",
-            ),
-            key(
-                "passages",
-                "",
-                Number(0.01, 1e4),
-                Defaulted,
-                "length of the run in lengths of 4 a at U, after the start-up",
-            ),
+            key("step_nodes", "", Number(0.05, 4.0), Defaulted, "time step in nodes travelled at U; 1 has no numerical diffusion"),
+            key("passages", "", Number(0.01, 1e4), Defaulted, "length of the run in lengths of 4 a at U, after the start-up"),
         ],
     },
     Section {
@@ -394,20 +205,8 @@ pub const SECTIONS: &[Section] = &[
         need: Defaulted,
         doc: "When a time step counts as converged.",
         keys: &[
-            key(
-                "tolerance",
-                "",
-                Number(1e-9, 0.1),
-                Defaulted,
-                "relative change of the pressure",
-            ),
-            key(
-                "max_iterations",
-                "",
-                Integer(1, 1000),
-                Defaulted,
-                "most Newton iterations of one step",
-            ),
+            key("tolerance", "", Number(1e-9, 0.1), Defaulted, "relative change of the pressure"),
+            key("max_iterations", "", Integer(1, 1000), Defaulted, "most Newton iterations of one step"),
         ],
     },
     Section {
@@ -416,20 +215,8 @@ pub const SECTIONS: &[Section] = &[
         doc: "Subsurface stress of body 1. Leave the table out to compute none; life needs it.",
         keys: &[
             key("depths", "", Integer(8, 256), Defaulted, "number of depths"),
-            key(
-                "depth_max_a",
-                "a",
-                Number(0.5, 20.0),
-                Defaulted,
-                "deepest point, in Hertz half-widths; life wants 2 or more",
-            ),
-            key(
-                "measure",
-                "",
-                Choice(&["von_mises", "max_shear", "octahedral"]),
-                Defaulted,
-                "effective stress that drives fatigue",
-            ),
+            key("depth_max_a", "a", Number(0.5, 20.0), Defaulted, "deepest point, in the narrower Hertz half-width; life wants 2 or more"),
+            key("measure", "", Choice(&["von_mises", "max_shear", "octahedral"]), Defaulted, "effective stress that drives fatigue"),
         ],
     },
     Section {
@@ -438,41 +225,11 @@ pub const SECTIONS: &[Section] = &[
         doc: "Relative fatigue life: ln(1/Ps) = C (n N)^e times the integral of sigma^(c e) over the volume.",
         keys: &[
             key("model", "", Choice(&["zaretsky"]), Defaulted, "life model"),
-            key(
-                "stress_exponent",
-                "",
-                Number(1.0, 40.0),
-                Defaulted,
-                "c: assumption, not from the paper",
-            ),
-            key(
-                "weibull_slope",
-                "",
-                Number(0.3, 10.0),
-                Defaulted,
-                "e: assumption, not from the paper",
-            ),
-            key(
-                "survival",
-                "",
-                Number(0.001, 0.999),
-                Defaulted,
-                "probability of survival Ps; drops out of relative lives",
-            ),
-            key(
-                "cycles",
-                "",
-                Choice(&["global"]),
-                Defaulted,
-                "how cycles enter: one n for the volume, an upper bound on damage",
-            ),
-            key(
-                "volume",
-                "",
-                Choice(&["snapshot"]),
-                Defaulted,
-                "which integral: mean over the phases of a passage",
-            ),
+            key("stress_exponent", "", Number(1.0, 40.0), Defaulted, "c: assumption, not from the paper"),
+            key("weibull_slope", "", Number(0.3, 10.0), Defaulted, "e: assumption, not from the paper"),
+            key("survival", "", Number(0.001, 0.999), Defaulted, "probability of survival Ps; drops out of relative lives"),
+            key("cycles", "", Choice(&["global"]), Defaulted, "how cycles enter: one n for the volume, an upper bound on damage"),
+            key("volume", "", Choice(&["snapshot"]), Defaulted, "which integral: mean over the phases of a passage"),
         ],
     },
     Section {
@@ -480,40 +237,17 @@ pub const SECTIONS: &[Section] = &[
         need: Optional("no recording"),
         doc: "The recording (.rrd).",
         keys: &[
-            key(
-                "every_steps",
-                "",
-                Integer(1, 1_000_000),
-                Defaulted,
-                "a frame every so many time steps; the plan takes more to keep the budget",
-            ),
-            key(
-                "budget_mb",
-                "MB",
-                Number(0.1, 1e5),
-                Defaulted,
-                "most that the recording may take",
-            ),
+            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "a frame every so many time steps; the plan takes more to keep the budget"),
+            key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "most that the recording may take"),
         ],
     },
 ];
 
 /// The keys of an `[[event]]` beside its table `set`.
+#[rustfmt::skip]
 pub const EVENT_KEYS: &[Key] = &[
-    key(
-        "at_s",
-        "s",
-        Number(0.0, 1e9),
-        Required,
-        "simulated time after the start-up",
-    ),
-    key(
-        "caption",
-        "",
-        Text(1000),
-        Defaulted,
-        "text shown beside the run",
-    ),
+    key("at_s", "s", Number(0.0, 1e9), Required, "simulated time after the start-up"),
+    key("caption", "", Text(1000), Defaulted, "text shown beside the run"),
 ];
 
 /// The keys that an `[[event]]` may set and a live run may turn, in the order of `Knob::ALL`.

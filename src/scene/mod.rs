@@ -10,13 +10,14 @@ mod emit;
 mod error;
 pub mod keys;
 mod load;
+mod lubricant;
 mod model;
 pub mod presets;
 
 pub use error::SceneError;
 pub use load::Override;
+pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, Cavitation, Contact, ContactKind, CycleBasis, DensityLaw, Event, Friction, Grid, Life,
-    LifeModel, Load, Lubricant, Motion, Numerics, Record, Rheology, Scene, Stress, StressMeasure,
-    Surface, Time, ViscosityLaw, VolumeIntegral,
+    Body, Contact, ContactKind, CycleBasis, Event, Grid, Life, LifeModel, Load, Motion, Numerics,
+    Record, Scene, Stress, StressMeasure, Surface, Time, VolumeIntegral,
 };
