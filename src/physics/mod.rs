@@ -1,4 +1,7 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
+pub mod film_regression;
 pub mod fluid;
+pub mod groups;
+pub mod hertz;
 pub mod waviness;
