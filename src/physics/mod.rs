@@ -1,1 +1,5 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
+
+pub mod invariants;
+pub mod stress_exact;
+pub mod stress_exact_patch;
