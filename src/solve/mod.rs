@@ -1,1 +1,3 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
+
+pub mod stress;
