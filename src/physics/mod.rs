@@ -5,3 +5,6 @@ pub mod fluid;
 pub mod groups;
 pub mod hertz;
 pub mod waviness;
+pub mod invariants;
+pub mod stress_exact;
+pub mod stress_exact_patch;

@@ -7,3 +7,4 @@ pub mod krylov;
 pub mod newton;
 pub mod precondition;
 pub mod reynolds;
+pub mod stress;

@@ -350,9 +350,15 @@ impl Newton {
         let mut t = 1.0;
         for halving in 0..=MAX_HALVINGS {
             let (mut moved, mut total) = (0.0, 0.0);
-            for ((p, &old), &v) in iterate.p.iter_mut().zip(&self.old_p).zip(&self.v) {
-                let step = (t * f64::from(v)).clamp(-STEP_LIMIT, STEP_LIMIT);
-                *p = (old + step).max(0.0);
+            for (n, p) in iterate.p.iter_mut().enumerate() {
+                let old = self.old_p[n];
+                *p = if self.active[n] {
+                    let step = (t * f64::from(self.v[n])).clamp(-STEP_LIMIT, STEP_LIMIT);
+                    (old + step).max(0.0)
+                } else {
+                    // Exactly zero for a full step: single precision would leave a trace.
+                    old * (1.0 - t)
+                };
                 moved += (*p - old).abs();
                 total += *p;
             }
