@@ -76,7 +76,8 @@ pub struct Reynolds {
     pub diagonal: Vec<f64>,
     /// Mean conductance of a node's faces.
     pub conductance: Vec<f64>,
-    /// Scale of the linear rows.
+    /// Scale of the linear rows, √(D K00): between pressure and film units, so that the linear solve
+    /// serves the inlet (where D is large) and the contact alike.
     pub row_scale: Vec<f64>,
 }
 
@@ -113,7 +114,16 @@ impl Reynolds {
     }
 
     /// F and D from the properties.
-    pub fn residual(&mut self, grid: &Grid, k00: f64, lambda: f64, p: &[f64], h: &[f64], c_star: &[f64], s: &[f64]) {
+    pub fn residual(
+        &mut self,
+        grid: &Grid,
+        k00: f64,
+        lambda: f64,
+        p: &[f64],
+        h: &[f64],
+        c_star: &[f64],
+        s: &[f64],
+    ) {
         let nx = grid.nx;
         let nodes = &self.nodes;
         let (wx, wy) = (1.0 / (grid.dx * grid.dx), 1.0 / (grid.dy * grid.dy));
@@ -122,12 +132,14 @@ impl Reynolds {
             .par_chunks_mut(nx)
             .zip(self.diagonal.par_chunks_mut(nx))
             .zip(self.conductance.par_chunks_mut(nx))
+            .zip(self.row_scale.par_chunks_mut(nx))
             .enumerate()
             .with_min_len(ROWS)
-            .for_each(|(j, ((f, d), t))| {
+            .for_each(|(j, (((f, d), t), scale))| {
                 f.fill(0.0);
                 d.fill(1.0);
                 t.fill(0.0);
+                scale.fill(1.0);
                 if !interior.contains(&j) {
                     return;
                 }
@@ -141,18 +153,28 @@ impl Reynolds {
                         + wy * (no * (p[north + i] - p[n]) + so * (p[south + i] - p[n]));
                     f[i] = nodes[n].rho * h[n] - c_star[n] - s[n] * flow;
                     d[i] = nodes[n].rho * k00 + s[n] * (wx * (e + w) + wy * (no + so));
+                    scale[i] = (d[i] * k00).sqrt();
                     t[i] = 0.25 * (e + w + no + so);
                 }
             });
     }
 
-    /// The derivative of F, rows divided by D; rows where `active` is false are zero.
-    pub fn linearise(&self, grid: &Grid, lambda: f64, p: &[f64], h: &[f64], s: &[f64], active: &[bool], jacobian: &mut Jacobian) {
+    /// The derivative of F, rows divided by `row_scale`; rows where `active` is false are zero.
+    pub fn linearise(
+        &self,
+        grid: &Grid,
+        lambda: f64,
+        p: &[f64],
+        h: &[f64],
+        s: &[f64],
+        active: &[bool],
+        jacobian: &mut Jacobian,
+    ) {
         let nx = grid.nx;
         let nodes = &self.nodes;
         let (wx, wy) = (1.0 / (grid.dx * grid.dx), 1.0 / (grid.dy * grid.dy));
         let interior = grid.interior_rows();
-        let diagonal = &self.row_scale;
+        let row_scale = &self.row_scale;
         jacobian
             .rows
             .par_chunks_mut(nx)
@@ -169,13 +191,8 @@ impl Reynolds {
                     if !active[n] {
                         continue;
                     }
-                    let around = [
-                        (n - 1, wx),
-                        (n + 1, wx),
-                        (south + i, wy),
-                        (north + i, wy),
-                    ];
-                    let scale = 1.0 / diagonal[n];
+                    let around = [(n - 1, wx), (n + 1, wx), (south + i, wy), (north + i, wy)];
+                    let scale = 1.0 / row_scale[n];
                     let mut a_p = [0.0_f64; 5];
                     let mut a_h = [0.0_f64; 5];
                     a_p[0] = nodes[n].rho_p * h[n];
@@ -234,7 +251,11 @@ fn log_mean(a: &Node, b: &Node) -> (f64, f64, f64) {
         // Series about equal values; the next terms are below 1e-13.
         let mid = (a.g * b.g).sqrt();
         let mean = mid * (1.0 + d * d / 24.0);
-        (mean, mid / a.g * (0.5 + d / 12.0), mid / b.g * (0.5 - d / 12.0))
+        (
+            mean,
+            mid / a.g * (0.5 + d / 12.0),
+            mid / b.g * (0.5 - d / 12.0),
+        )
     } else {
         let mean = (a.g - b.g) / d;
         (mean, (1.0 - mean / a.g) / d, (mean / b.g - 1.0) / d)
@@ -341,7 +362,10 @@ mod tests {
                 let exact = (plus.residual[n] - minus.residual[n]) / (2.0 * step);
                 let ours = f64::from(out[n]) * reynolds.row_scale[n];
                 let size = exact.abs().max(reynolds.diagonal[n]);
-                assert!((exact - ours).abs() < 2e-5 * size, "{symmetry:?} {n}: {exact} {ours}");
+                assert!(
+                    (exact - ours).abs() < 2e-5 * size,
+                    "{symmetry:?} {n}: {exact} {ours}"
+                );
             }
         }
     }
