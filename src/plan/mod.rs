@@ -81,7 +81,7 @@ pub struct FilmPlan {
     pub hamrock_dowson_minimum_m: f64,
     /// Central film in a²/Rx.
     pub central: f64,
-    /// Central film over the composite root-mean-square roughness; `None`: smooth.
+    /// Central film by Hamrock and Dowson over the composite root-mean-square roughness; `None`: smooth.
     pub lambda_ratio: Option<f64>,
 }
 
