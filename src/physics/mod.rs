@@ -1,5 +1,10 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
 pub mod film_regression;
+pub mod fluid;
 pub mod groups;
 pub mod hertz;
+pub mod waviness;
+pub mod invariants;
+pub mod stress_exact;
+pub mod stress_exact_patch;
