@@ -221,8 +221,7 @@ impl<T: FftNum> Filter<T> {
                     let j = block * ROWS + r;
                     row.fill(T::zero());
                     for b in 0..n_symbols {
-                        let weight =
-                            weights.map(|w| &w[(b * ny + j) * nx..(b * ny + j + 1) * nx]);
+                        let weight = weights.map(|w| &w[(b * ny + j) * nx..(b * ny + j + 1) * nx]);
                         if weight.is_some_and(|w| w.iter().all(|v| v.is_zero())) {
                             continue;
                         }

@@ -112,10 +112,16 @@ pub fn eyring_ln_factor(zeta: f64) -> (f64, f64) {
     if zeta < 1e-2 {
         // ζ/asinh ζ = 1 + ζ²/6 − 17 ζ⁴/360: next term below 1e-13.
         let z2 = zeta * zeta;
-        (z2 / 6.0 - 11.0 * z2 * z2 / 180.0, z2 / 3.0 - 11.0 * z2 * z2 / 45.0)
+        (
+            z2 / 6.0 - 11.0 * z2 * z2 / 180.0,
+            z2 / 3.0 - 11.0 * z2 * z2 / 45.0,
+        )
     } else {
         let a = zeta.asinh();
-        ((zeta / a).ln(), 1.0 - zeta / (a * (1.0 + zeta * zeta).sqrt()))
+        (
+            (zeta / a).ln(),
+            1.0 - zeta / (a * (1.0 + zeta * zeta).sqrt()),
+        )
     }
 }
 

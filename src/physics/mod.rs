@@ -4,7 +4,7 @@ pub mod film_regression;
 pub mod fluid;
 pub mod groups;
 pub mod hertz;
-pub mod waviness;
 pub mod invariants;
 pub mod stress_exact;
 pub mod stress_exact_patch;
+pub mod waviness;

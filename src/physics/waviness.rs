@@ -50,7 +50,8 @@ impl Waviness {
     /// Whether z is even in y.
     pub fn is_even_in_y(&self) -> bool {
         let (c, s) = self.direction;
-        (s == 0.0 || self.kx == 0.0) && (s == 0.0 || self.ky == 0.0) || c == 0.0 && self.phase == 0.0
+        (s == 0.0 || self.kx == 0.0) && (s == 0.0 || self.ky == 0.0)
+            || c == 0.0 && self.phase == 0.0
     }
 
     /// Crests per length that pass a point at relative speed 1 along x.

@@ -29,7 +29,13 @@ pub struct Elastic {
 /// `∬ dx dy/r` over a cell `dx` x `dy` seen from a point at distance (x, y) of its centre.
 pub fn cell_potential(x: f64, y: f64, dx: f64, dy: f64) -> f64 {
     let corner = |u: f64, v: f64| {
-        let term = |s: f64, t: f64| if s == 0.0 { 0.0 } else { s * (t / s.abs()).asinh() };
+        let term = |s: f64, t: f64| {
+            if s == 0.0 {
+                0.0
+            } else {
+                s * (t / s.abs()).asinh()
+            }
+        };
         term(u, v) + term(v, u)
     };
     let (xp, xm, yp, ym) = (x + dx / 2.0, x - dx / 2.0, y + dy / 2.0, y - dy / 2.0);

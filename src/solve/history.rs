@@ -61,8 +61,7 @@ fn sample(row: &[f64], k: isize) -> f64 {
         row[k.min(last) as usize]
     } else {
         let t = k as f64;
-        row[0] * (t - 1.0) * (t - 2.0) / 2.0 - row[1] * t * (t - 2.0)
-            + row[2] * t * (t - 1.0) / 2.0
+        row[0] * (t - 1.0) * (t - 2.0) / 2.0 - row[1] * t * (t - 2.0) + row[2] * t * (t - 1.0) / 2.0
     }
 }
 

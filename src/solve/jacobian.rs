@@ -59,11 +59,7 @@ impl Jacobian {
                     debug_assert!(a.len() >= (j + 1) * nx);
                     j * nx..(j + 1) * nx
                 };
-                let (here, south, north) = (
-                    line(v, j),
-                    line(v, grid.row_below(j)),
-                    line(v, j + 1),
-                );
+                let (here, south, north) = (line(v, j), line(v, grid.row_below(j)), line(v, j + 1));
                 let rows = &self.rows[here.clone()];
                 let (v0, vs, vn) = (&v[here.clone()], &v[south.clone()], &v[north.clone()]);
                 let (w0, ws, wn) = (&w[here], &w[south], &w[north]);

@@ -69,7 +69,13 @@ impl Krylov {
     pub fn prepare(&mut self, grid: &Grid, jacobian: &Jacobian, precondition: &mut Preconditioner) {
         self.deflection.fill(0.0);
         self.work.fill(0.0);
-        jacobian.apply(grid, &self.deflection, &self.deflection, 1.0, &mut self.work);
+        jacobian.apply(
+            grid,
+            &self.deflection,
+            &self.deflection,
+            1.0,
+            &mut self.work,
+        );
         precondition.apply(grid, jacobian, &self.work, &mut self.border);
         self.border_load = load_of(grid, &self.border);
     }

@@ -259,7 +259,11 @@ impl Newton {
         report: &mut NewtonReport,
     ) -> f64 {
         let grid = problem.grid;
-        let (p, f, d) = (&*iterate.p, self.reynolds.residual.clone(), self.reynolds.diagonal.clone());
+        let (p, f, d) = (
+            &*iterate.p,
+            self.reynolds.residual.clone(),
+            self.reynolds.diagonal.clone(),
+        );
         self.active.fill(false);
         let mut any_fixed = false;
         self.fixed.fill(0.0);
@@ -272,7 +276,10 @@ impl Newton {
                 }
             }
         }
-        let theta = envf("THETA", 1.0); for n in 0..grid.len() { self.reynolds.row_scale[n] = d[n].powf(theta) * self.elastic.k00.powf(1.0 - theta); }
+        let theta = envf("THETA", 1.0);
+        for n in 0..grid.len() {
+            self.reynolds.row_scale[n] = d[n].powf(theta) * self.elastic.k00.powf(1.0 - theta);
+        }
         self.reynolds.linearise(
             grid,
             problem.medium.lambda,
@@ -327,7 +334,12 @@ impl Newton {
             &mut self.v,
         );
         report.linear_iterations += linear.iterations as u32;
-        if std::env::var("DBG").is_ok() { eprintln!("lin {linear:?} missing {missing:.3e} fixed {any_fixed} active {}", self.active.iter().filter(|a| **a).count()); }
+        if std::env::var("DBG").is_ok() {
+            eprintln!(
+                "lin {linear:?} missing {missing:.3e} fixed {any_fixed} active {}",
+                self.active.iter().filter(|a| **a).count()
+            );
+        }
         for (v, &fixed) in self.v.iter_mut().zip(&self.fixed) {
             *v += fixed;
         }
@@ -345,7 +357,9 @@ impl Newton {
     ) -> Evaluation {
         self.old_p.copy_from_slice(iterate.p);
         self.reference.copy_from_slice(&self.reynolds.diagonal);
-        let base = self.judge_with_reference(problem, iterate).min(old_merit.max(0.0));
+        let base = self
+            .judge_with_reference(problem, iterate)
+            .min(old_merit.max(0.0));
         let old_h0 = *iterate.h0;
         let mut t = 1.0;
         for halving in 0..=MAX_HALVINGS {
@@ -365,7 +379,12 @@ impl Newton {
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
             let new = self.evaluate(problem, iterate, report);
-        if std::env::var("DBG").is_ok() { eprintln!("  t {t} merit {base:.3e} -> {:.3e} mass {:.2e} h0 {old_h0:.4} + {h0_step:.4}", new.merit, new.mass_error); }
+            if std::env::var("DBG").is_ok() {
+                eprintln!(
+                    "  t {t} merit {base:.3e} -> {:.3e} mass {:.2e} h0 {old_h0:.4} + {h0_step:.4}",
+                    new.merit, new.mass_error
+                );
+            }
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
                 return new;
             }
@@ -384,4 +403,9 @@ impl Newton {
 const FORCING: f64 = 0.1;
 
 /// debug
-pub fn envf(name: &str, default: f64) -> f64 { std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default) }
+pub fn envf(name: &str, default: f64) -> f64 {
+    std::env::var(name)
+        .ok()
+        .and_then(|v| v.parse().ok())
+        .unwrap_or(default)
+}

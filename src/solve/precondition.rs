@@ -110,7 +110,11 @@ impl Preconditioner {
                 .with_min_len(4)
                 .for_each(|(half, line)| {
                     let start = (2 * half + parity) * nx;
-                    factor_line(&jacobian.rows[start..start + nx], &extra[start..start + nx], line);
+                    factor_line(
+                        &jacobian.rows[start..start + nx],
+                        &extra[start..start + nx],
+                        line,
+                    );
                 });
         }
     }
@@ -134,7 +138,10 @@ impl Preconditioner {
             let b = (position as usize).min(BINS - 2);
             let upper = (position - b as f64).clamp(0.0, 1.0) as f32;
             let fade = (last / conductance[n]).min(1.0);
-            let (fin, fout) = (fade.powf(super::newton::envf("FIN", 1.0)) as f32, fade.powf(super::newton::envf("FOUT", 1.0)) as f32);
+            let (fin, fout) = (
+                fade.powf(super::newton::envf("FIN", 1.0)) as f32,
+                fade.powf(super::newton::envf("FOUT", 1.0)) as f32,
+            );
             self.scale[n] *= fin;
             self.weights[b * n_all + n] = (1.0 - upper) * fout;
             self.weights[(b + 1) * n_all + n] = upper * fout;
@@ -146,9 +153,13 @@ impl Preconditioner {
         for line in &mut self.lines {
             line.fill(0.0);
         }
-        if super::newton::envf("NOLINE", 0.0) == 0.0 { for _ in 0..super::newton::envf("SWEEPS", 1.0) as usize { for parity in [0, 1, 0] {
-            self.sweep(grid, r, parity);
-        }}}
+        if super::newton::envf("NOLINE", 0.0) == 0.0 {
+            for _ in 0..super::newton::envf("SWEEPS", 1.0) as usize {
+                for parity in [0, 1, 0] {
+                    self.sweep(grid, r, parity);
+                }
+            }
+        }
         let nx = grid.nx;
         for (j, row) in self.z1.chunks_exact_mut(nx).enumerate() {
             let start = j / 2 * nx;
@@ -158,7 +169,11 @@ impl Preconditioner {
         for ((rest, &r), &scale) in self.rest.iter_mut().zip(r).zip(&self.scale) {
             *rest = (r - *rest) * scale;
         }
-        if super::newton::envf("NOSYM", 0.0) > 0.0 { z.fill(0.0); } else {self.filter.apply_weighted(&self.rest, &self.weights, z);}
+        if super::newton::envf("NOSYM", 0.0) > 0.0 {
+            z.fill(0.0);
+        } else {
+            self.filter.apply_weighted(&self.rest, &self.weights, z);
+        }
         for (z, &z1) in z.iter_mut().zip(&self.z1) {
             *z += z1;
         }
@@ -168,7 +183,11 @@ impl Preconditioner {
         let nx = grid.nx;
         let interior = grid.interior_rows();
         let [even, odd] = &mut self.lines;
-        let (mine, other) = if parity == 0 { (even, &*odd) } else { (odd, &*even) };
+        let (mine, other) = if parity == 0 {
+            (even, &*odd)
+        } else {
+            (odd, &*even)
+        };
         let factors = &self.factors[parity];
         mine.par_chunks_mut(nx)
             .zip(factors.par_chunks(nx))

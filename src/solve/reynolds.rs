@@ -113,7 +113,16 @@ impl Reynolds {
     }
 
     /// F and D from the properties.
-    pub fn residual(&mut self, grid: &Grid, k00: f64, lambda: f64, p: &[f64], h: &[f64], c_star: &[f64], s: &[f64]) {
+    pub fn residual(
+        &mut self,
+        grid: &Grid,
+        k00: f64,
+        lambda: f64,
+        p: &[f64],
+        h: &[f64],
+        c_star: &[f64],
+        s: &[f64],
+    ) {
         let nx = grid.nx;
         let nodes = &self.nodes;
         let (wx, wy) = (1.0 / (grid.dx * grid.dx), 1.0 / (grid.dy * grid.dy));
@@ -147,7 +156,16 @@ impl Reynolds {
     }
 
     /// The derivative of F, rows divided by D; rows where `active` is false are zero.
-    pub fn linearise(&self, grid: &Grid, lambda: f64, p: &[f64], h: &[f64], s: &[f64], active: &[bool], jacobian: &mut Jacobian) {
+    pub fn linearise(
+        &self,
+        grid: &Grid,
+        lambda: f64,
+        p: &[f64],
+        h: &[f64],
+        s: &[f64],
+        active: &[bool],
+        jacobian: &mut Jacobian,
+    ) {
         let nx = grid.nx;
         let nodes = &self.nodes;
         let (wx, wy) = (1.0 / (grid.dx * grid.dx), 1.0 / (grid.dy * grid.dy));
@@ -169,12 +187,7 @@ impl Reynolds {
                     if !active[n] {
                         continue;
                     }
-                    let around = [
-                        (n - 1, wx),
-                        (n + 1, wx),
-                        (south + i, wy),
-                        (north + i, wy),
-                    ];
+                    let around = [(n - 1, wx), (n + 1, wx), (south + i, wy), (north + i, wy)];
                     let scale = 1.0 / diagonal[n];
                     let mut a_p = [0.0_f64; 5];
                     let mut a_h = [0.0_f64; 5];
@@ -234,7 +247,11 @@ fn log_mean(a: &Node, b: &Node) -> (f64, f64, f64) {
         // Series about equal values; the next terms are below 1e-13.
         let mid = (a.g * b.g).sqrt();
         let mean = mid * (1.0 + d * d / 24.0);
-        (mean, mid / a.g * (0.5 + d / 12.0), mid / b.g * (0.5 - d / 12.0))
+        (
+            mean,
+            mid / a.g * (0.5 + d / 12.0),
+            mid / b.g * (0.5 - d / 12.0),
+        )
     } else {
         let mean = (a.g - b.g) / d;
         (mean, (1.0 - mean / a.g) / d, (mean / b.g - 1.0) / d)
@@ -341,7 +358,10 @@ mod tests {
                 let exact = (plus.residual[n] - minus.residual[n]) / (2.0 * step);
                 let ours = f64::from(out[n]) * reynolds.row_scale[n];
                 let size = exact.abs().max(reynolds.diagonal[n]);
-                assert!((exact - ours).abs() < 2e-5 * size, "{symmetry:?} {n}: {exact} {ours}");
+                assert!(
+                    (exact - ours).abs() < 2e-5 * size,
+                    "{symmetry:?} {n}: {exact} {ours}"
+                );
             }
         }
     }
