@@ -290,7 +290,7 @@ impl Plan {
     /// all of its phases; an interval that fits a whole number of times into a wave would miss most.
     fn life_plan(&self) -> LifePlan {
         /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
-        const GAP: f64 = 0.2;
+        const GAP: f64 = 0.14;
         let longest = (self.steps_per_passage / PHASES).max(1);
         let widest = |every: u64| {
             let n = self.steps_per_passage / every;
@@ -299,9 +299,11 @@ impl Plan {
                 .map(|wave| wave.widest_gap(every, n))
                 .fold(0.0, f64::max)
         };
-        let every = (1..=longest)
-            .rev()
+        let intervals = (1..=longest).rev();
+        let every = intervals
+            .clone()
             .find(|every| widest(*every) <= GAP)
+            .or_else(|| intervals.min_by(|one, two| widest(*one).total_cmp(&widest(*two))))
             .unwrap_or(1);
         LifePlan {
             volume_every_steps: every,
