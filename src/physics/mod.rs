@@ -1,1 +1,3 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
+
+pub mod estimate;
