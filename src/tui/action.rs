@@ -107,15 +107,13 @@ impl Group {
     }
 }
 
-/// One row of the key table.
+/// One row of the key table: keys that belong together.
 #[derive(Debug, Clone, Copy)]
-pub struct Binding {
-    /// Keys that do the same.
-    pub chords: &'static [Chord],
+pub struct Row {
+    /// Each key and what it asks for.
+    pub keys: &'static [(Chord, Action)],
     /// The keys as the help screen writes them.
     pub shown: &'static str,
-    /// What they do.
-    pub action: Action,
     /// What the help screen says.
     pub help: &'static str,
     /// Where in the help screen.
@@ -144,219 +142,181 @@ const fn ctrl(letter: char) -> Chord {
     }
 }
 const fn row(
-    chords: &'static [Chord],
+    keys: &'static [(Chord, Action)],
     shown: &'static str,
-    action: Action,
     help: &'static str,
     group: Group,
-) -> Binding {
-    Binding {
-        chords,
+) -> Row {
+    Row {
+        keys,
         shown,
-        action,
         help,
         group,
     }
 }
 
-/// The key table: what the keyboard does, and what `?` shows. Digits are in [`lookup`]: they are
-/// nine rows of one kind.
-pub const KEYS: &[Binding] = &[
+/// The key table: what the keyboard does, and what `?` shows.
+pub const KEYS: &[Row] = &[
     row(
-        &[key(KeyCode::Up), ch('k')],
-        "↑ k",
-        Action::ChoosePrevious,
-        "choose the knob above",
+        &[
+            (key(KeyCode::Up), Action::ChoosePrevious),
+            (ch('k'), Action::ChoosePrevious),
+            (key(KeyCode::Down), Action::ChooseNext),
+            (ch('j'), Action::ChooseNext),
+            (key(KeyCode::Tab), Action::ChooseNext),
+        ],
+        "↑↓ kj",
+        "choose a knob",
         Group::Knobs,
     ),
     row(
-        &[key(KeyCode::Down), ch('j'), key(KeyCode::Tab)],
-        "↓ j",
-        Action::ChooseNext,
-        "choose the knob below",
+        &[
+            (key(KeyCode::Left), Action::Turn(-1)),
+            (ch('h'), Action::Turn(-1)),
+            (key(KeyCode::Right), Action::Turn(1)),
+            (ch('l'), Action::Turn(1)),
+        ],
+        "←→ hl",
+        "turn it",
         Group::Knobs,
     ),
     row(
-        &[key(KeyCode::Left), ch('h')],
-        "← h",
-        Action::Turn(-1),
-        "turn it down",
+        &[
+            (shift(KeyCode::Left), Action::TurnFar(-1)),
+            (ch('H'), Action::TurnFar(-1)),
+            (key(KeyCode::PageDown), Action::TurnFar(-1)),
+            (shift(KeyCode::Right), Action::TurnFar(1)),
+            (ch('L'), Action::TurnFar(1)),
+            (key(KeyCode::PageUp), Action::TurnFar(1)),
+        ],
+        "⇧←→ HL",
+        "by a big step",
         Group::Knobs,
     ),
     row(
-        &[key(KeyCode::Right), ch('l')],
-        "→ l",
-        Action::Turn(1),
-        "turn it up",
+        &[
+            (ch('1'), Action::Typical(0)),
+            (ch('2'), Action::Typical(1)),
+            (ch('3'), Action::Typical(2)),
+            (ch('4'), Action::Typical(3)),
+            (ch('5'), Action::Typical(4)),
+            (ch('6'), Action::Typical(5)),
+            (ch('7'), Action::Typical(6)),
+            (ch('8'), Action::Typical(7)),
+            (ch('9'), Action::Typical(8)),
+        ],
+        "1-9",
+        "to a typical value",
         Group::Knobs,
     ),
     row(
-        &[shift(KeyCode::Left), ch('H'), key(KeyCode::PageDown)],
-        "⇧← H",
-        Action::TurnFar(-1),
-        "down by a big step",
+        &[
+            (ch('x'), Action::Home),
+            (key(KeyCode::Home), Action::Home),
+            (ch('X'), Action::HomeAll),
+        ],
+        "x X",
+        "the scene's value; all knobs",
         Group::Knobs,
     ),
     row(
-        &[shift(KeyCode::Right), ch('L'), key(KeyCode::PageUp)],
-        "⇧→ L",
-        Action::TurnFar(1),
-        "up by a big step",
-        Group::Knobs,
-    ),
-    row(
-        &[ch('x'), key(KeyCode::Home)],
-        "x",
-        Action::Home,
-        "back to the scene's value",
-        Group::Knobs,
-    ),
-    row(
-        &[ch('X')],
-        "X",
-        Action::HomeAll,
-        "all knobs back",
-        Group::Knobs,
-    ),
-    row(
-        &[ch(' ')],
+        &[(ch(' '), Action::TogglePause)],
         "space",
-        Action::TogglePause,
         "pause, go on",
         Group::Time,
     ),
     row(
-        &[ch('.')],
-        ".",
-        Action::StepForward,
-        "one step",
+        &[(ch('.'), Action::StepForward), (ch(','), Action::StepBack)],
+        ". ,",
+        "one step; one frame back",
         Group::Time,
     ),
     row(
-        &[ch(',')],
-        ",",
-        Action::StepBack,
-        "one frame back",
+        &[(ch('t'), Action::Tour), (ch('n'), Action::NextLesson)],
+        "t n",
+        "tour on or off; next lesson",
         Group::Time,
     ),
     row(
-        &[ch('t')],
-        "t",
-        Action::Tour,
-        "start or end the tour",
-        Group::Time,
-    ),
-    row(
-        &[ch('n')],
-        "n",
-        Action::NextLesson,
-        "next lesson of the tour",
-        Group::Time,
-    ),
-    row(&[ch('m')], "m", Action::NextMap, "next map", Group::Show),
-    row(
-        &[ch('M')],
-        "M",
-        Action::PreviousMap,
-        "map before",
+        &[(ch('m'), Action::NextMap), (ch('M'), Action::PreviousMap)],
+        "m M",
+        "next map; map before",
         Group::Show,
     ),
     row(
-        &[ch('z')],
+        &[(ch('z'), Action::Zoom)],
         "z",
-        Action::Zoom,
-        "the contact, or the whole domain",
+        "contact or whole domain",
         Group::Show,
     ),
     row(
-        &[ch('p')],
+        &[(ch('p'), Action::PointQuantity)],
         "p",
-        Action::PointQuantity,
-        "material point: pressure or shear",
+        "point: pressure or shear",
         Group::Show,
     ),
     row(
-        &[ch('b')],
-        "b",
-        Action::Pin,
-        "pin this state to compare with",
+        &[(ch('b'), Action::Pin), (ch('B'), Action::Unpin)],
+        "b B",
+        "pin to compare; forget it",
         Group::Show,
     ),
+    row(&[(ch('u'), Action::Units)], "u", "other units", Group::Show),
     row(
-        &[ch('B')],
-        "B",
-        Action::Unpin,
-        "forget the pinned state",
-        Group::Show,
-    ),
-    row(&[ch('u')], "u", Action::Units, "other units", Group::Show),
-    row(
-        &[ch('c')],
+        &[(ch('c'), Action::Contrast)],
         "c",
-        Action::Contrast,
         "high contrast",
         Group::Show,
     ),
     row(
-        &[ch('i')],
+        &[(ch('i'), Action::Plan)],
         "i",
-        Action::Plan,
-        "what is computed and what is left out",
+        "plan: what is left out, why",
         Group::Show,
     ),
     row(
-        &[ch('r')],
+        &[(ch('r'), Action::Record)],
         "r",
-        Action::Record,
         "recording on or off",
         Group::Program,
     ),
     row(
-        &[ch('v')],
+        &[(ch('v'), Action::View)],
         "v",
-        Action::View,
-        "open the recording in the viewer",
+        "open the recording",
         Group::Program,
     ),
     row(
-        &[ch('s')],
+        &[(ch('s'), Action::Save)],
         "s",
-        Action::Save,
-        "save the scene as it now is",
+        "save the scene as it is now",
         Group::Program,
     ),
     row(
-        &[ch('?'), key(KeyCode::F(1))],
+        &[(ch('?'), Action::Help), (key(KeyCode::F(1)), Action::Help)],
         "?",
-        Action::Help,
         "these keys",
         Group::Program,
     ),
     row(
-        &[key(KeyCode::Esc)],
+        &[(key(KeyCode::Esc), Action::Close)],
         "Esc",
-        Action::Close,
-        "close this; back to the present",
+        "close; back to the present",
         Group::Program,
     ),
     row(
-        &[ctrl('z')],
+        &[(ctrl('z'), Action::Suspend)],
         "^Z",
-        Action::Suspend,
         "to the shell; fg returns",
         Group::Program,
     ),
     row(
-        &[ch('q'), ctrl('c')],
+        &[(ch('q'), Action::Quit), (ctrl('c'), Action::Quit)],
         "q ^C",
-        Action::Quit,
         "quit",
         Group::Program,
     ),
 ];
-
-/// What the digits do, for the help screen.
-pub const DIGITS: (&str, &str) = ("1-9", "a typical value of the knob");
 
 /// What the mouse does, for the help screen.
 pub const MOUSE: &[(&str, &str)] = &[
@@ -371,14 +331,10 @@ pub fn lookup(event: &KeyEvent) -> Option<Action> {
         return None;
     }
     let chord = normal(event);
-    if let KeyCode::Char(digit @ '1'..='9') = chord.code
-        && chord.modifiers.is_empty()
-    {
-        return Some(Action::Typical(digit as usize - '1' as usize));
-    }
     KEYS.iter()
-        .find(|binding| binding.chords.contains(&chord))
-        .map(|binding| binding.action)
+        .flat_map(|row| row.keys)
+        .find(|(own, _)| *own == chord)
+        .map(|(_, action)| *action)
 }
 
 /// Shift is part of a character already; terminals disagree on whether they name it too.
@@ -404,15 +360,15 @@ mod tests {
     }
 
     #[test]
-    fn every_row_is_reached_by_each_of_its_keys() {
-        for binding in KEYS {
-            assert!(!binding.help.is_empty() && !binding.shown.is_empty());
-            for chord in binding.chords {
+    fn every_key_of_every_row_is_reached() {
+        for row in KEYS {
+            assert!(!row.help.is_empty() && !row.shown.is_empty());
+            for (chord, action) in row.keys {
                 assert_eq!(
                     press(chord.code, chord.modifiers),
-                    Some(binding.action),
-                    "{} is taken by a row above",
-                    binding.shown
+                    Some(*action),
+                    "{}",
+                    row.shown
                 );
             }
         }
@@ -420,7 +376,11 @@ mod tests {
 
     #[test]
     fn no_key_stands_twice() {
-        let chords: Vec<Chord> = KEYS.iter().flat_map(|b| b.chords).copied().collect();
+        let chords: Vec<Chord> = KEYS
+            .iter()
+            .flat_map(|row| row.keys)
+            .map(|(chord, _)| *chord)
+            .collect();
         for (i, chord) in chords.iter().enumerate() {
             assert!(!chords[..i].contains(chord), "{chord:?} stands twice");
         }

@@ -142,7 +142,7 @@ pub enum Role {
 pub enum Ramp {
     /// Black, red, yellow: pressure and stress.
     Heat,
-    /// Dark blue to pale green: film.
+    /// Dark blue to pale green: depth of film, reversed, as deep water is dark.
     Depth,
     /// Blue, grey, orange: heights.
     Diverging,
@@ -185,6 +185,10 @@ const DIVERGING: [[u8; 3]; 7] = [
     [222, 132, 52],
     [164, 78, 10],
 ];
+/// The same maps chosen from the 256 colours by hand: the nearest ones would mix in greys.
+const HEAT_INDEXED: [u8; 13] = [17, 53, 54, 90, 126, 162, 168, 203, 208, 214, 220, 227, 230];
+const DEPTH_INDEXED: [u8; 12] = [17, 18, 24, 25, 31, 37, 43, 79, 114, 150, 192, 229];
+const DIVERGING_INDEXED: [u8; 13] = [25, 32, 74, 110, 152, 188, 254, 223, 216, 209, 173, 166, 130];
 /// Characters of growing ink, one step each.
 const INK: [&str; 10] = [" ", ".", ":", "-", "=", "+", "*", "#", "%", "@"];
 
@@ -226,9 +230,13 @@ impl Theme {
 
     /// How a thing looks.
     pub fn style(&self, role: Role) -> Style {
-        let mut style = Style::new().add_modifier(weight(role, self.contrast));
-        if let Some(color) = self.role_color(role) {
-            style = style.fg(color);
+        let mut style = Style::new().add_modifier(weight(role));
+        match self.role_color(role) {
+            Some(color) => style = style.fg(color),
+            None if role == Role::Dim && self.contrast == Contrast::Normal => {
+                style = style.add_modifier(Modifier::DIM);
+            }
+            None => {}
         }
         if self.capabilities.depth == ColorDepth::Mono && role == Role::Bad {
             style = style.add_modifier(Modifier::REVERSED);
@@ -238,6 +246,9 @@ impl Theme {
 
     /// A colour of a map, `t` from 0 to 1.
     pub fn map_color(&self, ramp: Ramp, t: f32) -> Color {
+        if self.capabilities.depth == ColorDepth::Indexed {
+            return Color::Indexed(map_index(ramp, t));
+        }
         self.rgb(map_rgb(ramp, t))
     }
 
@@ -268,10 +279,12 @@ impl Theme {
             ColorDepth::Basic => basic(role),
             ColorDepth::True | ColorDepth::Indexed => {
                 let rgb = match (role, self.contrast) {
-                    (Role::Text | Role::Strong, _) => return None,
-                    (Role::Dim, Contrast::Normal) => [128, 132, 145],
+                    (Role::Text | Role::Strong, _) => return Some(Color::Reset),
+                    (Role::Dim, Contrast::Normal) => [140, 146, 162],
                     (Role::Border, Contrast::Normal) => [84, 92, 112],
-                    (Role::Dim | Role::Border | Role::Title, Contrast::High) => return None,
+                    (Role::Dim | Role::Border | Role::Title, Contrast::High) => {
+                        return Some(Color::Reset);
+                    }
                     (other, _) => okabe_ito(other),
                 };
                 Some(self.rgb(rgb))
@@ -280,11 +293,10 @@ impl Theme {
     }
 }
 
-fn weight(role: Role, contrast: Contrast) -> Modifier {
+fn weight(role: Role) -> Modifier {
     match role {
         Role::Strong | Role::Key | Role::Chosen | Role::Bad | Role::Title => Modifier::BOLD,
         Role::Formula => Modifier::ITALIC,
-        Role::Dim if contrast == Contrast::Normal => Modifier::DIM,
         _ => Modifier::empty(),
     }
 }
@@ -305,7 +317,7 @@ fn okabe_ito(role: Role) -> [u8; 3] {
 
 fn basic(role: Role) -> Option<Color> {
     match role {
-        Role::Text | Role::Strong | Role::Title => None,
+        Role::Text | Role::Strong | Role::Title => Some(Color::Reset),
         Role::Dim | Role::Border | Role::Hertz => Some(Color::DarkGray),
         Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Some(Color::Yellow),
         Role::Body2 | Role::Shear => Some(Color::Magenta),
@@ -322,6 +334,18 @@ fn map_rgb(ramp: Ramp, t: f32) -> [u8; 3] {
         Ramp::Depth => interpolate(&DEPTH, t),
         Ramp::Diverging => interpolate(&DIVERGING, t),
     }
+}
+
+fn map_index(ramp: Ramp, t: f32) -> u8 {
+    let steps: &[u8] = match ramp {
+        Ramp::Heat => &HEAT_INDEXED,
+        Ramp::Depth => &DEPTH_INDEXED,
+        Ramp::Diverging => &DIVERGING_INDEXED,
+    };
+    let last = steps.len() - 1;
+    // A NaN becomes the first step.
+    let place = (t.clamp(0.0, 1.0) * last as f32).round() as usize;
+    steps[place.min(last)]
 }
 
 fn interpolate(stops: &[[u8; 3]], t: f32) -> [u8; 3] {

@@ -122,6 +122,16 @@ pub fn sig(value: f64, digits: i32) -> String {
     format!("{value:.*}", (digits - 1 - exponent).max(0) as usize)
 }
 
+/// A number on an axis: three figures at most, and no zeros that say nothing.
+pub fn tick(value: f64) -> String {
+    let text = sig(value, 3);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
 /// A number that is known or not.
 pub fn sig_or_dash(value: Option<f64>, digits: i32) -> String {
     value.map_or_else(|| "–".to_owned(), |v| sig(v, digits))
@@ -151,13 +161,13 @@ pub fn bytes(count: u64) -> String {
     }
 }
 
-/// The least of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `value`.
+/// The least of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not below `value`.
 pub fn nice_ceiling(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
     }
     let decade = 10_f64.powf(value.log10().floor());
-    let steps = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    let steps = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
     let chosen = steps
         .into_iter()
         .find(|step| step * decade >= value * (1.0 - 1e-9));
@@ -185,6 +195,21 @@ mod tests {
         ];
         for (value, digits, shown) in table {
             assert_eq!(sig(value, digits), shown, "{value} to {digits}");
+        }
+    }
+
+    #[test]
+    fn ticks_are_short() {
+        let table = [
+            (2.5, "2.5"),
+            (3.0, "3"),
+            (1.25, "1.25"),
+            (500.0, "500"),
+            (0.0, "0"),
+            (-0.3, "-0.3"),
+        ];
+        for (value, shown) in table {
+            assert_eq!(tick(value), shown);
         }
     }
 

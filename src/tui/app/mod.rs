@@ -210,6 +210,8 @@ pub struct App {
     pub(crate) zoom: Zoom,
     pub(crate) quantity: PointQuantity,
     pub(crate) overlay: Overlay,
+    /// Rows that the plan has been moved up.
+    pub(crate) scroll: u16,
     pub(crate) pace: Pace,
     pub(crate) probe: Option<(f64, f64)>,
     pub(crate) pinned: Option<Pinned>,
@@ -251,6 +253,7 @@ impl App {
             zoom: Zoom::default(),
             quantity: PointQuantity::default(),
             overlay: Overlay::default(),
+            scroll: 0,
             pace: Pace::default(),
             probe: None,
             pinned: None,

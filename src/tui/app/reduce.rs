@@ -12,6 +12,10 @@ impl App {
         match action {
             Action::Quit => vec![Effect::Quit],
             Action::Suspend => vec![Effect::Suspend],
+            Action::ChooseNext | Action::ChoosePrevious if self.overlay == Overlay::Plan => {
+                self.scroll_plan(action);
+                Vec::new()
+            }
             Action::ChooseNext => self.choose(self.chosen + 1),
             Action::ChoosePrevious => self.choose(self.chosen + self.dials.len() - 1),
             Action::Choose(place) => self.choose(place),
@@ -65,6 +69,15 @@ impl App {
             Action::Close => self.close(),
             _ => {}
         }
+    }
+
+    fn scroll_plan(&mut self, action: Action) {
+        let last = self.setup.plan_text.lines().count() + self.setup.left_out.len();
+        self.scroll = if action == Action::ChooseNext {
+            (self.scroll + 1).min(last as u16)
+        } else {
+            self.scroll.saturating_sub(1)
+        };
     }
 
     fn choose(&mut self, place: usize) -> Vec<Effect> {
@@ -180,6 +193,7 @@ impl App {
     }
 
     fn toggle(&mut self, overlay: Overlay) {
+        self.scroll = 0;
         self.overlay = if self.overlay == overlay {
             Overlay::None
         } else {

@@ -8,7 +8,7 @@ use ratatui::text::{Line, Span};
 use crate::sim::Frame;
 use crate::tui::app::{App, Zoom};
 use crate::tui::theme::Role;
-use crate::tui::units::sig;
+use crate::tui::units::tick;
 use crate::tui::view::chart::{Chart, Pen};
 use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
 
@@ -113,14 +113,14 @@ fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
     };
     let foot = plot.height - 1;
     for (row, part) in ticks(plot.height) {
-        let p = sig(pressure.of(app.ranges.pressure_pa * part), 2);
+        let p = tick(pressure.of(app.ranges.pressure_pa * part));
         put_right(
             left,
             row,
             &Line::styled(p, theme.style(Role::Pressure)),
             buffer,
         );
-        let h = sig(film.of(app.ranges.film_m * part), 2);
+        let h = tick(film.of(app.ranges.film_m * part));
         put(
             right,
             row,
@@ -162,7 +162,8 @@ fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
 /// Rows that carry a number, with the part of the range they stand for.
 fn ticks(rows: u16) -> Vec<(u16, f64)> {
     let last = rows - 1;
-    let marks = if rows >= 9 {
+    // A number in the middle only where a row is in the middle.
+    let marks = if rows >= 7 && last % 2 == 0 {
         vec![0, last / 2, last]
     } else {
         vec![0, last]

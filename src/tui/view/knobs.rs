@@ -1,15 +1,16 @@
 //! Left: the knobs as sliders.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Margin, Position, Rect};
 use ratatui::text::{Line, Span};
 
+use crate::physics::estimate::speed_ratios;
 use crate::sim::Knob;
 use crate::tui::action::Action;
 use crate::tui::app::App;
 use crate::tui::dial::{Dial, Life};
 use crate::tui::theme::Role;
-use crate::tui::units::sig;
+use crate::tui::units::{sig, tick};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
@@ -106,10 +107,11 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
     let room = slot.width.saturating_sub(value.width() as u16 + 1);
     let mark = if chosen { theme.pick("▸", ">") } else { " " };
     let role = if chosen { Role::Chosen } else { Role::Text };
-    let label = if room < 8 + dial.label.len() as u16 / 2 {
-        dial.label.split(' ').next().unwrap_or(dial.label)
-    } else {
+    let whole = dial.label.chars().count() < usize::from(room);
+    let label = if whole {
         dial.label
+    } else {
+        dial.label.split(' ').next().unwrap_or(dial.label)
     };
     let name = Line::from(vec![
         Span::styled(mark, theme.style(Role::Chosen)),
@@ -236,10 +238,12 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     if dial.life != Life::Live {
         return;
     }
-    let ends = Line::styled(sig(unit.of(dial.min), 2), theme.style(Role::Dim));
-    put(slot, 2, &ends, buffer);
-    let end = Line::styled(sig(unit.of(dial.max), 2), theme.style(Role::Dim));
-    put_right(slot, 2, &end, buffer);
+    if dial.knob != Knob::ForceN || slot.width >= 24 {
+        let ends = Line::styled(tick(unit.of(dial.min)), theme.style(Role::Dim));
+        put(slot, 2, &ends, buffer);
+        let end = Line::styled(tick(unit.of(dial.max)), theme.style(Role::Dim));
+        put_right(slot, 2, &end, buffer);
+    }
     if dial.knob == Knob::ForceN {
         let text = format!(
             "p_h {}",
@@ -260,17 +264,29 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Where there is room: both bodies' speeds and the contact's size.
+/// Where there is room: both bodies' speeds, the contact's size, and what the letters mean.
 fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = &app.theme;
     let Some(frame) = app.frame() else { return };
     let metrics = &frame.metrics;
     let speed = app.units.speed();
-    let body = |sign: f64| metrics.entrainment_m_s * (1.0 + sign * 0.5 * metrics.slide_roll);
+    let (u1, u2) = speed_ratios(metrics.slide_roll);
+    let sliding = (u2 - u1).abs();
+    let specific = |own: f64| {
+        let ratio = sliding / own.abs();
+        if ratio.is_finite() {
+            sig(ratio, 2)
+        } else {
+            theme.pick("∞", "inf").to_owned()
+        }
+    };
     let length = app.units.length();
+    let mean = metrics.entrainment_m_s;
     let lines = [
-        ("U₁ body 1", speed.show(body(-1.0), 3), Role::Body1),
-        ("U₂ body 2", speed.show(body(1.0), 3), Role::Body2),
+        ("U₁ body 1", speed.show(mean * u1, 3), Role::Body1),
+        ("U₂ body 2", speed.show(mean * u2, 3), Role::Body2),
+        ("sliding |U₂−U₁|/U₁", specific(u1), Role::Body1),
+        ("sliding |U₂−U₁|/U₂", specific(u2), Role::Body2),
         ("a half-width x", length.show(frame.a_m, 3), Role::Text),
         ("b half-width y", length.show(frame.b_m, 3), Role::Text),
         (
@@ -279,25 +295,37 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
             Role::Text,
         ),
     ];
-    let area = Rect {
-        x: area.x + 1,
-        width: area.width.saturating_sub(2),
-        ..area
-    };
-    for (row, (name, value, role)) in lines.into_iter().enumerate() {
+    let area = area.inner(Margin::new(1, 0));
+    for (row, (name, value, role)) in lines.iter().enumerate() {
+        let row = row as u16;
         let name = ascii_text(theme, name);
         put(
             area,
-            row as u16,
+            row,
             &Line::styled(name, theme.style(Role::Dim)),
             buffer,
         );
-        let value = ascii_text(theme, &value);
-        put_right(
-            area,
-            row as u16,
-            &Line::styled(value, theme.style(role)),
-            buffer,
-        );
+        let value = ascii_text(theme, value);
+        put_right(area, row, &Line::styled(value, theme.style(*role)), buffer);
+    }
+    let below = lines.len() as u16 + 1;
+    for (row, (name, meaning)) in SYMBOLS.iter().enumerate() {
+        let line = Line::from(vec![
+            Span::styled(
+                format!("{:<4}", ascii_text(theme, name)),
+                theme.style(Role::Strong),
+            ),
+            Span::styled(ascii_text(theme, meaning), theme.style(Role::Dim)),
+        ]);
+        put(area, below + row as u16, &line, buffer);
     }
 }
+
+/// What the letters on the screen mean; the help screen says it too.
+pub(super) const SYMBOLS: &[(&str, &str)] = &[
+    ("S", "(U₂−U₁)/U, U = (U₁+U₂)/2"),
+    ("p_h", "max. Hertz pressure"),
+    ("λ", "smooth film/rms height"),
+    ("n", "1 + 2a f |U₂−U₁|/|U|"),
+    ("", "f: crests of the mate per m"),
+];

@@ -119,7 +119,8 @@ fn figure(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
         );
     }
     said(app, area, digits::width(&text), buffer);
-    put(rows.take(1), 0, &provenance(app), buffer);
+    let below = rows.take(1);
+    put(below, 0, &provenance(app, below.width), buffer);
 }
 
 /// Beside the large figure: where the number comes from.
@@ -144,37 +145,31 @@ fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) {
         Leading::Formula => Line::styled("formula", theme.style(Role::Formula)),
     };
     put(right, 0, &word, buffer);
-    if right.width >= 18 {
-        put(
-            right,
-            1,
-            &Line::styled(ascii_text(theme, "× smooth, no"), dim),
-            buffer,
-        );
-        put(right, 2, &Line::styled("sliding, same load", dim), buffer);
+    if right.width >= 16 {
+        let of = ascii_text(theme, "× smooth rolling");
+        put(right, 1, &Line::styled(of, dim), buffer);
+        put(right, 2, &Line::styled("at the same load", dim), buffer);
     }
 }
 
 /// The other number, and the band.
-fn provenance(app: &App) -> Line<'static> {
+fn provenance(app: &App, width: u16) -> Line<'static> {
     let theme = &app.theme;
-    let formula = || format!("formula {}", sig_or_dash(app.estimate.life_relative, 2));
     let text = match (app.leading(), app.life()) {
         (Leading::Simulated, Some(life)) => {
-            let band = format!(
-                "{}–{}",
-                sig(life.life_relative_low, 2),
-                sig(life.life_relative_high, 2)
-            );
-            return Line::from(vec![
-                Span::styled(
-                    ascii_text(theme, &format!("band {band}  ")),
-                    theme.style(Role::Text),
-                ),
-                Span::styled(formula(), theme.style(Role::Formula)),
-            ]);
+            let (low, high) = (life.life_relative_low, life.life_relative_high);
+            let band = format!("band {}–{}", sig(low, 2), sig(high, 2));
+            let formula = format!("  formula {}", sig_or_dash(app.estimate.life_relative, 2));
+            let mut spans = vec![Span::styled(
+                ascii_text(theme, &band),
+                theme.style(Role::Text),
+            )];
+            if band.chars().count() + formula.len() <= usize::from(width) {
+                spans.push(Span::styled(formula, theme.style(Role::Formula)));
+            }
+            return Line::from(spans);
         }
-        (_, Some(life)) => format!("settling, simulated {}", sig(life.life_relative, 2)),
+        (_, Some(life)) => format!("settling: {}", sig(life.life_relative, 2)),
         (_, None) => "not simulated yet".to_owned(),
     };
     Line::from(vec![
@@ -304,35 +299,52 @@ fn mechanisms(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
         ("peaks", peaks, Role::Peaks),
         ("traction", Some(traction), Role::Traction),
     ];
+    let decades = waterfall_decades(factors.map(|(_, factor, _)| factor));
     let mut from = 1.0;
     for (name, factor, role) in factors {
         let row = rows.take(1);
-        waterfall(app, row, name, from, factor, role, buffer);
-        from *= factor.unwrap_or(1.0);
+        let to = from * factor.unwrap_or(1.0);
+        waterfall_value(app, row, (name, factor, role), buffer);
+        waterfall_bar(app, row, decades, [from, to], role, buffer);
+        from = to;
     }
 }
 
-fn waterfall(
+/// Whole decades that hold every end of a bar.
+fn waterfall_decades(factors: [Option<f64>; 3]) -> [f64; 2] {
+    let (mut decade, mut low, mut high) = (0.0, -1.0_f64, 0.0_f64);
+    for factor in factors.into_iter().flatten() {
+        decade += factor.max(1e-12).log10();
+        low = low.min(decade.floor());
+        high = high.max(decade.ceil());
+    }
+    [low, high]
+}
+
+fn waterfall_value(
     app: &App,
     row: Rect,
-    name: &'static str,
-    from: f64,
-    factor: Option<f64>,
-    role: Role,
+    (name, factor, role): (&'static str, Option<f64>, Role),
     buffer: &mut Buffer,
 ) {
     let theme = &app.theme;
     put(row, 0, &Line::styled(name, theme.style(role)), buffer);
-    let value = format!("×{}", sig_or_dash(factor, 2));
-    let value = ascii_text(theme, &value);
-    put_right(
-        row,
-        0,
-        &Line::styled(value, theme.style(Role::Strong)),
-        buffer,
-    );
-    let (before, after) = (9, 8);
-    if row.is_empty() || row.width < before + after + 4 {
+    let value = ascii_text(theme, &format!("×{}", sig_or_dash(factor, 2)));
+    let style = theme.style(Role::Strong);
+    put_right(row, 0, &Line::styled(value, style), buffer);
+}
+
+fn waterfall_bar(
+    app: &App,
+    row: Rect,
+    decades: [f64; 2],
+    [from, to]: [f64; 2],
+    role: Role,
+    buffer: &mut Buffer,
+) {
+    let theme = &app.theme;
+    let (before, after) = (9, 7);
+    if row.is_empty() || row.width < before + after + 3 {
         return;
     }
     let track = Rect {
@@ -340,23 +352,20 @@ fn waterfall(
         width: row.width - before - after,
         ..row
     };
-    let to = from * factor.unwrap_or(1.0);
-    let (a, b) = (column(from, track.width), column(to, track.width));
-    let style = theme.style(role);
+    let column = |value: f64| {
+        let part = (value.max(1e-300).log10() - decades[0]) / (decades[1] - decades[0]);
+        (part.clamp(0.0, 1.0) * f64::from(track.width - 1)).round() as u16
+    };
+    let (a, b) = (column(from), column(to));
     for offset in 0..track.width {
         let filled = offset >= a.min(b) && offset <= a.max(b);
-        let symbol = if filled {
-            theme.pick("█", "#")
+        let (symbol, role) = if filled {
+            (theme.pick("█", "#"), role)
         } else {
-            theme.pick("·", ".")
-        };
-        let style = if filled {
-            style
-        } else {
-            theme.style(Role::Border)
+            (theme.pick("·", "."), Role::Border)
         };
         if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
-            cell.set_symbol(symbol).set_style(style);
+            cell.set_symbol(symbol).set_style(theme.style(role));
         }
     }
 }
@@ -410,24 +419,34 @@ fn comparison(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
     } else {
         (sig(ratio, 2), " times longer".to_owned(), Role::Good)
     };
-    let mut spans = vec![
+    let than = if row.width >= 32 && !times.is_empty() {
+        " than pinned"
+    } else {
+        ""
+    };
+    let line = Line::from(vec![
         Span::styled(
             format!("{} ", theme.pick("▼", "P")),
             theme.style(Role::Warn),
         ),
-        Span::styled(format!("{times}{word}"), theme.style(role)),
-    ];
-    if let Some(pinned) = &app.pinned
-        && row.width >= 38
-    {
+        Span::styled(format!("{times}{word}{than}"), theme.style(role)),
+    ]);
+    put(row, 0, &line, buffer);
+    let Some(pinned) = &app.pinned else { return };
+    if rows.rest().height >= 20 {
         let text = format!(
-            "  pinned S {} {}",
+            "  pinned: {} at S {}, p_h {}",
+            sig(pinned.life_relative, 2),
             sig(pinned.slide_roll, 2),
             app.units.pressure().show(pinned.p_hertz_pa, 3)
         );
-        spans.push(Span::styled(text, theme.style(Role::Dim)));
+        put(
+            rows.take(1),
+            0,
+            &Line::styled(text, theme.style(Role::Dim)),
+            buffer,
+        );
     }
-    put(row, 0, &Line::from(spans), buffer);
 }
 
 #[cfg(test)]

@@ -14,7 +14,14 @@ use crate::tui::view::{ascii_text, put, put_right};
 const CURVE_ROWS: u16 = 7;
 
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    if area.height >= CURVE_ROWS + 5 {
+    if (CURVE_ROWS + 1..CURVE_ROWS + 5).contains(&area.height) {
+        let curve = Rect {
+            y: area.y + 1,
+            height: area.height - 1,
+            ..area
+        };
+        against_slide_roll(app, curve, buffer);
+    } else if area.height >= CURVE_ROWS + 5 {
         let history = (area.height / 3).clamp(4, 8);
         let curve = Rect {
             y: area.y + 1,

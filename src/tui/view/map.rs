@@ -13,7 +13,7 @@ use crate::sim::Frame;
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, Zoom};
 use crate::tui::theme::{Ramp, Role, Theme};
-use crate::tui::units::{Unit, sig};
+use crate::tui::units::{Unit, sig, tick};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
 use raster::{Raster, Window, rasterize};
 
@@ -161,11 +161,10 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
     let scale = (2.0 * least / pixels.max(1.0)).max(wanted_x / columns.max(1.0));
     let across = (0.5 * scale * pixels).min(half);
     let along = scale * columns;
-    let x = if along >= domain[1] - domain[0] {
-        domain
-    } else {
-        let start = (-0.5 * along).max(domain[0]).min(domain[1] - along);
-        [start, start + along]
+    let x = match app.zoom {
+        // The contact stays in the middle of the panel.
+        Zoom::Contact => [domain[0].max(-0.5 * along), domain[1].min(0.5 * along)],
+        Zoom::Domain => domain,
     };
     Window {
         x,
@@ -173,7 +172,7 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
     }
 }
 
-/// The picture keeps its shape: centred in the room there is.
+/// The picture keeps its shape: x = 0 in the middle of the room there is, as far as that goes.
 fn image_area(window: &Window, picture: Rect) -> Rect {
     if window.y[0] == 0.0 || picture.is_empty() {
         return picture;
@@ -182,8 +181,10 @@ fn image_area(window: &Window, picture: Rect) -> Rect {
     let scale = (along / f64::from(picture.width)).max(across / (2.0 * f64::from(picture.height)));
     let width = ((along / scale).round() as u16).clamp(1, picture.width);
     let height = ((0.5 * across / scale).round() as u16).clamp(1, picture.height);
+    let middle = 0.5 * f64::from(picture.width) + window.x[0] / scale;
+    let spare = picture.width - width;
     Rect {
-        x: picture.x + (picture.width - width) / 2,
+        x: picture.x + (middle.round().max(0.0) as u16).min(spare),
         y: picture.y + (picture.height - height) / 2,
         width,
         height,
@@ -214,8 +215,13 @@ fn look(app: &App) -> Look {
 }
 
 impl Look {
-    fn part(&self, value: f32) -> f32 {
-        ((f64::from(value) - self.low) / (self.high - self.low)) as f32
+    /// Place of a value on the colour map. Deep film is dark, so that where it collapses shines.
+    fn part(&self, value: f64) -> f32 {
+        let part = ((value - self.low) / (self.high - self.low)) as f32;
+        match self.ramp {
+            Ramp::Depth => 1.0 - part,
+            Ramp::Heat | Ramp::Diverging => part,
+        }
     }
 }
 
@@ -229,7 +235,7 @@ fn paint(
     buffer: &mut Buffer,
 ) {
     let pixel = |column: usize, row: usize| {
-        let t = look.part(raster.at(column, row));
+        let t = look.part(f64::from(raster.at(column, row)));
         let spot = kind == MapKind::Contact && raster.spot(column, row);
         let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
         if spot {
@@ -268,7 +274,7 @@ fn ink(
     column: usize,
     row: usize,
 ) -> &'static str {
-    let t = look.part(raster.at(column, row));
+    let t = look.part(f64::from(raster.at(column, row)));
     match kind {
         MapKind::Contact if raster.spot(column, row) => "#",
         MapKind::Contact if ring => "o",
@@ -365,10 +371,11 @@ fn color_bar(theme: &Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut 
     if bar.width < 4 || bar.height < 3 {
         return;
     }
+    let pixels = f64::from(2 * bar.height - 1);
     for row in 0..bar.height {
         let part = |half: u16| {
-            let pixels = f32::from(2 * bar.height - 1);
-            1.0 - f32::from(2 * row + half) / pixels
+            let down = f64::from(2 * row + half) / pixels;
+            look.part(look.high - (look.high - look.low) * down)
         };
         if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
             if theme.paints() {
@@ -387,7 +394,7 @@ fn color_bar(theme: &Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut 
         ..bar
     };
     let dim = theme.style(Role::Dim);
-    let number = |value: f64| Line::styled(sig(look.unit.of(value), 2), dim);
+    let number = |value: f64| Line::styled(tick(look.unit.of(value)), dim);
     put(text, 0, &number(look.high), buffer);
     put(
         text,
@@ -435,11 +442,11 @@ fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, buffer: &mut Buf
         return;
     }
     let half = inner.width / 2;
-    for ((name, speed, role), x) in bodies.into_iter().zip([0, half]) {
+    for ((name, speed, role), x) in bodies.into_iter().zip([0, half + 1]) {
         let row = Rect {
             x: inner.x + x,
             y: inner.y + last,
-            width: half,
+            width: half.saturating_sub(1),
             height: 1,
         };
         strip(app, frame, name, speed, role, row, buffer);
@@ -462,7 +469,13 @@ fn strip(
     let style = theme.style(role);
     let body = if row.width >= 30 { "body " } else { "" };
     let label = Line::styled(format!("{body}{name} "), style);
-    let value = Line::styled(format!(" {}", app.units.speed().show(speed_m_s, 3)), style);
+    let unit = app.units.speed();
+    let value = if row.width >= 30 {
+        format!(" {}", unit.show(speed_m_s, 3))
+    } else {
+        format!(" {}", sig(unit.of(speed_m_s), 3))
+    };
+    let value = Line::styled(value, style);
     let (before, after) = (label.width() as u16, value.width() as u16);
     put(row, 0, &label, buffer);
     put_right(row, 0, &value, buffer);

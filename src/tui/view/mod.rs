@@ -1,5 +1,6 @@
 //! The picture: where each panel is, and the drawing of all of them.
 
+mod caption;
 mod centre_line;
 mod chart;
 mod digits;
@@ -36,6 +37,15 @@ pub enum Density {
     Full,
 }
 
+/// Whether words take a few rows under the top line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Banner {
+    /// They do not.
+    None,
+    /// A lesson or a script says something.
+    Caption,
+}
+
 /// Where the panels are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Areas {
@@ -43,6 +53,8 @@ pub struct Areas {
     pub density: Density,
     /// Top line.
     pub header: Rect,
+    /// Below it a caption, where one is shown (else no rows).
+    pub caption: Rect,
     /// Left.
     pub knobs: Rect,
     /// Centre, above.
@@ -59,7 +71,7 @@ pub struct Areas {
 
 impl Areas {
     /// The panels on a screen; `None` where it is too small.
-    pub fn of(screen: Rect) -> Option<Self> {
+    pub fn of(screen: Rect, banner: Banner) -> Option<Self> {
         if screen.width < LEAST.0 || screen.height < LEAST.1 {
             return None;
         }
@@ -73,16 +85,22 @@ impl Areas {
             Density::Compact => (if screen.height >= 26 { 6 } else { 5 }, 2),
             Density::Full => ((screen.height / 5).clamp(8, 12), 3),
         };
-        let body_rows = screen.height - 1 - point_rows - status_rows;
+        let caption_rows = match banner {
+            Banner::None => 0,
+            // Title and text, which is 180 letters at most.
+            Banner::Caption => 1 + 190_u16.div_ceil(screen.width - 4),
+        };
+        let body_rows = screen.height - 1 - caption_rows - point_rows - status_rows;
         let gap = if density == Density::Compact { 1 } else { 0 };
         let middle = screen.width - left - right - 2 * gap;
         let map_rows = (body_rows * 57).div_ceil(100);
-        let top = screen.y + 1;
+        let top = screen.y + 1 + caption_rows;
         let centre = screen.x + left + gap;
         let below = top + body_rows;
         Some(Self {
             density,
             header: Rect::new(screen.x, screen.y, screen.width, 1),
+            caption: Rect::new(screen.x, screen.y + 1, screen.width, caption_rows),
             knobs: Rect::new(screen.x, top, left, body_rows),
             map: Rect::new(centre, top, middle, map_rows),
             centre_line: Rect::new(centre, top + map_rows, middle, body_rows - map_rows),
@@ -108,7 +126,8 @@ pub fn draw(app: &App, frame: &mut Frame<'_>) {
 
 /// Draws the whole screen into a buffer.
 pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
-    let Some(areas) = Areas::of(screen) else {
+    let caption = caption::of(app);
+    let Some(areas) = Areas::of(screen, banner(caption.as_ref())) else {
         too_small(app, screen, buffer);
         return;
     };
@@ -119,6 +138,9 @@ pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
     life::render(app, &areas, buffer);
     point::render(app, &areas, buffer);
     status::render(app, &areas, buffer);
+    if let Some(caption) = caption {
+        caption::render(app, &caption, areas.caption, buffer);
+    }
     let body = Rect {
         height: screen.height - areas.status.height - 1,
         y: screen.y + 1,
@@ -128,13 +150,17 @@ pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
         (Some(reason), _) => overlay::fault(app, reason, body, buffer),
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
-        (None, Overlay::None) => overlay::caption(app, areas.map, buffer),
+        (None, Overlay::None) => {}
     }
+}
+
+fn banner(caption: Option<&caption::Caption<'_>>) -> Banner {
+    caption.map_or(Banner::None, |_| Banner::Caption)
 }
 
 /// What a mouse event asks for on a screen of that size.
 pub fn pointed(app: &App, screen: Rect, event: &MouseEvent) -> Option<Action> {
-    let areas = Areas::of(screen)?;
+    let areas = Areas::of(screen, banner(caption::of(app).as_ref()))?;
     let at = Position::new(event.column, event.row);
     if app.overlay != Overlay::None {
         let closes = matches!(event.kind, MouseEventKind::Down(_));
@@ -288,29 +314,35 @@ mod tests {
         for width in 60..=300 {
             for height in 20..=100 {
                 let screen = Rect::new(0, 0, width, height);
-                let Some(areas) = Areas::of(screen) else {
-                    panic!("{width} x {height} is large enough")
-                };
-                let all = [
-                    areas.header,
-                    areas.knobs,
-                    areas.map,
-                    areas.centre_line,
-                    areas.life,
-                    areas.point,
-                    areas.status,
-                ];
-                for (i, one) in all.iter().enumerate() {
-                    assert!(one.width > 0 && one.height > 0, "{width} x {height}: {i}");
-                    assert_eq!(one.intersection(screen), *one);
-                    for other in &all[..i] {
-                        assert!(one.intersection(*other).is_empty(), "{width} x {height}");
-                    }
-                }
-                assert_eq!(areas.status.bottom(), height);
+                panels_at(screen, Banner::None);
+                panels_at(screen, Banner::Caption);
             }
         }
-        assert_eq!(Areas::of(Rect::new(0, 0, 59, 20)), None);
-        assert_eq!(Areas::of(Rect::new(0, 0, 60, 19)), None);
+        assert_eq!(Areas::of(Rect::new(0, 0, 59, 20), Banner::None), None);
+        assert_eq!(Areas::of(Rect::new(0, 0, 60, 19), Banner::None), None);
+    }
+
+    fn panels_at(screen: Rect, banner: Banner) {
+        let Some(areas) = Areas::of(screen, banner) else {
+            panic!("{screen} is large enough")
+        };
+        let all = [
+            areas.header,
+            areas.knobs,
+            areas.map,
+            areas.centre_line,
+            areas.life,
+            areas.point,
+            areas.status,
+        ];
+        for (i, one) in all.iter().enumerate() {
+            assert!(one.width > 0 && one.height > 0, "{screen}: {i}");
+            assert_eq!(one.intersection(screen), *one);
+            assert!(one.intersection(areas.caption).is_empty(), "{screen}: {i}");
+            for other in &all[..i] {
+                assert!(one.intersection(*other).is_empty(), "{screen}: {i}");
+            }
+        }
+        assert_eq!(areas.status.bottom(), screen.height);
     }
 }

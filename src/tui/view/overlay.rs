@@ -1,14 +1,15 @@
-//! What lies over the screen: keys, plan, a fault, a lesson's caption.
+//! What lies over the screen: keys, plan, a fault.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType, Borders, Clear, Paragraph, Widget, Wrap};
 
-use crate::tui::action::{Action, DIGITS, Group, KEYS, MOUSE};
+use crate::tui::action::{Action, Group, KEYS, MOUSE};
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
-use crate::tui::view::{ASCII_BORDER, ascii_text};
+use crate::tui::view::knobs::SYMBOLS;
+use crate::tui::view::{ASCII_BORDER, ascii_text, put};
 
 /// Draws a box of a wanted size in the middle and gives the room inside.
 fn boxed(
@@ -46,72 +47,65 @@ fn boxed(
     }
 }
 
-/// The key table.
+/// The key table, in as many columns as fit; headings go where rows are short.
 pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
-    let columns = if within.width >= 92 { 2 } else { 1 };
-    let lines = help_lines(app);
-    let tall = (lines.len().div_ceil(columns) as u16 + 2).min(within.height);
-    // On a small screen headings go, then the columns share the rest.
-    let columns = if columns == 1 && lines.len() as u16 + 2 > within.height {
-        2
-    } else {
-        columns
-    };
-    let wide = if columns == 2 { 94 } else { 52 };
-    let tall = if columns == 2 {
-        (lines.len().div_ceil(2) as u16 + 2).min(within.height)
-    } else {
-        tall
-    };
-    let inner = boxed(
-        app,
-        within,
-        (wide, tall),
-        "keys (? closes)",
-        Role::Key,
-        buffer,
-    );
-    let each = inner.width / columns as u16;
-    for (place, line) in lines.iter().enumerate() {
-        let (column, row) = (
-            place as u16 / inner.height.max(1),
-            place as u16 % inner.height.max(1),
-        );
-        if column >= columns as u16 {
-            break;
-        }
-        let x = inner.x + column * each;
-        buffer.set_line(x, inner.y + row, line, each.saturating_sub(1));
+    let columns = (within.width / 37).clamp(1, 2);
+    let room = usize::from(columns * within.height.saturating_sub(2));
+    let mut lines = help_lines(app);
+    if lines.len() > room {
+        lines.retain(|(heading, _)| *heading != Heading::Yes);
+    }
+    let rows = (lines.len() as u16).div_ceil(columns);
+    let size = (columns * 40 + 4, rows + 2);
+    let inner = boxed(app, within, size, "keys (? closes)", Role::Key, buffer);
+    let each = inner.width / columns;
+    for (place, (_, line)) in lines.iter().enumerate() {
+        let place = place as u16;
+        let (column, row) = (place / rows.max(1), place % rows.max(1));
+        let cell = Rect {
+            x: inner.x + column * each,
+            width: each.saturating_sub(1),
+            ..inner
+        };
+        put(cell, row, line, buffer);
     }
 }
 
-fn help_lines(app: &App) -> Vec<Line<'static>> {
+/// Whether a line of the help screen only names what follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Heading {
+    Yes,
+    No,
+}
+
+fn help_lines(app: &App) -> Vec<(Heading, Line<'static>)> {
     let theme = &app.theme;
-    let row = |keys: &str, help: &'static str| {
-        let keys = if theme.is_ascii() {
-            ascii_keys(keys)
-        } else {
-            keys.to_owned()
-        };
-        Line::from(vec![
-            Span::styled(format!("{keys:>6} "), theme.style(Role::Key)),
-            Span::raw(help),
-        ])
+    let heading = |name: &'static str| {
+        let line = Line::styled(name, theme.style(Role::Title));
+        (Heading::Yes, line)
+    };
+    let row = |keys: &str, help: &str, role: Role| {
+        let line = Line::from(vec![
+            Span::styled(format!("{:>7} ", ascii_keys(app, keys)), theme.style(role)),
+            Span::raw(ascii_text(theme, help)),
+        ]);
+        (Heading::No, line)
     };
     let mut lines = Vec::new();
     for group in Group::ALL {
-        lines.push(Line::styled(group.name(), theme.style(Role::Title)));
-        for binding in KEYS.iter().filter(|binding| binding.group == group) {
-            if offered(app, binding.action) {
-                lines.push(row(binding.shown, binding.help));
-            }
-        }
-        if group == Group::Knobs {
-            lines.push(row(DIGITS.0, DIGITS.1));
-        }
+        lines.push(heading(group.name()));
+        let rows = KEYS.iter().filter(|row| row.group == group);
+        let rows = rows.filter(|row| row.keys.iter().any(|(_, action)| offered(app, *action)));
+        lines.extend(rows.map(|known| row(known.shown, known.help, Role::Key)));
     }
-    lines.push(Line::styled("Mouse", theme.style(Role::Title)));
-    lines.extend(MOUSE.iter().map(|(what, help)| row(what, help)));
+    lines.push(heading("Mouse"));
+    lines.extend(MOUSE.iter().map(|(what, help)| row(what, help, Role::Key)));
+    lines.push(heading("Letters"));
+    lines.extend(
+        SYMBOLS
+            .iter()
+            .map(|(name, meaning)| row(name, meaning, Role::Strong)),
+    );
     lines
 }
 
@@ -125,12 +119,15 @@ fn offered(app: &App, action: Action) -> bool {
     }
 }
 
-fn ascii_keys(keys: &str) -> String {
-    keys.replace('↑', "up")
-        .replace('↓', "dn")
-        .replace('←', "lt")
-        .replace('→', "rt")
-        .replace('⇧', "S-")
+fn ascii_keys(app: &App, keys: &str) -> String {
+    if !app.theme.is_ascii() {
+        return keys.to_owned();
+    }
+    let plain = keys
+        .replace("↑↓", "up dn")
+        .replace("⇧←→ ", "")
+        .replace("←→", "lt rt");
+    ascii_text(&app.theme, &plain)
 }
 
 /// What is computed, what is left out, and why.
@@ -196,49 +193,4 @@ pub(super) fn fault(app: &App, reason: &str, within: Rect, buffer: &mut Buffer) 
     Paragraph::new(text)
         .wrap(Wrap { trim: true })
         .render(inner, buffer);
-}
-
-/// What a lesson, or the scene's script, says now: over the upper edge of the map.
-pub(super) fn caption(app: &App, map: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
-    let (title, text, foot) = match app.tour {
-        Some(tour) => (
-            format!("{} {}", tour.lesson + 1, tour.lesson().title),
-            tour.beat().caption,
-            "n next lesson, t ends",
-        ),
-        None => match scripted(app) {
-            Some(text) => (String::new(), text, ""),
-            None => return,
-        },
-    };
-    let width = map.width.min(72);
-    let room = width.saturating_sub(4).max(1);
-    let rows = text.chars().count() as u16 / room + 1;
-    let within = Rect {
-        y: map.y,
-        height: (rows + 3).min(map.height),
-        ..map
-    };
-    let inner = boxed(app, within, (width, rows + 3), &title, Role::Key, buffer);
-    Paragraph::new(vec![
-        Line::raw(ascii_text(theme, text)),
-        Line::styled(foot, theme.style(Role::Dim)),
-    ])
-    .wrap(Wrap { trim: true })
-    .render(inner, buffer);
-}
-
-/// The caption of the last scripted event, while it is fresh (half a passage).
-fn scripted(app: &App) -> Option<&str> {
-    let frame = app.frame()?;
-    let fresh = 2.0 * frame.a_m / frame.metrics.entrainment_m_s.abs().max(1e-9);
-    app.setup
-        .scene
-        .events
-        .iter()
-        .filter(|event| !event.caption.is_empty())
-        .filter(|event| (event.at_s..event.at_s + fresh).contains(&frame.time_s))
-        .next_back()
-        .map(|event| event.caption.as_str())
 }

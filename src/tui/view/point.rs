@@ -9,7 +9,7 @@ use crate::sim::Frame;
 use crate::tui::app::{App, PointQuantity};
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
-use crate::tui::units::{sig, sig_or_dash};
+use crate::tui::units::{sig, sig_or_dash, tick};
 use crate::tui::view::chart::{Chart, Pen};
 use crate::tui::view::{Areas, Density, ascii_text, panel, put, put_right, title};
 
@@ -27,7 +27,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         return;
     };
     let words = if areas.density == Density::Full {
-        34
+        26
     } else {
         20
     };
@@ -229,10 +229,10 @@ fn axis(app: &App, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
     put_right(
         left,
         0,
-        &Line::styled(sig(pressure.of(range[1]), 2), dim),
+        &Line::styled(tick(pressure.of(range[1])), dim),
         buffer,
     );
-    let foot = sig(pressure.of(range[0]), 2);
+    let foot = tick(pressure.of(range[0]));
     put_right(left, plot.height - 1, &Line::styled(foot, dim), buffer);
     if plot.height >= 4 {
         put_right(left, 1, &Line::styled(pressure.name, dim), buffer);

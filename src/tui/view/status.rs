@@ -123,8 +123,7 @@ fn regime(metrics: &Metrics) -> (&'static str, Role) {
 
 fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
     let theme = &app.theme;
-    let (recorder, role) = recorder(app);
-    let recorder = Line::styled(ascii_text(theme, &recorder), theme.style(role));
+    let recorder = recorder(app);
     let room = Rect {
         width: area.width.saturating_sub(recorder.width() as u16 + 1),
         ..area
@@ -171,23 +170,30 @@ fn hints(app: &App) -> Vec<(&'static str, &'static str)> {
     hints
 }
 
-fn recorder(app: &App) -> (String, Role) {
+fn recorder(app: &App) -> Line<'static> {
+    let theme = &app.theme;
+    let dim = theme.style(Role::Dim);
     let Some(recorder) = &app.status.recorder else {
-        return ("not recording ".to_owned(), Role::Dim);
+        return Line::styled("not recording ", dim);
     };
     let (word, role) = match recorder.activity {
-        RecorderActivity::Recording => (app.theme.pick("● rec", "* rec"), Role::Bad),
-        RecorderActivity::Paused => (app.theme.pick("‖ rec paused", "= rec paused"), Role::Warn),
-        RecorderActivity::Stopped => (app.theme.pick("■ rec stopped", "# rec stopped"), Role::Warn),
+        RecorderActivity::Recording => (theme.pick("● rec ", "* rec "), Role::Pressure),
+        RecorderActivity::Paused => (theme.pick("‖ rec paused ", "= rec paused "), Role::Warn),
+        RecorderActivity::Stopped => (theme.pick("■ rec stopped ", "# rec stopped "), Role::Bad),
     };
-    let mut text = format!(
-        "{word} {} {} frames",
-        bytes(recorder.bytes),
-        recorder.frames
-    );
-    if recorder.skipped > 0 {
-        text.push_str(&format!(" {} skipped", recorder.skipped));
-    }
-    text.push(' ');
-    (text, role)
+    let skipped = match recorder.skipped {
+        0 => String::new(),
+        skipped => format!("{skipped} skipped "),
+    };
+    Line::from(vec![
+        Span::styled(word, theme.style(role)),
+        Span::styled(
+            format!(
+                "{} {} frames {skipped}",
+                bytes(recorder.bytes),
+                recorder.frames
+            ),
+            dim,
+        ),
+    ])
 }
