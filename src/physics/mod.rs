@@ -8,3 +8,4 @@ pub mod invariants;
 pub mod stress_exact;
 pub mod stress_exact_patch;
 pub mod waviness;
+pub mod estimate;
