@@ -40,7 +40,7 @@ pub(super) struct Shown {
     pub(super) centre_line: PlotBox,
     pub(super) slice: Option<PlotBox>,
     pub(super) trace: Option<PlotBox>,
-    pub(super) kymograph: Option<PlotBox>,
+    pub(super) kymograph: PlotBox,
     /// Target and position of the camera.
     pub(super) camera: Option<[[f64; 3]; 2]>,
     pub(super) rough: [bool; 2],
@@ -207,7 +207,13 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     ));
     lower_shares.push(1.0);
     let last = if shown.life {
-        views.series("Relative life (log10)", &["life/log10_relative"])
+        let view = views.series(
+            "Relative life, log10 (grey: band)",
+            &["life/log10_relative"],
+        );
+        // The title says it, and the curves need the room.
+        views.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+        view
     } else {
         views.series("Pressure", &["series/pressure_GPa"])
     };
@@ -219,7 +225,7 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
             .with_column_shares(lower_shares)
             .into(),
     ])
-    .with_row_shares(vec![1.2, 1.0])
+    .with_row_shares(vec![1.1, 1.0])
     .with_name("Contact")
     .into()
 }
@@ -251,15 +257,12 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
             Margin::Legend,
         ));
     }
-    if let Some(plot) = &shown.kymograph {
-        let entity = kymograph::PRESSURE;
-        all.push(views.plot(
-            "Pressure along y = 0 against time",
-            &[entity],
-            plot,
-            Margin::Legend,
-        ));
-    }
+    all.push(views.plot(
+        "Pressure along y = 0 against time",
+        &[kymograph::PRESSURE],
+        &shown.kymograph,
+        Margin::Legend,
+    ));
     Grid::new(all).with_grid_columns(3).with_name("Maps").into()
 }
 

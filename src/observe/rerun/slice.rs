@@ -118,6 +118,7 @@ impl Slice {
         stream: &Stream,
         geometry: Geometry,
         first: &Frame,
+        pressure_top_pa: f64,
     ) -> Result<Option<Self>, ObserveError> {
         let Some(slice) = &first.slice else {
             return Ok(None);
@@ -131,8 +132,11 @@ impl Slice {
                 .fold(0.0_f32, |top, value| top.max(value.abs()));
             1.05 * f64::from(top)
         };
-        let top = greatest(&slice.effective_pa).max(0.65 * first.p_hertz_pa);
-        let shear = greatest(&slice.tau_xz_pa).max(0.25 * first.p_hertz_pa);
+        // One frame does not tell what others hold. Below a spike of pressure the effective stress
+        // reaches about 0.55 of it and the shear 0.2 of it (a line contact's, in its own size), and
+        // the spikes' range is known from the map.
+        let top = greatest(&slice.effective_pa).max(0.42 * pressure_top_pa);
+        let shear = greatest(&slice.tau_xz_pa).max(0.15 * pressure_top_pa);
         let effective = Scale::up_to(top, GPA, Sign::Positive, Colormap::Magma, 8.0);
         let tau_xz = Scale::up_to(shear, GPA, Sign::Both, Colormap::CyanToYellow, 4.0);
         let scales = [(EFFECTIVE, effective.clone()), (TAU_XZ, tau_xz.clone())];

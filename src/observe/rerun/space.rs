@@ -8,7 +8,7 @@
 use rerun::{AlbedoFactor, Arrows3D, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
 
 use super::colour::{GREEN, GREY, ORANGE, Ramp, SKY, WHITE, faded};
-use super::geometry::{Geometry, MM, number, ticks};
+use super::geometry::{Geometry, MM, divisions, number, ticks};
 use super::maps::GPA;
 use super::mesh::{Window, triangles};
 use super::slice::Rows;
@@ -108,8 +108,8 @@ impl Space {
     /// A point to look at and one to look from.
     pub(super) fn camera(&self) -> [[f64; 3]; 2] {
         let a = self.geometry.a;
-        let target = [0.14 * a, 0.2 * a, -0.45 * a];
-        [target, [-1.15 * a, -3.6 * a, 1.1 * a]]
+        let target = [0.16 * a, 0.2 * a, -0.5 * a];
+        [target, [-1.15 * a, -3.3 * a, 1.55 * a]]
     }
 
     /// Logs one frame; returns the bytes.
@@ -402,7 +402,7 @@ impl Space {
         let top = top_pa * GPA.1;
         let mut at = vec![[left, 0.0, high + 0.27 * a]];
         let mut texts = vec![title.to_owned()];
-        for value in ticks(0.0, top, 3) {
+        for value in divisions(top) {
             at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
             texts.push(number(value));
         }

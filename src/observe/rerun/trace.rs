@@ -5,7 +5,7 @@ use rerun::{Points2D, Radius};
 
 use super::centre_line::line;
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, faded};
-use super::geometry::{Geometry, MM, ticks};
+use super::geometry::{Geometry, MM, divisions, ticks};
 use super::maps::GPA;
 use super::plot::{PlotBox, ticks_at};
 use super::stream::Stream;
@@ -41,7 +41,7 @@ impl Trace {
             x,
             y: [-height, 0.0],
             x_ticks: ticks_at(&ticks(x[0], x[1], 8), |x| x),
-            left_ticks: ticks_at(&ticks(0.0, top, 5), |p| -height * p / top),
+            left_ticks: ticks_at(&divisions(top), |p| -height * p / top),
             x_title: "where the point is: x, mm".into(),
             titles: vec![
                 (0.02, "GPa".into(), WHITE),
