@@ -59,8 +59,8 @@ impl CentreLine {
         &self.plot
     }
 
-    /// Logs one frame's curves; returns the bytes.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+    /// Logs one frame's curves.
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let g = self.geometry;
         let row = g.centre_row() * g.nx..(g.centre_row() + 1) * g.nx;
         self.log_hertz(stream, frame)?;
@@ -70,8 +70,7 @@ impl CentreLine {
             &line(&pressure, ORANGE, 1.5),
         )?;
         let film = self.curves(&frame.film_m[row], self.film_top_m);
-        stream.log(&format!("{CENTRE_LINE}/film_um"), &line(&film, SKY, 1.5))?;
-        Ok(16 * g.nx as u64)
+        stream.log(&format!("{CENTRE_LINE}/film_um"), &line(&film, SKY, 1.5))
     }
 
     /// Hertz's ellipse, logged when the load has changed.

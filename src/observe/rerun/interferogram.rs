@@ -68,8 +68,8 @@ impl Interferogram {
         &self.plot
     }
 
-    /// Logs one frame; returns the bytes.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+    /// Logs one frame.
+    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let pixels = self.pixels();
         let mut bytes = Vec::with_capacity(pixels.columns * pixels.rows);
         for row in (0..pixels.rows).rev() {
@@ -77,9 +77,7 @@ impl Interferogram {
                 bytes.push(class(self.film(&frame.film_m, column, row)));
             }
         }
-        let n = bytes.len() as u64;
-        stream.log(&format!("{INTERFEROGRAM}/image"), &classes(bytes))?;
-        Ok(n)
+        stream.log(&format!("{INTERFEROGRAM}/image"), &classes(bytes))
     }
 
     /// The film at a pixel, m; rows count from the least y.

@@ -108,17 +108,17 @@ impl Kymograph {
         self.rows = rows;
     }
 
-    /// Logs the picture when an eighth has been added; returns the bytes.
-    pub(super) fn log_if_due(&mut self, stream: &Stream) -> Result<u64, ObserveError> {
+    /// Logs the picture when an eighth has been added.
+    pub(super) fn log_if_due(&mut self, stream: &Stream) -> Result<(), ObserveError> {
         let due = self.rows >= self.rows_logged + self.expected_rows.div_ceil(8)
             || (self.rows == self.expected_rows && self.rows > self.rows_logged);
-        if due { self.log(stream) } else { Ok(0) }
+        if due { self.log(stream) } else { Ok(()) }
     }
 
-    /// Logs the picture as it is now; returns the bytes.
-    pub(super) fn log(&mut self, stream: &Stream) -> Result<u64, ObserveError> {
+    /// Logs the picture as it is now.
+    pub(super) fn log(&mut self, stream: &Stream) -> Result<(), ObserveError> {
         if self.rows == self.rows_logged {
-            return Ok(0);
+            return Ok(());
         }
         self.rows_logged = self.rows;
         self.raster.log(stream, self.values.iter().copied())

@@ -125,16 +125,16 @@ impl Maps {
         [self.roughness[0].is_some(), self.roughness[1].is_some()]
     }
 
-    /// Logs one frame's maps; returns the bytes.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+    /// Logs one frame's maps.
+    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let g = self.geometry;
-        let mut bytes = self.pressure.log(stream, top_down(g, &frame.pressure_pa))?;
-        bytes += self.film.log(stream, top_down(g, &frame.film_m))?;
-        bytes += self.traction.log(stream, top_down(g, &frame.traction_pa))?;
+        self.pressure.log(stream, top_down(g, &frame.pressure_pa))?;
+        self.film.log(stream, top_down(g, &frame.film_m))?;
+        self.traction.log(stream, top_down(g, &frame.traction_pa))?;
         let fields = [&frame.roughness_1_m, &frame.roughness_2_m];
         for (raster, field) in self.roughness.iter().zip(fields) {
             if let Some(raster) = raster {
-                bytes += raster.log(stream, top_down(g, field))?;
+                raster.log(stream, top_down(g, field))?;
             }
         }
         let top = self.film_top_m() as f32;
@@ -147,9 +147,8 @@ impl Maps {
                 _ => CLASS_CONTACT,
             })
             .collect();
-        bytes += spots.len() as u64;
         stream.log(CONTACT, &classes(spots))?;
-        Ok(bytes + self.interferogram.log(stream, frame)?)
+        self.interferogram.log(stream, frame)
     }
 }
 

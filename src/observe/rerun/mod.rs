@@ -11,6 +11,7 @@
 mod cadence;
 mod centre_line;
 mod colour;
+mod file;
 mod geometry;
 mod interferogram;
 mod kymograph;

@@ -172,12 +172,10 @@ impl Raster {
         &self,
         stream: &Stream,
         values_si: impl ExactSizeIterator<Item = f32>,
-    ) -> Result<u64, ObserveError> {
+    ) -> Result<(), ObserveError> {
         let bytes = self.scale.quantise(values_si);
-        let n = bytes.len() as u64;
         let data = DepthImage::update_fields().with_buffer(ImageBuffer::from(bytes));
-        stream.log(&self.image, &data)?;
-        Ok(n)
+        stream.log(&self.image, &data)
     }
 }
 

@@ -64,8 +64,8 @@ impl Recorder {
         })
     }
 
-    /// Logs one frame; returns about how many bytes.
-    fn log_frame(&mut self, frame: &Frame) -> Result<u64, ObserveError> {
+    /// Logs one frame.
+    fn log_frame(&mut self, frame: &Frame) -> Result<(), ObserveError> {
         self.stream
             .set_time(frame.step, frame.time_s, frame.passages);
         let views = match &mut self.views {
@@ -86,13 +86,16 @@ impl Recorder {
             ));
         }
         let stream = &self.stream;
-        let mut bytes = series::log(stream, frame)?;
-        views.follow(frame);
-        if views.cadence.takes(frame.step) {
-            bytes += text::log_now(stream, frame, &self.caption)?;
-            bytes += views.log(stream, frame)?;
+        let due = views.cadence.due(frame.step);
+        if due.scalars {
+            series::log(stream, frame)?;
         }
-        Ok(bytes)
+        views.follow(frame);
+        if due.fields {
+            text::log_now(stream, frame, &self.caption)?;
+            views.log(stream, frame)?;
+        }
+        Ok(())
     }
 }
 
@@ -170,20 +173,20 @@ impl Views {
         self.kymograph.follow(frame);
     }
 
-    /// The fields of a frame; returns the bytes.
-    fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
-        let mut bytes = self.maps.log(stream, frame)?;
-        bytes += self.centre_line.log(stream, frame)?;
+    /// The fields of a frame.
+    fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        self.maps.log(stream, frame)?;
+        self.centre_line.log(stream, frame)?;
         if let Some(slice) = &self.slice {
-            bytes += slice.log(stream, frame)?;
+            slice.log(stream, frame)?;
         }
         if let Some(space) = &mut self.space {
-            bytes += space.log(stream, frame)?;
+            space.log(stream, frame)?;
         }
         if let Some(trace) = &self.trace {
-            bytes += trace.log(stream, frame)?;
+            trace.log(stream, frame)?;
         }
-        Ok(bytes + self.kymograph.log_if_due(stream)?)
+        self.kymograph.log_if_due(stream)
     }
 }
 
@@ -198,14 +201,14 @@ impl Observer for Recorder {
         if frame.stage == Stage::StartUp {
             return Ok(());
         }
-        let bytes = self.log_frame(frame)?;
+        self.log_frame(frame)?;
+        self.stream.check()?;
         self.frames += 1;
-        self.stream.logged(bytes)?;
         let on_disk = self.stream.bytes();
         let thinned = self
             .views
             .as_mut()
-            .and_then(|views| views.cadence.watch(frame, on_disk));
+            .and_then(|views| views.cadence.watch(frame.step, on_disk));
         if let Some(note) = thinned {
             text::log_line(&self.stream, &note, TextLogLevel::WARN)?;
         }
@@ -251,6 +254,7 @@ fn expected_steps(scene: Option<&Scene>, first: &Frame) -> f64 {
 /// Raw bytes of one frame's fields, roughly: what the first cadence is decided from.
 fn frame_bytes(g: Geometry) -> u64 {
     let nodes = (g.nx * g.ny) as u64;
-    // Five maps of two bytes and two of one; the slice's two images; the sheets of the 3-D view.
-    12 * nodes + 4 * nodes * 3 / 4 + 100_000
+    // Five maps of two bytes and one of one; the interferogram of four; the slice's two images; the
+    // sheets of the 3-D view.
+    (11 + 4 + 3) * nodes + 130_000
 }

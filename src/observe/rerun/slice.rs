@@ -172,41 +172,23 @@ impl Slice {
         &self.scales
     }
 
-    /// Logs one frame's slice; returns the bytes. A frame without a slice changes nothing.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+    /// Logs one frame's slice. A frame without a slice changes nothing.
+    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let nx = self.geometry.nx;
         let Some(slice) = frame.slice.as_ref().filter(|s| self.rows.hold(s, nx)) else {
-            return Ok(0);
+            return Ok(());
         };
         let image = |field: &'_ [f32]| -> Vec<f32> {
             (0..self.rows.len() * nx)
                 .map(|at| self.rows.value(field, nx, at / nx, at % nx))
                 .collect()
         };
-        let mut bytes = self
-            .effective
+        self.effective
             .log(stream, image(&slice.effective_pa).into_iter())?;
-        bytes += self
-            .tau_xz
+        self.tau_xz
             .log(stream, image(&slice.tau_xz_pa).into_iter())?;
-        self.log_peak(stream, frame)?;
-        self.log_point(stream, frame)?;
-        Ok(bytes + 400)
-    }
-
-    /// A dot where the effective stress is greatest.
-    fn log_peak(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        let metrics = &frame.metrics;
-        let (Some(depth), Some(x)) = (metrics.sigma_eff_max_depth_m, metrics.sigma_eff_max_x_m)
-        else {
-            return Ok(());
-        };
-        let at = [(x * MM) as f32, (depth * MM) as f32];
-        let ring = Points2D::new([at])
-            .with_radii([Radius::new_ui_points(3.5)])
-            .with_colors([faded([255, 255, 255], 255)])
-            .with_draw_order(25.0);
-        stream.log(PEAK, &ring)
+        log_peak(stream, frame)?;
+        self.log_point(stream, frame)
     }
 
     /// The followed point and the depth on which it travels.
@@ -231,6 +213,20 @@ impl Slice {
             .with_draw_order(26.0);
         stream.log(&format!("{POINT}/now"), &now)
     }
+}
+
+/// A dot where the effective stress is greatest.
+fn log_peak(stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    let metrics = &frame.metrics;
+    let (Some(depth), Some(x)) = (metrics.sigma_eff_max_depth_m, metrics.sigma_eff_max_x_m) else {
+        return Ok(());
+    };
+    let at = [(x * MM) as f32, (depth * MM) as f32];
+    let ring = Points2D::new([at])
+        .with_radii([Radius::new_ui_points(3.5)])
+        .with_colors([faded([255, 255, 255], 255)])
+        .with_draw_order(25.0);
+    stream.log(PEAK, &ring)
 }
 
 fn plot_box(g: Geometry, rows: &Rows) -> PlotBox {

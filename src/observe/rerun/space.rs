@@ -112,11 +112,9 @@ impl Space {
         [target, [-1.15 * a, -3.3 * a, 1.55 * a]]
     }
 
-    /// Logs one frame; returns the bytes.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
-        let nodes = self.window.nodes().len() as u64;
+    /// Logs one frame.
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         self.log_film(stream, frame)?;
-        let mut bytes = 16 * nodes;
         let bodies = [
             (
                 0,
@@ -137,14 +135,12 @@ impl Space {
             // A smooth body's sheet is flat and was logged once.
             if self.tops.rough[body] {
                 self.log_body(stream, name, level, side * self.exaggeration, field)?;
-                bytes += 16 * nodes;
             }
         }
-        bytes += self.log_slice(stream, frame)?;
+        self.log_slice(stream, frame)?;
         self.log_spots(stream, frame)?;
         self.log_point(stream, frame)?;
-        self.log_speeds(stream, &frame.metrics)?;
-        Ok(bytes + 300)
+        self.log_speeds(stream, &frame.metrics)
     }
 
     fn log_film(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
@@ -186,15 +182,15 @@ impl Space {
         stream.log(&format!("{SPACE}/{name}"), &sheet)
     }
 
-    fn log_slice(&self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+    fn log_slice(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let (Some(sheet), Some(slice), Some(top)) =
             (&self.slice, &frame.slice, self.tops.effective_pa)
         else {
-            return Ok(0);
+            return Ok(());
         };
         let nx = self.geometry.nx;
         if !sheet.rows.hold(slice, nx) {
-            return Ok(0);
+            return Ok(());
         }
         let value = |row, &i: &usize| sheet.rows.value(&slice.effective_pa, nx, row, i);
         let colours = (0..sheet.rows.len()).flat_map(|row| {
@@ -202,8 +198,7 @@ impl Space {
             stress.map(|stress| Ramp::Magma.colour(stress / top as f32, 1.0))
         });
         let mesh = Mesh3D::update_fields().with_vertex_colors(colours);
-        stream.log(&format!("{SPACE}/effective_stress_slice"), &mesh)?;
-        Ok(4 * (sheet.rows.len() * sheet.columns.len()) as u64)
+        stream.log(&format!("{SPACE}/effective_stress_slice"), &mesh)
     }
 
     /// Where the bodies touch, on the film's sheet.

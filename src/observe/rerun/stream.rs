@@ -1,25 +1,20 @@
-//! The file that is recorded to: opening, logging, flushing, closing, and the errors of each.
-//!
-//! The library's `log` returns `Ok` on a full disk; only a flush tells. So the stream is flushed
-//! whenever [`FLUSH_BYTES`] have been logged or [`FLUSH_EVERY`] has passed, which also bounds what
-//! waits in memory and what a killed process loses.
+//! The stream that is recorded to: opening, logging, closing, and the errors of each.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use rerun::log::ChunkBatcherConfig;
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder};
 
+use super::file::RecordingFile;
 use crate::observe::{ObserveError, Overwrite};
 
 /// Name under which viewers group recordings and remember layouts.
 pub(super) const APPLICATION: &str = "asperity";
-/// Most bytes that wait unflushed.
-const FLUSH_BYTES: u64 = 20_000_000;
-/// Longest time between flushes.
-const FLUSH_EVERY: Duration = Duration::from_secs(5);
-/// Longest wait for a flush; a disk that needs longer has failed.
-const FLUSH_TIMEOUT: Duration = Duration::from_secs(60);
+/// Most bytes that wait for the disk; logging waits when there are more.
+const WAITING_BYTES: u64 = 32 * 1024 * 1024;
+/// Longest wait for the last bytes on closing.
+const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
 /// What is logged reaches the file's writer at least this often: what `kill -9` may lose.
 const TICK: Duration = Duration::from_secs(1);
 
@@ -33,20 +28,23 @@ pub(super) const PASSAGE: &str = "passage_x1000";
 /// A recording that is being written.
 pub(super) struct Stream {
     recording: RecordingStream,
+    file: RecordingFile,
     path: PathBuf,
-    waiting_bytes: u64,
-    flushed_at: Instant,
     closed: bool,
 }
 
 impl Stream {
     /// Opens the file.
     pub(super) fn create(path: &Path, overwrite: Overwrite) -> Result<Self, ObserveError> {
-        // The library truncates without asking, so the file is claimed first.
-        drop(overwrite.create(path)?);
+        let failed = |reason: String| {
+            let reason = format!("the recording could not be started: {reason}");
+            ObserveError::new(path.display().to_string(), reason)
+        };
+        let file = RecordingFile::start(overwrite.create(path)?).map_err(failed)?;
         let batching = ChunkBatcherConfig {
             flush_tick: TICK,
             flush_num_bytes: 4 * 1024 * 1024,
+            max_bytes_in_flight: WAITING_BYTES,
             ..ChunkBatcherConfig::DEFAULT
         };
         // `enabled` is set because the variable RERUN=off would make a silent no-op of a recording
@@ -54,19 +52,16 @@ impl Stream {
         let recording = RecordingStreamBuilder::new(APPLICATION)
             .enabled(true)
             .batcher_config(batching)
-            .save(path)
-            .map_err(|error| {
-                let reason = format!("the recording could not be started: {error}");
-                ObserveError::new(path.display().to_string(), reason)
-            })?;
+            .buffered()
+            .map_err(|error| failed(error.to_string()))?;
+        recording.set_sink(Box::new(file.clone()));
         // Wall-clock time says nothing about the physics and makes every file differ.
         recording.set_log_time_enabled(false);
         recording.set_log_tick_enabled(false);
         Ok(Self {
             recording,
+            file,
             path: path.to_owned(),
-            waiting_bytes: 0,
-            flushed_at: Instant::now(),
             closed: false,
         })
     }
@@ -112,44 +107,34 @@ impl Stream {
             .set_time_sequence(PASSAGE, (passages * 1000.0).round() as i64);
     }
 
-    /// Says that about `bytes` were logged; flushes when it is due.
-    pub(super) fn logged(&mut self, bytes: u64) -> Result<(), ObserveError> {
-        self.waiting_bytes += bytes;
-        if self.waiting_bytes < FLUSH_BYTES && self.flushed_at.elapsed() < FLUSH_EVERY {
-            return Ok(());
-        }
-        self.flush()
-    }
-
-    fn flush(&mut self) -> Result<(), ObserveError> {
-        self.waiting_bytes = 0;
-        self.flushed_at = Instant::now();
-        self.recording
-            .flush_with_timeout(FLUSH_TIMEOUT)
-            .map_err(|error| self.failed(&error.to_string()))
+    /// An error if the file has failed since.
+    pub(super) fn check(&self) -> Result<(), ObserveError> {
+        self.file
+            .error()
+            .map_or(Ok(()), |reason| Err(self.failed(&reason)))
     }
 
     /// Bytes in the file by now.
     pub(super) fn bytes(&self) -> u64 {
-        std::fs::metadata(&self.path).map_or(0, |data| data.len())
+        self.file.bytes()
     }
 
     /// Writes what waits and the footer.
     pub(super) fn close(&mut self) -> Result<(), ObserveError> {
         if self.closed {
-            return Ok(());
+            return self.check();
         }
         self.closed = true;
-        let flushed = self.flush();
-        self.recording.finalize_deferred_sinks();
-        flushed
+        let flushed = self.recording.flush_with_timeout(CLOSE_TIMEOUT);
+        self.file.finish().map_err(|reason| self.failed(&reason))?;
+        flushed.map_err(|error| self.failed(&error.to_string()))
     }
 
     fn failed(&self, reason: &str) -> ObserveError {
         ObserveError::new(
             self.output(),
             format!(
-                "the recording could not be written ({reason}); what was flushed before stays \
+                "the recording could not be written ({reason}); what was written before stays \
                  readable. Is the disk full?"
             ),
         )

@@ -69,12 +69,10 @@ pub(super) fn log_notes<'a>(
     stream.log_static(NOTES, &TextDocument::from_markdown(notes))
 }
 
-/// The caption that holds and the numbers of a frame; returns the bytes.
-pub(super) fn log_now(stream: &Stream, frame: &Frame, caption: &str) -> Result<u64, ObserveError> {
+/// The caption that holds and the numbers of a frame.
+pub(super) fn log_now(stream: &Stream, frame: &Frame, caption: &str) -> Result<(), ObserveError> {
     let text = now(frame, caption);
-    let bytes = text.len() as u64;
-    stream.log(NOW, &TextDocument::from_markdown(text))?;
-    Ok(bytes)
+    stream.log(NOW, &TextDocument::from_markdown(text))
 }
 
 fn now(frame: &Frame, caption: &str) -> String {

@@ -100,10 +100,10 @@ impl Trace {
         [(point.x_m * MM) as f32, (self.plot.y[0] * share) as f32]
     }
 
-    /// Logs the trace up to this frame; returns the bytes.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+    /// Logs the trace up to this frame.
+    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let Some(point) = &frame.material_point else {
-            return Ok(0);
+            return Ok(());
         };
         let curve = |name: &str, trace: &Vec<[f32; 2]>, colour, radius| {
             let strips: &[Vec<[f32; 2]>] = std::slice::from_ref(trace);
@@ -136,8 +136,6 @@ impl Trace {
             .with_labels([String::new(), label])
             .with_show_labels(true)
             .with_draw_order(30.0);
-        stream.log(&format!("{TRACE}/now"), &now)?;
-        let points = self.before.len() + self.pressure.len() + self.effective.len();
-        Ok(8 * points as u64 + 200)
+        stream.log(&format!("{TRACE}/now"), &now)
     }
 }
