@@ -133,9 +133,9 @@ impl Slice {
             1.05 * f64::from(top)
         };
         // One frame does not tell what others hold. Below a spike of pressure the effective stress
-        // reaches about 0.55 of it and the shear 0.2 of it (a line contact's, in its own size), and
+        // reaches about 0.5 of it and the shear 0.2 of it (a line contact's, in its own size), and
         // the spikes' range is known from the map.
-        let top = greatest(&slice.effective_pa).max(0.42 * pressure_top_pa);
+        let top = greatest(&slice.effective_pa).max(0.38 * pressure_top_pa);
         let shear = greatest(&slice.tau_xz_pa).max(0.15 * pressure_top_pa);
         let effective = Scale::up_to(top, GPA, Sign::Positive, Colormap::Magma, 8.0);
         let tau_xz = Scale::up_to(shear, GPA, Sign::Both, Colormap::CyanToYellow, 4.0);

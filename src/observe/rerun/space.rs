@@ -8,7 +8,7 @@
 use rerun::{AlbedoFactor, Arrows3D, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
 
 use super::colour::{GREEN, GREY, ORANGE, Ramp, SKY, WHITE, faded};
-use super::geometry::{Geometry, MM, divisions, number, ticks};
+use super::geometry::{Geometry, MM, number, ticks};
 use super::maps::GPA;
 use super::mesh::{Window, triangles};
 use super::slice::Rows;
@@ -397,7 +397,7 @@ impl Space {
         let top = top_pa * GPA.1;
         let mut at = vec![[left, 0.0, high + 0.27 * a]];
         let mut texts = vec![title.to_owned()];
-        for value in divisions(top) {
+        for value in [0.0, 0.5 * top, top] {
             at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
             texts.push(number(value));
         }
