@@ -1,5 +1,6 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
+pub mod estimate;
 pub mod film_regression;
 pub mod fluid;
 pub mod groups;
@@ -8,4 +9,3 @@ pub mod invariants;
 pub mod stress_exact;
 pub mod stress_exact_patch;
 pub mod waviness;
-pub mod estimate;
