@@ -1,5 +1,6 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
+pub mod estimate;
 pub mod film_regression;
 pub mod fluid;
 pub mod groups;
