@@ -224,9 +224,8 @@ pub enum PlanError {
 
 /// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
 const PHASES: u64 = 16;
-/// Lengths of 4 a at U that the start-up marches, on all its grids together: the film is flushed
-/// after 3.5 a on each grid.
-const START_UP_PASSAGES: f64 = 1.5;
+/// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
+const START_UP_PASSAGES: f64 = 2.5;
 
 impl Plan {
     /// Decides what a validated scene needs.
