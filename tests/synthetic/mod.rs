@@ -12,7 +12,7 @@ use asperity::scene::{
 use asperity::sim::{Frame, LifeEstimate, MaterialPoint, Metrics, Stage, StressSlice};
 
 /// Half-width, m.
-pub const A: f64 = 0.47e-3;
+pub(crate) const A: f64 = 0.47e-3;
 const P_HERTZ: f64 = 1.73e9;
 const RADIUS: f64 = 0.01905;
 const AMPLITUDE: f64 = 2.0e-7;
@@ -22,7 +22,7 @@ const SLIDE_ROLL: f64 = 0.5;
 const H_CENTRAL: f64 = 3.2e-7;
 
 /// A scene of `nodes` per side and so many passages.
-pub fn scene(nodes: usize, passages: f64) -> Scene {
+pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
     let surface = |wavelength_y_m| Surface::Sinusoid {
         amplitude_m: AMPLITUDE,
         wavelength_x_m: WAVELENGTH,
@@ -71,7 +71,7 @@ pub fn scene(nodes: usize, passages: f64) -> Scene {
 }
 
 /// What an observer is told before the first frame.
-pub fn context(scene: Scene) -> RunContext {
+pub(crate) fn context(scene: Scene) -> RunContext {
     RunContext {
         scene_toml: "title = \"Synthetic passage\"\n[motion]\nslide_roll = 0.5\n".into(),
         plan_text: "film: synthetic\nstress: synthetic\n".into(),
@@ -99,7 +99,7 @@ fn roughness(body: u8, x: f64, y: f64, t: f64) -> f64 {
 }
 
 /// Frame number `step` of a passage on `n` by `n` nodes.
-pub fn frame(n: usize, step: u64) -> Arc<Frame> {
+pub(crate) fn frame(n: usize, step: u64) -> Arc<Frame> {
     let dx = 4.0 * A / (n - 1) as f64;
     let t = step as f64 * dx / ENTRAINMENT;
     let (x_min, y_min) = (-2.5 * A, -2.0 * A);

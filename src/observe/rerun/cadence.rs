@@ -23,6 +23,8 @@ pub(super) struct Cadence {
     budget: f64,
     /// Steps that the scene asks for.
     expected_steps: f64,
+    /// The next step whose fields are recorded: the first one always is.
+    next_step: u64,
     /// Next share of the budget at which a run without a known end is thinned.
     next_share: f64,
 }
@@ -40,13 +42,18 @@ impl Cadence {
             asked,
             budget,
             expected_steps,
+            next_step: 0,
             next_share: 0.5,
         }
     }
 
-    /// Whether a step's fields are recorded.
-    pub(super) fn takes(&self, step: u64) -> bool {
-        step.is_multiple_of(self.every)
+    /// Whether a step's fields are recorded. Asked once for each step.
+    pub(super) fn takes(&mut self, step: u64) -> bool {
+        let takes = step >= self.next_step;
+        if takes {
+            self.next_step = step + self.every;
+        }
+        takes
     }
 
     /// What was decided, in words.
@@ -64,7 +71,7 @@ impl Cadence {
             ", within".to_owned()
         };
         format!(
-            "Scalars are recorded in every step; maps, slice and 3-D view in {every}{why} the budget \
+            "Scalars are recorded in every step that was handed to the recording; maps, slice and 3-D view in {every}{why} the budget \
              of {:.0} MB.",
             self.budget * 1e-6
         )

@@ -3,7 +3,7 @@
 use rerun::{LineStrips2D, Radius};
 
 use super::colour::{GREY, ORANGE, SKY, faded};
-use super::geometry::{Geometry, MM, ticks};
+use super::geometry::{Geometry, MM, divisions, ticks};
 use super::maps::GPA;
 use super::plot::{PlotBox, points, ticks_at};
 use super::stream::Stream;
@@ -38,11 +38,10 @@ impl CentreLine {
             x,
             y: [-height, 0.0],
             x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
-            left_ticks: ticks_at(&ticks(0.0, p_top, 5), up(p_top)),
-            right_ticks: ticks_at(&ticks(0.0, h_top, 5), up(h_top)),
+            left_ticks: ticks_at(&divisions(p_top), up(p_top)),
+            right_ticks: ticks_at(&divisions(h_top), up(h_top)),
             x_title: "x, mm   (grey: Hertz)".into(),
-            left_title: "p, GPa".into(),
-            right_title: "h, µm".into(),
+            titles: vec![(0.1, "p, GPa".into(), ORANGE), (0.9, "h, µm".into(), SKY)],
             left_colour: Some(ORANGE),
             right_colour: Some(SKY),
         };

@@ -80,9 +80,9 @@ pub(super) const LIGHTS_NM: [f64; 3] = [640.0, 540.0, 450.0];
 
 /// What an optical rig shows for a film of `h_um`: three lights, each of intensity
 /// `(1 - cos(4 pi n h / lambda) exp(-(h/h_c)^2))/2`, dark at contact; the coherence length
-/// h_c = 1.2 um lets high fringes fade as in white light.
+/// h_c = 0.7 um lets high fringes fade as in white light.
 pub(super) fn interference(h_um: f64) -> [u8; 3] {
-    let fade = (-(h_um / 1.2).powi(2)).exp();
+    let fade = (-(h_um / 0.7).powi(2)).exp();
     LIGHTS_NM.map(|lambda_nm| {
         let phase = 4.0 * std::f64::consts::PI * REFRACTIVE_INDEX * h_um * 1e3 / lambda_nm;
         (255.0 * 0.5 * (1.0 - phase.cos() * fade)).round() as u8

@@ -84,6 +84,19 @@ pub(super) fn nice_up(value: f64) -> f64 {
     step.unwrap_or(10.0) * decade
 }
 
+/// Equal parts of [0, top], where top is one of [`nice_up`]'s: three to five, ends included.
+pub(super) fn divisions(top: f64) -> Vec<f64> {
+    let leading = top / 10_f64.powf((top.log10() + 1e-9).floor());
+    let parts = match (leading * 10.0).round() as u32 {
+        15 | 30 | 60 => 3,
+        25 | 50 => 5,
+        _ => 4,
+    };
+    (0..=parts)
+        .map(|k| top * f64::from(k) / f64::from(parts))
+        .collect()
+}
+
 /// Round positions in [low, high], about `about` of them.
 pub(super) fn ticks(low: f64, high: f64, about: usize) -> Vec<f64> {
     let raw = (high - low) / about.max(1) as f64;
@@ -124,6 +137,21 @@ mod tests {
             let value = 1.7e-9 * 1.02_f64.powi(k);
             let top = nice_up(value);
             assert!(top >= value * (1.0 - 1e-9) && top <= 1.51 * value);
+        }
+    }
+
+    #[test]
+    fn divisions_are_round_and_hold_both_ends() {
+        for top in [
+            1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 0.5, 1500.0,
+        ] {
+            let parts = divisions(top);
+            assert_eq!((parts.first(), parts.last()), (Some(&0.0), Some(&top)));
+            assert!((4..=6).contains(&parts.len()));
+            assert!(
+                parts.iter().all(|&value| number(value).len() <= 5),
+                "{parts:?}"
+            );
         }
     }
 

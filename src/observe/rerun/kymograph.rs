@@ -6,6 +6,7 @@
 
 use rerun::components::Colormap;
 
+use super::colour::WHITE;
 use super::geometry::{Geometry, number, ticks};
 use super::maps::GPA;
 use super::plot::{PlotBox, ticks_at};
@@ -15,7 +16,7 @@ use crate::observe::ObserveError;
 use crate::sim::Frame;
 
 pub(super) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
-/// Rows of the picture; longer runs keep every 2nd, 4th, … step.
+/// Most rows of the picture; longer runs keep every 2nd, 3rd, … step.
 const ROWS: usize = 512;
 
 /// The kymograph of the pressure.
@@ -28,17 +29,18 @@ pub(super) struct Kymograph {
     rows_logged: usize,
     expected_rows: usize,
     every: u64,
+    first_step: Option<u64>,
 }
 
 impl Kymograph {
-    /// Sets up the picture for so many steps; `None` when there are too many to fit at all.
+    /// Sets up the picture for so many steps.
     pub(super) fn new(
         stream: &Stream,
         geometry: Geometry,
         pressure_top_pa: f64,
         expected_steps: f64,
         step_s: f64,
-    ) -> Result<Option<Self>, ObserveError> {
+    ) -> Result<Self, ObserveError> {
         let steps = expected_steps.clamp(1.0, 1e6).ceil() as usize;
         let every = steps.div_ceil(ROWS).max(1);
         let rows = steps.div_ceil(every).max(2);
@@ -62,7 +64,7 @@ impl Kymograph {
                 "x, mm   (a = {} mm)",
                 number((geometry.a * 1e4).round() / 1e4)
             ),
-            left_title: "time, ms".into(),
+            titles: vec![(0.1, "time, ms".into(), WHITE)],
             ..PlotBox::default()
         };
         let pixels = Pixels {
@@ -71,7 +73,7 @@ impl Kymograph {
             first: [geometry.x_min, 0.5 * row_height],
             size: [geometry.dx, row_height],
         };
-        Ok(Some(Self {
+        Ok(Self {
             geometry,
             raster: Raster::new(stream, PRESSURE, scale, pixels, &plot, "p, GPa")?,
             plot,
@@ -80,23 +82,30 @@ impl Kymograph {
             rows_logged: 0,
             expected_rows: rows,
             every: every as u64,
-        }))
+            first_step: None,
+        })
     }
 
     pub(super) fn plot(&self) -> &PlotBox {
         &self.plot
     }
 
-    /// Takes up a step.
+    /// Takes up a step. Rows of steps that were not handed to the recording repeat the next one
+    /// that was.
     pub(super) fn follow(&mut self, frame: &Frame) {
-        if self.rows >= self.expected_rows || !frame.step.is_multiple_of(self.every) {
+        let first = *self.first_step.get_or_insert(frame.step);
+        let row = frame.step.saturating_sub(first) / self.every;
+        let rows = usize::try_from(row).map_or(usize::MAX, |row| row.saturating_add(1));
+        if rows > self.expected_rows || rows <= self.rows {
             return;
         }
         let nx = self.geometry.nx;
         let from = self.geometry.centre_row() * nx;
-        let row = &frame.pressure_pa[from..from + nx];
-        self.values[self.rows * nx..(self.rows + 1) * nx].copy_from_slice(row);
-        self.rows += 1;
+        let pressures = &frame.pressure_pa[from..from + nx];
+        for row in self.values[self.rows * nx..rows * nx].chunks_exact_mut(nx) {
+            row.copy_from_slice(pressures);
+        }
+        self.rows = rows;
     }
 
     /// Logs the picture when an eighth has been added; returns the bytes.

@@ -7,8 +7,7 @@
 
 use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
 use rerun::blueprint::components::{
-    BackgroundKind, Corner2D, Enabled, LockRangeDuringZoom, LoopMode, PanelState, PlayState,
-    VisualBounds2D as Bounds,
+    BackgroundKind, Corner2D, Enabled, LoopMode, PanelState, PlayState, VisualBounds2D as Bounds,
 };
 use rerun::blueprint::{
     Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Grid, Horizontal,
@@ -17,13 +16,13 @@ use rerun::blueprint::{
 };
 use rerun::datatypes::{Range1D, Range2D};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TextDocumentFormat,
-    VisualBounds2D,
+    Background, EyeControls3D, LineGrid3D, PlotLegend, TextDocumentFormat, VisualBounds2D,
 };
 use rerun::{AsComponents, Color, RecordingStream, RecordingStreamBuilder};
 
 use super::centre_line::CENTRE_LINE;
 use super::colour::BACKGROUND;
+use super::interferogram::INTERFEROGRAM;
 use super::kymograph;
 use super::maps;
 use super::plot::{Margin, PlotBox};
@@ -37,10 +36,11 @@ use crate::observe::ObserveError;
 /// What the first frame tells the layout.
 pub(super) struct Shown {
     pub(super) map: PlotBox,
+    pub(super) interferogram: PlotBox,
     pub(super) centre_line: PlotBox,
     pub(super) slice: Option<PlotBox>,
     pub(super) trace: Option<PlotBox>,
-    pub(super) kymograph: Option<PlotBox>,
+    pub(super) kymograph: PlotBox,
     /// Target and position of the camera.
     pub(super) camera: Option<[[f64; 3]; 2]>,
     pub(super) rough: [bool; 2],
@@ -125,16 +125,6 @@ impl Views {
         view
     }
 
-    /// Series of positive numbers, drawn from zero.
-    fn series_up_to(&mut self, name: &str, entities: &[&str], top: f64) -> ContainerLike {
-        let view = self.series(name, entities);
-        let axis = ScalarAxis::new()
-            .with_range(rerun::components::Range1D(Range1D([0.0, top])))
-            .with_zoom_lock(LockRangeDuringZoom::from(true));
-        self.set(&view, "ScalarAxis", axis);
-        view
-    }
-
     fn document(&mut self, name: &str, entity: &str) -> ContainerLike {
         let view = TextDocumentView::new(name)
             .with_origin(format!("/{entity}"))
@@ -191,14 +181,14 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     }
     upper.push(views.map("Pressure", maps::PRESSURE, &[], &shown.map));
     upper.push(views.map(
-        "Film (cyan: contact)",
+        "Film (cyan: contact, dark: above the range)",
         maps::FILM,
         &[maps::CONTACT],
         &shown.map,
     ));
     shares.extend([1.0, 1.0]);
     let mut lower = vec![views.document("Now", text::NOW)];
-    let mut lower_shares = vec![0.62];
+    let mut lower_shares = vec![0.75];
     if let Some(plot) = &shown.slice {
         let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT];
         lower.push(views.plot(
@@ -217,19 +207,25 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     ));
     lower_shares.push(1.0);
     let last = if shown.life {
-        views.series("Relative life (log10)", &["life/log10_relative"])
+        let view = views.series(
+            "Relative life, log10 (grey: band)",
+            &["life/log10_relative"],
+        );
+        // The title says it, and the curves need the room.
+        views.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+        view
     } else {
         views.series("Pressure", &["series/pressure_GPa"])
     };
     lower.push(last);
-    lower_shares.push(0.75);
+    lower_shares.push(0.7);
     Vertical::new([
         Horizontal::new(upper).with_column_shares(shares).into(),
         Horizontal::new(lower)
             .with_column_shares(lower_shares)
             .into(),
     ])
-    .with_row_shares(vec![1.2, 1.0])
+    .with_row_shares(vec![1.1, 1.0])
     .with_name("Contact")
     .into()
 }
@@ -237,7 +233,12 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
 fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let map = &shown.map;
     let mut all = vec![
-        views.map("Film as an interferogram", maps::INTERFEROGRAM, &[], map),
+        views.map(
+            "Film as an interferogram",
+            INTERFEROGRAM,
+            &[],
+            &shown.interferogram,
+        ),
         views.map("Shear traction on body 1", maps::TRACTION, &[], map),
     ];
     for (rough, name, entity) in [
@@ -256,15 +257,12 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
             Margin::Legend,
         ));
     }
-    if let Some(plot) = &shown.kymograph {
-        let entity = kymograph::PRESSURE;
-        all.push(views.plot(
-            "Pressure along y = 0 against time",
-            &[entity],
-            plot,
-            Margin::Legend,
-        ));
-    }
+    all.push(views.plot(
+        "Pressure along y = 0 against time",
+        &[kymograph::PRESSURE],
+        &shown.kymograph,
+        Margin::Legend,
+    ));
     Grid::new(all).with_grid_columns(3).with_name("Maps").into()
 }
 
@@ -335,7 +333,7 @@ fn convergence_tab(views: &mut Views) -> ContainerLike {
         views.series("Iterations", &["convergence/iterations"]),
         views.series("Pressure, GPa", &["series/pressure_GPa"]),
         views.series("Film, µm", &["series/film_um"]),
-        views.series_up_to("Contact, %", &["series/contact_percent"], 100.0),
+        views.series("Contact, %", &["series/contact_percent"]),
         views.series("Friction coefficient", &["series/friction"]),
         views.series("Load, N", &["series/load_N"]),
         views.series("λ ratio", &["series/lambda_ratio"]),

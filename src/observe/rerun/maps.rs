@@ -1,11 +1,12 @@
 //! Maps of the contact plane seen from above: x to the right (rolling direction), y up, mm.
 
 use rerun::components::{Colormap, ImageBuffer, ImageFormat};
-use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
+use rerun::{AnnotationContext, ChannelDatatype, Rgba32, SegmentationImage};
 
-use super::colour::{LIGHTS_NM, REFRACTIVE_INDEX, interference};
+use super::colour::WHITE;
 use super::geometry::{Geometry, ticks};
-use super::plot::{Labels, PlotBox, log_ellipse, ticks_at};
+use super::interferogram::Interferogram;
+use super::plot::{PlotBox, log_ellipse, ticks_at};
 use super::raster::{Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use crate::observe::ObserveError;
@@ -14,7 +15,6 @@ use crate::sim::Frame;
 /// Entities of the maps, each with its unit.
 pub(super) const PRESSURE: &str = "maps/pressure_GPa";
 pub(super) const FILM: &str = "maps/film_um";
-pub(super) const INTERFEROGRAM: &str = "maps/film_interferogram";
 pub(super) const TRACTION: &str = "maps/traction_on_body_1_MPa";
 pub(super) const ROUGHNESS_1: &str = "maps/roughness_body_1_um";
 pub(super) const ROUGHNESS_2: &str = "maps/roughness_body_2_um";
@@ -28,8 +28,10 @@ pub(super) const GPA: (&str, f64) = ("GPa", 1e-9);
 const MPA: (&str, f64) = ("MPa", 1e-6);
 const UM: (&str, f64) = ("µm", 1e6);
 
-/// Thickness of one of the interferogram's 256 colours, um.
-const FRINGE_STEP_UM: f64 = 0.005;
+/// Classes of the picture over the film map.
+const CLASS_FILM: u8 = 0;
+const CLASS_CONTACT: u8 = 1;
+const CLASS_THICK: u8 = 2;
 
 /// The maps that change.
 pub(super) struct Maps {
@@ -38,6 +40,7 @@ pub(super) struct Maps {
     film: Raster,
     traction: Raster,
     roughness: [Option<Raster>; 2],
+    interferogram: Interferogram,
     scales: Vec<(&'static str, Scale)>,
 }
 
@@ -90,10 +93,10 @@ impl Maps {
             film: map(FILM, viridis, "h")?,
             traction: map(TRACTION, signed, "shear")?,
             roughness: [rough_map(0, ROUGHNESS_1)?, rough_map(1, ROUGHNESS_2)?],
+            interferogram: Interferogram::new(stream, geometry)?,
             scales,
         };
         log_contact_style(stream, geometry)?;
-        log_interferogram_style(stream, geometry)?;
         log_ellipse(stream, HERTZ, [geometry.a, geometry.b])?;
         Ok(maps)
     }
@@ -113,6 +116,10 @@ impl Maps {
         self.scales[1].1.top / UM.1
     }
 
+    pub(super) fn interferogram(&self) -> &Interferogram {
+        &self.interferogram
+    }
+
     /// Which bodies are rough.
     pub(super) fn rough(&self) -> [bool; 2] {
         [self.roughness[0].is_some(), self.roughness[1].is_some()]
@@ -130,12 +137,19 @@ impl Maps {
                 bytes += raster.log(stream, top_down(g, field))?;
             }
         }
-        let spots: Vec<u8> = top_down(g, &frame.contact).collect();
-        let fringes: Vec<u8> = top_down(g, &frame.film_m).map(fringe).collect();
-        bytes += (spots.len() + fringes.len()) as u64;
+        let top = self.film_top_m() as f32;
+        let film = top_down(g, &frame.film_m);
+        let spots: Vec<u8> = top_down(g, &frame.contact)
+            .zip(film)
+            .map(|(touches, film)| match (touches, film > top) {
+                (0, false) => CLASS_FILM,
+                (0, true) => CLASS_THICK,
+                _ => CLASS_CONTACT,
+            })
+            .collect();
+        bytes += spots.len() as u64;
         stream.log(CONTACT, &classes(spots))?;
-        stream.log(&format!("{INTERFEROGRAM}/image"), &classes(fringes))?;
-        Ok(bytes)
+        Ok(bytes + self.interferogram.log(stream, frame)?)
     }
 }
 
@@ -143,13 +157,8 @@ fn greatest(field: &[f32]) -> f64 {
     field.iter().fold(0.0_f32, |top, v| top.max(v.abs())).into()
 }
 
-fn classes(bytes: Vec<u8>) -> SegmentationImage {
+pub(super) fn classes(bytes: Vec<u8>) -> SegmentationImage {
     SegmentationImage::update_fields().with_buffer(ImageBuffer::from(bytes))
-}
-
-/// The interferogram's colour of a film: class 1 is no film, 255 the thickest.
-fn fringe(film_m: f32) -> u8 {
-    (f64::from(film_m) * UM.1 / FRINGE_STEP_UM + 1.0).clamp(1.0, 255.0) as u8
 }
 
 /// A field's values from the upper row (greatest y) down.
@@ -176,7 +185,7 @@ pub(super) fn plot_box(g: Geometry) -> PlotBox {
         x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
         left_ticks: ticks_at(&ticks(-y[1], -y[0], 5), |y| -y),
         x_title: "x, mm  (rolling direction →)".into(),
-        left_title: "y, mm".into(),
+        titles: vec![(0.1, "y, mm".into(), WHITE)],
         ..PlotBox::default()
     }
 }
@@ -191,78 +200,22 @@ fn log_contact_style(stream: &Stream, g: Geometry) -> Result<(), ObserveError> {
     stream.log_static(CONTACT, &image)?;
     stream.log_static(CONTACT, &pixels.transform())?;
     let context = AnnotationContext::new([
-        (0, "film", Rgba32::from_unmultiplied_rgba(0, 0, 0, 0)),
         (
-            1,
+            CLASS_FILM.into(),
+            "film",
+            Rgba32::from_unmultiplied_rgba(0, 0, 0, 0),
+        ),
+        (
+            CLASS_CONTACT.into(),
             "contact",
-            Rgba32::from_unmultiplied_rgba(90, 255, 250, 255),
+            Rgba32::from_rgb(90, 255, 250),
+        ),
+        // The bath around the contact would drown the film in the top colour.
+        (
+            CLASS_THICK.into(),
+            "film above the colour range",
+            Rgba32::from_rgb(30, 33, 40),
         ),
     ]);
     stream.log_static(CONTACT, &context)
-}
-
-fn log_interferogram_style(stream: &Stream, g: Geometry) -> Result<(), ObserveError> {
-    let (pixels, plot) = (pixels(g), plot_box(g));
-    let image = format!("{INTERFEROGRAM}/image");
-    let format = |pixels: &Pixels| {
-        SegmentationImage::update_fields()
-            .with_format(ImageFormat::segmentation(
-                pixels.resolution(),
-                ChannelDatatype::U8,
-            ))
-            .with_opacity(1.0)
-    };
-    stream.log_static(&image, &format(&pixels))?;
-    stream.log_static(&image, &pixels.transform())?;
-    let thickness = |class: u16| FRINGE_STEP_UM * (f64::from(class) - 0.5).max(0.0);
-    let context = AnnotationContext::new((0..256_u16).map(|class| {
-        let [r, g, b] = interference(thickness(class));
-        let label = format!("h = {:.3} um", thickness(class));
-        AnnotationInfo {
-            id: class,
-            label: Some(label.into()),
-            color: Some(Rgba32::from_rgb(r, g, b)),
-        }
-    }));
-    stream.log_static(INTERFEROGRAM, &context)?;
-    plot.log(stream, &format!("{INTERFEROGRAM}/axes"))?;
-
-    // The legend has the thickness upwards, as the other maps' legends.
-    let (w, h) = (plot.x[1] - plot.x[0], plot.y[1] - plot.y[0]);
-    let (left, wide) = (plot.x[1] + 0.04 * w, 0.035 * w);
-    let bar = Pixels {
-        columns: 1,
-        rows: 255,
-        first: [left + 0.5 * wide, plot.y[0] + 0.5 * h / 255.0],
-        size: [wide, h / 255.0],
-    };
-    let entity = format!("{INTERFEROGRAM}/legend/bar");
-    let ramp: Vec<u8> = (1..=255).rev().collect();
-    stream.log_static(&entity, &format(&bar).with_buffer(ImageBuffer::from(ramp)))?;
-    stream.log_static(&entity, &bar.transform())?;
-    let mut labels = Labels::default();
-    let top = 255.0 * FRINGE_STEP_UM;
-    for value in ticks(0.0, top, 5) {
-        let y = plot.y[1] - h * value / top;
-        let text = super::geometry::number(value);
-        labels.add(
-            [left + 0.12 * w, y - 0.022 * h],
-            &text,
-            super::colour::WHITE,
-        );
-    }
-    labels.add(
-        [left + 0.06 * w, plot.y[0] - 0.085 * h],
-        "h, µm",
-        super::colour::WHITE,
-    );
-    labels.add(
-        [0.5 * (plot.x[0] + plot.x[1]), plot.y[0] - 0.085 * h],
-        &format!(
-            "{:?} nm, n = {REFRACTIVE_INDEX}",
-            LIGHTS_NM.map(|nm| nm as u32)
-        ),
-        super::colour::GREY,
-    );
-    labels.log(stream, &format!("{INTERFEROGRAM}/legend/labels"))
 }

@@ -12,6 +12,7 @@ mod cadence;
 mod centre_line;
 mod colour;
 mod geometry;
+mod interferogram;
 mod kymograph;
 mod layout;
 mod maps;

@@ -25,10 +25,8 @@ pub(super) struct PlotBox {
     pub(super) right_ticks: Vec<Tick>,
     /// Below the horizontal ticks.
     pub(super) x_title: String,
-    /// Above the frame, left.
-    pub(super) left_title: String,
-    /// Above the frame, right.
-    pub(super) right_title: String,
+    /// Above the frame, each centred at a share of its width.
+    pub(super) titles: Vec<(f64, String, [u8; 3])>,
     pub(super) left_colour: Option<[u8; 3]>,
     pub(super) right_colour: Option<[u8; 3]>,
 }
@@ -107,16 +105,9 @@ impl PlotBox {
             &self.x_title,
             WHITE,
         );
-        labels.add(
-            [left + 0.1 * w, top - 0.085 * h],
-            &self.left_title,
-            left_colour,
-        );
-        labels.add(
-            [right - 0.1 * w, top - 0.085 * h],
-            &self.right_title,
-            right_colour,
-        );
+        for (share, title, colour) in &self.titles {
+            labels.add([left + share * w, top - 0.085 * h], title, *colour);
+        }
         labels.log(stream, &format!("{entity}/labels"))
     }
 }

@@ -9,7 +9,7 @@ use rerun::components::{Colormap, ImageBuffer, ImageFormat, MagnificationFilter}
 use rerun::{ChannelDatatype, DepthImage, Transform3D};
 
 use super::colour::WHITE;
-use super::geometry::{nice_up, number, ticks};
+use super::geometry::{divisions, nice_up, number};
 use super::plot::{Labels, PlotBox};
 use super::stream::Stream;
 use crate::observe::ObserveError;
@@ -221,7 +221,11 @@ fn log_legend(
     stream.log_static(&bar, &pixels.transform())?;
 
     let mut labels = Labels::default();
-    for value in ticks(scale.low(), scale.top, 4) {
+    let values = match scale.sign {
+        Sign::Positive => divisions(scale.top),
+        Sign::Both => [-1.0, -0.5, 0.0, 0.5, 1.0].map(|t| t * scale.top).to_vec(),
+    };
+    for value in values {
         let y = plot.y[0] + h * (scale.top - value) / span;
         let text = if (value - scale.top).abs() < 1e-9 * span {
             format!("≥{}", number(value))

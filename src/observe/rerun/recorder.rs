@@ -41,7 +41,7 @@ struct Views {
     space: Option<Space>,
     centre_line: CentreLine,
     trace: Option<Trace>,
-    kymograph: Option<Kymograph>,
+    kymograph: Kymograph,
 }
 
 impl Recorder {
@@ -111,7 +111,7 @@ impl Views {
             ));
         }
         let maps = Maps::new(stream, geometry, first)?;
-        let slice = Slice::new(stream, geometry, first)?;
+        let slice = Slice::new(stream, geometry, first, maps.pressure_top_pa())?;
         let tops = Tops {
             pressure_pa: maps.pressure_top_pa(),
             effective_pa: slice.as_ref().map(Slice::effective_top_pa),
@@ -131,7 +131,9 @@ impl Views {
         series::log_styles(stream)?;
         let cadence = Cadence::new(record, steps, frame_bytes(geometry));
         let exaggeration = space.as_ref().map(Space::note).unwrap_or_default();
-        text::log_notes(stream, maps.scales(), &cadence.note(), &exaggeration)?;
+        let slice_scales = slice.as_ref().map(Slice::scales).unwrap_or_default();
+        let scales = maps.scales().iter().chain(slice_scales);
+        text::log_notes(stream, scales, &cadence.note(), &exaggeration)?;
         let views = Self {
             geometry,
             cadence,
@@ -149,10 +151,11 @@ impl Views {
     fn shown(&self, first: &Frame) -> Shown {
         Shown {
             map: maps::plot_box(self.geometry),
+            interferogram: self.maps.interferogram().plot().clone(),
             centre_line: self.centre_line.plot().clone(),
             slice: self.slice.as_ref().map(|slice| slice.plot().clone()),
             trace: self.trace.as_ref().map(|trace| trace.plot().clone()),
-            kymograph: self.kymograph.as_ref().map(|k| k.plot().clone()),
+            kymograph: self.kymograph.plot().clone(),
             camera: self.space.as_ref().map(Space::camera),
             rough: self.maps.rough(),
             life: first.metrics.life.is_some(),
@@ -164,9 +167,7 @@ impl Views {
         if let Some(trace) = &mut self.trace {
             trace.follow(frame);
         }
-        if let Some(kymograph) = &mut self.kymograph {
-            kymograph.follow(frame);
-        }
+        self.kymograph.follow(frame);
     }
 
     /// The fields of a frame; returns the bytes.
@@ -182,10 +183,7 @@ impl Views {
         if let Some(trace) = &self.trace {
             bytes += trace.log(stream, frame)?;
         }
-        if let Some(kymograph) = &mut self.kymograph {
-            bytes += kymograph.log_if_due(stream)?;
-        }
-        Ok(bytes)
+        Ok(bytes + self.kymograph.log_if_due(stream)?)
     }
 }
 
@@ -224,8 +222,8 @@ impl Observer for Recorder {
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        if let Some(kymograph) = self.views.as_mut().and_then(|v| v.kymograph.as_mut()) {
-            kymograph.log(&self.stream)?;
+        if let Some(views) = &mut self.views {
+            views.kymograph.log(&self.stream)?;
         }
         self.stream.close()?;
         Ok(ObserverReport {

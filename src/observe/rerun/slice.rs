@@ -8,7 +8,7 @@ use std::sync::Arc;
 use rerun::components::Colormap;
 use rerun::{LineStrips2D, Points2D, Radius};
 
-use super::colour::{GREEN, faded};
+use super::colour::{GREEN, WHITE, faded};
 use super::geometry::{Geometry, MM, number, ticks};
 use super::maps::GPA;
 use super::plot::{PlotBox, ticks_at};
@@ -109,7 +109,7 @@ pub(super) struct Slice {
     effective: Raster,
     tau_xz: Raster,
     plot: PlotBox,
-    effective_top_pa: f64,
+    scales: [(&'static str, Scale); 2],
 }
 
 impl Slice {
@@ -118,6 +118,7 @@ impl Slice {
         stream: &Stream,
         geometry: Geometry,
         first: &Frame,
+        pressure_top_pa: f64,
     ) -> Result<Option<Self>, ObserveError> {
         let Some(slice) = &first.slice else {
             return Ok(None);
@@ -131,11 +132,14 @@ impl Slice {
                 .fold(0.0_f32, |top, value| top.max(value.abs()));
             1.05 * f64::from(top)
         };
-        let top = greatest(&slice.effective_pa).max(0.65 * first.p_hertz_pa);
-        let shear = greatest(&slice.tau_xz_pa).max(0.25 * first.p_hertz_pa);
+        // One frame does not tell what others hold. Below a spike of pressure the effective stress
+        // reaches about 0.55 of it and the shear 0.2 of it (a line contact's, in its own size), and
+        // the spikes' range is known from the map.
+        let top = greatest(&slice.effective_pa).max(0.42 * pressure_top_pa);
+        let shear = greatest(&slice.tau_xz_pa).max(0.15 * pressure_top_pa);
         let effective = Scale::up_to(top, GPA, Sign::Positive, Colormap::Magma, 8.0);
         let tau_xz = Scale::up_to(shear, GPA, Sign::Both, Colormap::CyanToYellow, 4.0);
-        let effective_top_pa = effective.top / GPA.1;
+        let scales = [(EFFECTIVE, effective.clone()), (TAU_XZ, tau_xz.clone())];
         let pixels = Pixels {
             columns: geometry.nx,
             rows: rows.len(),
@@ -150,7 +154,7 @@ impl Slice {
             tau_xz: image(TAU_XZ, tau_xz, "τxz, GPa")?,
             rows,
             plot,
-            effective_top_pa,
+            scales,
         }))
     }
 
@@ -160,7 +164,12 @@ impl Slice {
 
     /// Upper end of the colour range of the effective stress, Pa.
     pub(super) fn effective_top_pa(&self) -> f64 {
-        self.effective_top_pa
+        self.scales[0].1.top / GPA.1
+    }
+
+    /// Scales of the images, for the notes in the recording.
+    pub(super) fn scales(&self) -> &[(&'static str, Scale)] {
+        &self.scales
     }
 
     /// Logs one frame's slice; returns the bytes. A frame without a slice changes nothing.
@@ -185,23 +194,17 @@ impl Slice {
         Ok(bytes + 400)
     }
 
-    /// A ring where the effective stress is greatest.
+    /// A dot where the effective stress is greatest.
     fn log_peak(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let metrics = &frame.metrics;
-        let (Some(sigma), Some(depth), Some(x)) = (
-            metrics.sigma_eff_max_pa,
-            metrics.sigma_eff_max_depth_m,
-            metrics.sigma_eff_max_x_m,
-        ) else {
+        let (Some(depth), Some(x)) = (metrics.sigma_eff_max_depth_m, metrics.sigma_eff_max_x_m)
+        else {
             return Ok(());
         };
         let at = [(x * MM) as f32, (depth * MM) as f32];
-        let label = format!("max {:.2} GPa", sigma * GPA.1);
         let ring = Points2D::new([at])
             .with_radii([Radius::new_ui_points(3.5)])
             .with_colors([faded([255, 255, 255], 255)])
-            .with_labels([label])
-            .with_show_labels(true)
             .with_draw_order(25.0);
         stream.log(PEAK, &ring)
     }
@@ -240,7 +243,7 @@ fn plot_box(g: Geometry, rows: &Rows) -> PlotBox {
         x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
         left_ticks: ticks_at(&ticks(y[0].max(0.0), y[1], 5), |z| z),
         x_title: format!("x, mm   (a = {} mm)", number((g.a * 1e4).round() / 1e4)),
-        left_title: "depth z, mm".into(),
+        titles: vec![(0.13, "depth z, mm".into(), WHITE)],
         ..PlotBox::default()
     }
 }

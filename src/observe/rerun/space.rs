@@ -8,7 +8,7 @@
 use rerun::{AlbedoFactor, Arrows3D, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
 
 use super::colour::{GREEN, GREY, ORANGE, Ramp, SKY, WHITE, faded};
-use super::geometry::{Geometry, MM, number, ticks};
+use super::geometry::{Geometry, MM, divisions, number, ticks};
 use super::maps::GPA;
 use super::mesh::{Window, triangles};
 use super::slice::Rows;
@@ -98,7 +98,8 @@ impl Space {
     pub(super) fn note(&self) -> String {
         format!(
             "In the 3-D view heights of film and roughness are drawn {} times too high against \
-             lengths and depths, the film is cut off at {:.2} µm, and the bodies are drawn apart.",
+             lengths and depths, the film is cut off at {:.2} µm, and the bodies are drawn apart. \
+             The film is grey-blue where it carries less than 6 % of the colour range.",
             number(self.exaggeration),
             1e3 * self.levels.film_cap / self.exaggeration
         )
@@ -107,8 +108,8 @@ impl Space {
     /// A point to look at and one to look from.
     pub(super) fn camera(&self) -> [[f64; 3]; 2] {
         let a = self.geometry.a;
-        let target = [0.12 * a, 0.2 * a, -0.5 * a];
-        [target, [-1.5 * a, -4.6 * a, 1.75 * a]]
+        let target = [0.16 * a, 0.2 * a, -0.5 * a];
+        [target, [-1.15 * a, -3.3 * a, 1.55 * a]]
     }
 
     /// Logs one frame; returns the bytes.
@@ -159,7 +160,7 @@ impl Space {
         self.colours
             .extend(nodes.iter().zip(shades).map(|(&at, shade)| {
                 // Only half of the shading, so that colours can still be read.
-                Ramp::Inferno.colour(frame.pressure_pa[at] / top, (0.5 + 0.5 * shade).min(1.0))
+                pressure_colour(frame.pressure_pa[at] / top, (0.5 + 0.5 * shade).min(1.0))
             }));
         let sheet = self.window.sheet(&self.heights, &self.colours);
         stream.log(&format!("{SPACE}/film_coloured_by_pressure"), &sheet)
@@ -230,7 +231,7 @@ impl Space {
         }
         let z = self.levels.slice - point.depth_m * MM;
         let colour = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
-        let label = format!("followed point: {:.2} GPa", point.effective_pa * GPA.1);
+        let label = format!("{:.2} GPa", point.effective_pa * GPA.1);
         // A little in front of the cut, or the slice would hide half of it.
         let at = [x as f32, (-0.03 * self.geometry.a) as f32, z as f32];
         let dot = Points3D::new([at, at])
@@ -254,7 +255,7 @@ impl Space {
         }
         self.speeds = now;
         let a = self.geometry.a;
-        let [x, y] = [-1.45 * a, -0.12 * a];
+        let [x, y] = [-1.45 * a, -0.15 * a];
         let levels = [self.levels.body_1, self.levels.body_2];
         let arrows =
             Arrows3D::from_vectors(speeds.map(|speed| [(0.7 * a * speed / u) as f32, 0.0, 0.0]))
@@ -345,7 +346,9 @@ impl Space {
             .with_radii([Radius::new_ui_points(0.75)])
             .with_colors([faded(GREY, 255)]);
         stream.log_static(&format!("{SPACE}/cut/outline"), &outline)?;
-        let depths = ticks(0.0, level - bottom, 3);
+        let mut depths = ticks(0.0, level - bottom, 3);
+        // The surface needs no number, and its place is taken by the arrow.
+        depths.retain(|&z| z > 0.0);
         let labels = Points3D::new(
             depths
                 .iter()
@@ -397,9 +400,9 @@ impl Space {
             .with_vertex_colors(colours);
         stream.log_static(&format!("{SPACE}/legend/{name}"), &mesh)?;
         let top = top_pa * GPA.1;
-        let mut at = vec![[left, 0.0, high + 0.2 * a]];
+        let mut at = vec![[left, 0.0, high + 0.27 * a]];
         let mut texts = vec![title.to_owned()];
-        for value in ticks(0.0, top, 3) {
+        for value in divisions(top) {
             at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
             texts.push(number(value));
         }
@@ -449,6 +452,15 @@ impl SliceSheet {
         let end = |i: Option<&usize>| i.map_or(0.0, |&i| g.x(i));
         (end(self.columns.first()), end(self.columns.last()))
     }
+}
+
+/// The pressure's colour; where there is hardly any, the grey-blue of oil, because the dark end of
+/// the map would hide the sheet's shape.
+fn pressure_colour(share: f32, shade: f32) -> [u8; 3] {
+    const OIL: [f32; 3] = [88.0, 104.0, 128.0];
+    let weight = (share / 0.06).clamp(0.0, 1.0);
+    let map = Ramp::Inferno.colour(share, shade);
+    std::array::from_fn(|c| (weight * f32::from(map[c]) + (1.0 - weight) * OIL[c] * shade) as u8)
 }
 
 /// Steel under a light.

@@ -55,7 +55,10 @@ impl Stream {
             .enabled(true)
             .batcher_config(batching)
             .save(path)
-            .map_err(|error| ObserveError::new(path.display().to_string(), error.to_string()))?;
+            .map_err(|error| {
+                let reason = format!("the recording could not be started: {error}");
+                ObserveError::new(path.display().to_string(), reason)
+            })?;
         // Wall-clock time says nothing about the physics and makes every file differ.
         recording.set_log_time_enabled(false);
         recording.set_log_tick_enabled(false);

@@ -43,9 +43,9 @@ pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), O
 }
 
 /// How numbers are stored.
-pub(super) fn log_notes(
+pub(super) fn log_notes<'a>(
     stream: &Stream,
-    scales: &[(&'static str, Scale)],
+    scales: impl Iterator<Item = &'a (&'static str, Scale)>,
     cadence: &str,
     exaggeration: &str,
 ) -> Result<(), ObserveError> {
@@ -87,7 +87,7 @@ fn now(frame: &Frame, caption: &str) -> String {
         let settled = if life.settled { "" } else { " *(settling)*" };
         let _ = writeln!(
             text,
-            "## Relative life {:.3}{settled}\n\nband {:.3} to {:.3} = cycles {:.3} × peaks {:.3} × \
+            "### Relative life {:.3}{settled}\n\n{:.3} to {:.3}; cycles {:.3} × peaks {:.3} × \
              traction {:.3}\n",
             life.life_relative,
             life.life_relative_low,
@@ -106,12 +106,10 @@ fn now(frame: &Frame, caption: &str) -> String {
     }
     let _ = writeln!(
         text,
-        "| | |\n|---|---|\n| time | {:.3} ms, step {}, passage {:.2} |\n| S | {:.3} (target {:.3}) |\n\
+        "| time | {:.3} ms, passage {:.2} |\n|---|---|\n| S | {:.3}, going to {:.3} |\n\
          | U1, U2 | {:.3}, {:.3} m/s |\n| load, p_Hertz | {:.1} N, {:.3} GPa |\n| p_max | {:.3} GPa |\n\
-         | h central, min | {:.1}, {:.1} nm |\n| contact | {:.2} % of area, {:.2} % of load |\n\
-         | friction | {:.4} |",
+         | h central, min | {:.1}, {:.1} nm |\n| contact | {:.2} % of area, {:.2} % of load |",
         frame.time_s * 1e3,
-        frame.step,
         frame.passages,
         m.slide_roll,
         m.slide_roll_target,
@@ -124,11 +122,12 @@ fn now(frame: &Frame, caption: &str) -> String {
         m.h_min_m * 1e9,
         m.contact_ratio * 100.0,
         m.contact_load_ratio * 100.0,
-        m.friction_coefficient,
     );
-    if let Some(lambda) = m.lambda_ratio {
-        let _ = writeln!(text, "| λ ratio | {lambda:.2} |");
-    }
+    let friction = m.friction_coefficient;
+    let _ = match m.lambda_ratio {
+        Some(lambda) => writeln!(text, "| friction, λ | {friction:.4}, {lambda:.2} |"),
+        None => writeln!(text, "| friction | {friction:.4} |"),
+    };
     if let (Some(stress), Some(depth)) = (m.sigma_eff_max_pa, m.sigma_eff_max_depth_m) {
         let (stress, depth) = (stress * 1e-9, depth * 1e6);
         let _ = writeln!(text, "| σ_eff max | {stress:.3} GPa, {depth:.0} µm deep |");

@@ -5,7 +5,7 @@ use rerun::{Points2D, Radius};
 
 use super::centre_line::line;
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, faded};
-use super::geometry::{Geometry, MM, ticks};
+use super::geometry::{Geometry, MM, divisions, ticks};
 use super::maps::GPA;
 use super::plot::{PlotBox, ticks_at};
 use super::stream::Stream;
@@ -41,13 +41,14 @@ impl Trace {
             x,
             y: [-height, 0.0],
             x_ticks: ticks_at(&ticks(x[0], x[1], 8), |x| x),
-            left_ticks: ticks_at(&ticks(0.0, top, 5), |p| -height * p / top),
+            left_ticks: ticks_at(&divisions(top), |p| -height * p / top),
             x_title: "where the point is: x, mm".into(),
-            left_title: "GPa".into(),
-            right_title:
-                "orange: pressure above it   purple: effective stress   grey: crossing before"
-                    .into(),
-            right_colour: Some(GREY),
+            titles: vec![
+                (0.02, "GPa".into(), WHITE),
+                (0.22, "pressure above the point".into(), ORANGE),
+                (0.48, "effective stress at it".into(), PURPLE),
+                (0.76, "pressure, crossing before".into(), GREY),
+            ],
             ..PlotBox::default()
         };
         plot.log(stream, &format!("{TRACE}/axes"))?;
@@ -116,7 +117,10 @@ impl Trace {
             1 => frame.metrics.n_body_1,
             _ => frame.metrics.n_body_2,
         };
-        let counted = format!("cycles counted in this crossing: {}", point.cycles_counted);
+        let counted = format!(
+            "body {}, cycles counted in this crossing: {}",
+            point.body, point.cycles_counted
+        );
         let label = match formula {
             Some(n) => format!("{counted}   (formula n = {n:.2})"),
             None => counted,
@@ -129,7 +133,7 @@ impl Trace {
         let now = Points2D::new([self.place(point, point.pressure_pa), label_at])
             .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
             .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
-            .with_labels([format!("body {}", point.body), label])
+            .with_labels([String::new(), label])
             .with_show_labels(true)
             .with_draw_order(30.0);
         stream.log(&format!("{TRACE}/now"), &now)?;
