@@ -5,6 +5,7 @@ pub mod history;
 pub mod jacobian;
 pub mod krylov;
 pub mod march;
+pub mod material;
 pub mod newton;
 pub mod precondition;
 pub mod reynolds;
