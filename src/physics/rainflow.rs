@@ -115,11 +115,9 @@ mod tests {
     fn counts(values: &[f64], gate: f64) -> (Vec<(f64, f64)>, f64) {
         let mut flow = Rainflow::new(gate);
         let mut table: Vec<(f64, f64)> = Vec::new();
-        let mut add = |range: f64, cycles: f64| {
-            match table.iter_mut().find(|row| row.0 == range) {
-                Some(row) => row.1 += cycles,
-                None => table.push((range, cycles)),
-            }
+        let mut add = |range: f64, cycles: f64| match table.iter_mut().find(|row| row.0 == range) {
+            Some(row) => row.1 += cycles,
+            None => table.push((range, cycles)),
         };
         for &value in values {
             flow.push(value, &mut add);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Frame, Knob, Simulation, StressSlice};
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
-pub fn fill(sim: &Simulation, frame: &mut Frame) {
+pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     let (grid, door) = (&sim.march.grid, &sim.door);
     let scale = (sim.drive.get(Knob::ForceN).now / sim.plan.force_n).cbrt();
     frame.step = sim.step;

@@ -13,9 +13,9 @@ use crate::solve::stress::VolumeOut;
 
 /// Ring of integrals.
 #[derive(Debug, Clone)]
-pub struct LifeStage {
+pub(super) struct LifeStage {
     /// m = c e.
-    pub exponent: f64,
+    pub(super) exponent: f64,
     weibull_slope: f64,
     ln_reference: f64,
     phases: Vec<(f64, f64)>,
@@ -26,7 +26,7 @@ pub struct LifeStage {
 
 impl LifeStage {
     /// Room for `phases` phases.
-    pub fn new(stress_exponent: f64, weibull_slope: f64, phases: usize) -> Self {
+    pub(super) fn new(stress_exponent: f64, weibull_slope: f64, phases: usize) -> Self {
         Self {
             exponent: stress_exponent * weibull_slope,
             weibull_slope,
@@ -39,23 +39,23 @@ impl LifeStage {
     }
 
     /// Takes the reference's integral and forgets all phases.
-    pub fn set_reference(&mut self, reference: &VolumeOut) {
+    pub(super) fn set_reference(&mut self, reference: &VolumeOut) {
         self.ln_reference = reference.normal.ln;
         self.forget();
     }
 
     /// Forgets all phases: what was seen belongs to other conditions.
-    pub fn forget(&mut self) {
+    pub(super) fn forget(&mut self) {
         (self.filled, self.next, self.since_change) = (0, 0, 0);
     }
 
     /// A knob moved: the mean goes on but is not settled.
-    pub fn unsettle(&mut self) {
+    pub(super) fn unsettle(&mut self) {
         self.since_change = 0;
     }
 
     /// Takes one phase.
-    pub fn push(&mut self, out: &VolumeOut) {
+    pub(super) fn push(&mut self, out: &VolumeOut) {
         self.phases[self.next] = (out.normal.ln, out.full.ln);
         self.next = (self.next + 1) % self.phases.len();
         self.filled = (self.filled + 1).min(self.phases.len());
@@ -63,12 +63,12 @@ impl LifeStage {
     }
 
     /// Whether a full passage was seen since the last change.
-    pub fn is_settled(&self) -> bool {
+    pub(super) fn is_settled(&self) -> bool {
         self.since_change >= self.phases.len()
     }
 
     /// The estimate for the cycle numbers `n` of both bodies.
-    pub fn estimate(&self, n: [Option<f64>; 2]) -> Option<LifeEstimate> {
+    pub(super) fn estimate(&self, n: [Option<f64>; 2]) -> Option<LifeEstimate> {
         if self.filled == 0 || !self.ln_reference.is_finite() {
             return None;
         }

@@ -3,7 +3,8 @@
 //! ```text
 //! x_k ← x_k + U_i Δt,   history p(x_k(t), 0, t) for −L/2 ≤ x_k ≤ L/2, zero before and after
 //! ```
-//! Eight points of each body, an eighth of the zone apart, so that the count is a mean over phases.
+//! Thirteen points of each body, spread by the golden ratio: evenly spaced ones could meet the ripples
+//! of a commensurate wavelength in two or three phases only.
 //! A point that leaves the zone enters it again as a new one; the crossing in which it was at the
 //! start does not count. The pressure history is counted by rainflow with a gate of 5 % of p_h. For a
 //! comb of full ripples the count is f δ to within one; n of the formula is 1 + f δ.
@@ -12,7 +13,7 @@
 use crate::physics::rainflow::Rainflow;
 
 /// Points of a body.
-const POINTS: usize = 8;
+const POINTS: usize = 13;
 /// Ranges below this part of p_h are not counted.
 pub const GATE: f64 = 0.05;
 /// Half of the zone.
@@ -71,11 +72,11 @@ impl Default for Track {
 impl Track {
     /// Points spread over the zone.
     pub fn new() -> Self {
-        let spacing = 2.0 * HALF / POINTS as f64;
+        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
         Self {
             points: (0..POINTS)
                 .map(|k| Point {
-                    x: -HALF + (k as f64 + 0.5) * spacing,
+                    x: HALF * (2.0 * (k as f64 * golden).fract() - 1.0),
                     flow: Rainflow::new(GATE),
                     whole: false,
                 })
@@ -136,7 +137,7 @@ mod tests {
         let mut track = Track::new();
         let dt = (w / (24.0 * (mating - own).abs())).min(0.01);
         let mut t = 0.0;
-        while t < 12.0 {
+        while t < 20.0 {
             for (i, v) in values.iter_mut().enumerate() {
                 let x = -1.5 + i as f64 * dx;
                 let ripple = 1.0 + (std::f64::consts::TAU * (x - mating * t) / w).cos();
@@ -155,14 +156,37 @@ mod tests {
 
     #[test]
     fn a_comb_of_full_ripples_is_counted() {
-        for (s, w) in [(0.1_f64, 0.1), (0.25, 0.25), (0.5, 0.1), (0.5, 0.25), (1.0, 0.1), (1.0, 0.4)] {
-            for (own, mating) in [(1.0 - 0.5 * s, 1.0 + 0.5 * s), (1.0 + 0.5 * s, 1.0 - 0.5 * s)] {
+        for (s, w) in [
+            (0.1_f64, 0.1),
+            (0.25, 0.25),
+            (0.5, 0.1),
+            (0.5, 0.25),
+            (1.0, 0.1),
+            (1.0, 0.4),
+        ] {
+            for (own, mating) in [
+                (1.0 - 0.5 * s, 1.0 + 0.5 * s),
+                (1.0 + 0.5 * s, 1.0 - 0.5 * s),
+            ] {
                 let expected = (mating - own).abs() / own * 2.0 / w;
                 let count = counted(own, mating, w);
                 let error = (count - expected).abs();
                 println!("S {s} W {w}a own {own}: counted {count:.2}, f delta {expected:.2}");
                 assert!(error <= 1.0, "{count} {expected}");
-                assert!(expected < 10.0 || error <= 0.05 * expected, "{count} {expected}");
+                // Humps cut off at both ends of the zone count too where they pass the gate, so the mean
+                // lies between f δ and the formula's 1 + f δ, and within 5 % of both from f δ = 13 on.
+                assert!(
+                    count >= expected && count <= expected + 1.0,
+                    "{count} {expected}"
+                );
+                assert!(
+                    expected < 13.0 || error <= 0.05 * expected,
+                    "{count} {expected}"
+                );
+                assert!(
+                    expected < 10.0 || (count / (1.0 + expected) - 1.0).abs() <= 0.05,
+                    "{count} {expected}"
+                );
             }
         }
     }
@@ -170,6 +194,8 @@ mod tests {
     #[test]
     fn pure_rolling_is_one_cycle() {
         let count = counted(1.0, 1.0 + 1e-9, 0.25);
-        assert!((count - 1.0).abs() < 0.13, "{count}");
+        // Points that ride in a trough of the full ripples never feel 5 % of p_h: one phase in ten,
+        // one or two of thirteen points.
+        assert!((count - 1.0).abs() <= 2.0 / 13.0 + 1e-9, "{count}");
     }
 }
