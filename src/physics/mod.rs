@@ -1,3 +1,11 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
 pub mod estimate;
+pub mod film_regression;
+pub mod fluid;
+pub mod groups;
+pub mod hertz;
+pub mod invariants;
+pub mod stress_exact;
+pub mod stress_exact_patch;
+pub mod waviness;

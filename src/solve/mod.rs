@@ -1,1 +1,10 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
+
+pub mod film;
+pub mod history;
+pub mod jacobian;
+pub mod krylov;
+pub mod newton;
+pub mod precondition;
+pub mod reynolds;
+pub mod stress;

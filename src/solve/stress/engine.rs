@@ -1,0 +1,231 @@
+//! What the engine is asked for, and what it holds.
+
+use super::depth::depth_rule;
+use super::fft::{LaneFft, Lanes};
+use super::lanes::LANES;
+use super::layer::{Layer, Waves, layers};
+use super::load::{LoadScratch, Spectrum};
+use super::slice::SliceScratch;
+use super::volume::Worker;
+use crate::scene::StressMeasure;
+
+/// Which rows of the surface are given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Symmetry {
+    /// Even in y: rows y = 0, dy, 2dy, ...; row 0 is the axis.
+    MirrorY,
+    /// All rows; the middle one (`ny/2`, `ny` odd) is y = 0.
+    General,
+}
+
+/// What the engine is asked for. Lengths in a, stress in p_h.
+#[derive(Debug, Clone)]
+pub struct StressSpec {
+    /// Nodes along x.
+    pub nx: usize,
+    /// Rows given (see [`Symmetry`]).
+    pub ny: usize,
+    /// Coordinate of the first node along x, a. Only places the results.
+    pub x_first: f64,
+    /// Node spacing along x, a.
+    pub dx: f64,
+    /// Node spacing along y, a.
+    pub dy: f64,
+    /// Poisson's ratio.
+    pub nu: f64,
+    /// Depths, ascending, > 0, a.
+    pub depths: Vec<f64>,
+    /// Weights of the depths in an integral over z, a.
+    pub weights: Vec<f64>,
+    /// Which rows are given.
+    pub symmetry: Symmetry,
+    /// Scalar measure of stress.
+    pub measure: StressMeasure,
+    /// Least period of the transform over the size of the domain.
+    pub pad: f64,
+    /// δ: width of the window's edge over the period ([`super::window`]).
+    pub window: f64,
+    /// ε: modes with e^{−kz} below it are left out.
+    pub decay: f64,
+}
+
+impl StressSpec {
+    /// Default padding: errors from the images stay below 1e-5 of p_h.
+    pub const PAD: f64 = 1.5;
+    /// Default δ.
+    pub const WINDOW: f64 = 0.062;
+    /// Default ε.
+    pub const DECAY: f64 = 1e-4;
+
+    /// `n_depths` depths down to `depth_max` (in a) by [`depth_rule`], von Mises, default constants.
+    pub fn new(
+        (nx, ny): (usize, usize),
+        (dx, dy): (f64, f64),
+        nu: f64,
+        (n_depths, depth_max): (usize, f64),
+        symmetry: Symmetry,
+    ) -> Self {
+        let (depths, weights) = depth_rule(n_depths, depth_max);
+        Self {
+            nx,
+            ny,
+            x_first: 0.0,
+            dx,
+            dy,
+            nu,
+            depths,
+            weights,
+            symmetry,
+            measure: StressMeasure::VonMises,
+            pad: Self::PAD,
+            window: Self::WINDOW,
+            decay: Self::DECAY,
+        }
+    }
+
+    fn check(&self) -> Result<(), StressError> {
+        let bad = |key: &'static str, value: f64, allowed: &'static str| {
+            Err(StressError {
+                key,
+                value,
+                allowed,
+            })
+        };
+        let positive = |v: f64| v.is_finite() && v > 0.0;
+        if self.nx < 9 || self.nx > 4097 {
+            return bad("nx", self.nx as f64, "9 to 4097");
+        }
+        if self.ny < 5 || self.ny > 4097 {
+            return bad("ny", self.ny as f64, "5 to 4097");
+        }
+        if self.symmetry == Symmetry::General && self.ny.is_multiple_of(2) {
+            return bad("ny", self.ny as f64, "odd, so that one row is y = 0");
+        }
+        if !positive(self.dx) {
+            return bad("dx", self.dx, "finite, above 0");
+        }
+        if !positive(self.dy) {
+            return bad("dy", self.dy, "finite, above 0");
+        }
+        if !(0.0..=0.5).contains(&self.nu) {
+            return bad("nu", self.nu, "0 to 0.5");
+        }
+        if !(1.2..=4.0).contains(&self.pad) {
+            return bad("pad", self.pad, "1.2 to 4");
+        }
+        if !(0.05..=0.12).contains(&self.window) {
+            return bad("window", self.window, "0.05 to 0.12");
+        }
+        if !(1e-8..=1e-2).contains(&self.decay) {
+            return bad("decay", self.decay, "1e-8 to 1e-2");
+        }
+        self.check_depths()
+    }
+
+    fn check_depths(&self) -> Result<(), StressError> {
+        let bad = |value: f64, allowed: &'static str| {
+            Err(StressError {
+                key: "depths",
+                value,
+                allowed,
+            })
+        };
+        let count = self.depths.len();
+        if !(4..=256).contains(&count) || self.weights.len() != count {
+            return bad(count as f64, "4 to 256, as many as weights");
+        }
+        let ascending = self.depths.windows(2).all(|pair| pair[0] < pair[1]);
+        let inside = |z: &f64| z.is_finite() && *z > 0.0 && *z <= 100.0;
+        match self.depths.iter().find(|z| !inside(z)) {
+            Some(z) => bad(*z, "above 0, at most 100"),
+            None if !ascending => bad(self.depths[0], "ascending"),
+            None => Ok(()),
+        }
+    }
+
+    /// Rows of the whole domain.
+    fn full_rows(&self) -> usize {
+        match self.symmetry {
+            Symmetry::MirrorY => 2 * self.ny - 1,
+            Symmetry::General => self.ny,
+        }
+    }
+}
+
+/// A specification that the engine refuses.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("stress engine: {key} = {value}; allowed: {allowed}")]
+pub struct StressError {
+    /// Which entry.
+    pub key: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What is allowed.
+    pub allowed: &'static str,
+}
+
+/// The engine: tables, spectra of the surface loaded last, scratch.
+pub struct StressEngine {
+    pub(super) spec: StressSpec,
+    pub(super) waves: Waves,
+    pub(super) layers: Vec<Layer>,
+    pub(super) plans: Vec<LaneFft>,
+    pub(super) spectrum: Spectrum,
+    pub(super) load: LoadScratch,
+    pub(super) slice: SliceScratch,
+    pub(super) workers: Vec<Worker>,
+}
+
+impl StressEngine {
+    /// Builds the tables and makes all memory, for the number of threads of the current pool.
+    ///
+    /// # Errors
+    /// [`StressError`] names the entry of the specification that is out of range.
+    pub fn new(spec: &StressSpec) -> Result<Self, StressError> {
+        spec.check()?;
+        let padded =
+            |nodes: usize| LaneFft::good_length((spec.pad * (nodes - 1) as f64).ceil() as usize);
+        let (n_x, n_y) = (padded(spec.nx), padded(spec.full_rows()));
+        let waves = Waves::new(n_x, n_y, n_x as f64 * spec.dx, n_y as f64 * spec.dy);
+        let mut plans = Vec::new();
+        let layers = layers(spec, &waves, &mut plans);
+        let threads = rayon::current_num_threads().min(spec.depths.len());
+        Ok(Self {
+            spectrum: Spectrum::new(spec.symmetry, &waves),
+            load: LoadScratch::new(&waves, &mut plans),
+            slice: SliceScratch::new(spec, &waves),
+            workers: (0..threads)
+                .map(|_| Worker::new(spec.symmetry, &waves, 2 * layers.len()))
+                .collect(),
+            spec: spec.clone(),
+            waves,
+            layers,
+            plans,
+        })
+    }
+
+    /// What was asked for.
+    pub fn spec(&self) -> &StressSpec {
+        &self.spec
+    }
+
+    /// Memory of tables and scratch, bytes.
+    pub fn bytes(&self) -> usize {
+        let v = LANES * 4;
+        let lanes = |l: &Lanes| 2 * v * l.re.len();
+        let layers: usize = self.layers.iter().map(Layer::bytes).sum();
+        let workers: usize = self.workers.iter().map(Worker::bytes).sum();
+        layers + workers + self.spectrum.lanes().map(lanes).sum::<usize>()
+    }
+}
+
+/// Index of the plan of length `n`, made if it is not there.
+pub(super) fn plan_of(plans: &mut Vec<LaneFft>, n: usize) -> usize {
+    plans
+        .iter()
+        .position(|plan| plan.len() == n)
+        .unwrap_or_else(|| {
+            plans.push(LaneFft::new(n));
+            plans.len() - 1
+        })
+}

@@ -1,0 +1,241 @@
+//! From the surface to its spectrum: pressure and traction share one complex transform.
+//!
+//! ```text
+//! Z = FFT(p + i q);   P(k) = (Z(k) + conj Z(−k))/2,   Q(k) = (Z(k) − conj Z(−k))/2i
+//! ```
+//! First along y (x in the lanes: rows are read as they lie), then along x. A mirror surface is
+//! extended evenly, and its spectrum is even in ky, so one half serves.
+
+use super::engine::{StressEngine, StressSpec, Symmetry, plan_of};
+use super::fft::{LaneFft, Lanes};
+use super::lanes::{LANES, V, transpose};
+use super::layer::Waves;
+
+/// Spectra of pressure and traction at ky ≥ 0 or at −ky, `[block · modes_y + ky]`, sixteen kx each.
+pub(super) struct Half {
+    pub(super) p: Lanes,
+    pub(super) q: Lanes,
+}
+
+/// Spectrum of the surface loaded last.
+pub(super) struct Spectrum {
+    pub(super) plus: Half,
+    /// At −ky; `None` for a mirror surface, where it equals `plus`.
+    pub(super) minus: Option<Half>,
+    /// Whether a traction was loaded.
+    pub(super) sheared: Sheared,
+}
+
+/// Whether a traction acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sheared {
+    No,
+    Yes,
+}
+
+impl Spectrum {
+    pub(super) fn new(symmetry: Symmetry, waves: &Waves) -> Self {
+        let half = || Half {
+            p: Lanes::new(waves.blocks * waves.modes_y),
+            q: Lanes::new(waves.blocks * waves.modes_y),
+        };
+        Self {
+            plus: half(),
+            minus: (symmetry == Symmetry::General).then(half),
+            sheared: Sheared::No,
+        }
+    }
+
+    pub(super) fn lanes(&self) -> impl Iterator<Item = &Lanes> {
+        std::iter::once(&self.plus)
+            .chain(&self.minus)
+            .flat_map(|half| [&half.p, &half.q])
+    }
+}
+
+/// Buffers of the two passes.
+pub(super) struct LoadScratch {
+    fft_x: usize,
+    fft_y: usize,
+    along_y: [Lanes; 2],
+    /// At ky ≥ 0 and at −ky.
+    along_x: [[Lanes; 2]; 2],
+    /// After the y pass, `[ky block · n_x + x]`, sixteen ky each; at ky ≥ 0 and at −ky.
+    middle: [Lanes; 2],
+}
+
+impl LoadScratch {
+    pub(super) fn new(waves: &Waves, plans: &mut Vec<LaneFft>) -> Self {
+        let middle = waves.modes_y.div_ceil(LANES) * waves.n_x;
+        let twice = |n: usize| [Lanes::new(n), Lanes::new(n)];
+        Self {
+            fft_x: plan_of(plans, waves.n_x),
+            fft_y: plan_of(plans, waves.n_y),
+            along_y: twice(waves.n_y),
+            along_x: [twice(waves.n_x), twice(waves.n_x)],
+            middle: twice(middle),
+        }
+    }
+
+    /// Plan of the whole period along x.
+    pub(super) fn fft_x(&self) -> usize {
+        self.fft_x
+    }
+}
+
+impl StressEngine {
+    /// Takes the surface: pressure `p` and, where there is friction, traction `qx` on the body
+    /// along +x, both in p_h, `[j·nx + i]`, `ny` rows (see [`Symmetry`]). The outermost nodes are
+    /// the domain's edge, where the pressure is zero.
+    ///
+    /// # Panics
+    /// When a field has not `nx · ny` values.
+    pub fn load(&mut self, p: &[f32], qx: Option<&[f32]>) {
+        let nodes = self.spec.nx * self.spec.ny;
+        assert_eq!(p.len(), nodes, "pressure has nx · ny values");
+        if let Some(q) = qx {
+            assert_eq!(q.len(), nodes, "traction has nx · ny values");
+        }
+        let (spec, waves, work) = (&self.spec, &self.waves, &mut self.load);
+        for block in 0..spec.nx.div_ceil(LANES) {
+            let [input, other] = &mut work.along_y;
+            read_rows(spec, block, p, &mut input.re);
+            match qx {
+                Some(q) => read_rows(spec, block, q, &mut input.im),
+                None => input.im.fill(V::ZERO),
+            }
+            self.plans[work.fft_y].forward(input, other);
+            let signs = if spec.symmetry == Symmetry::General {
+                2
+            } else {
+                1
+            };
+            for (sign, middle) in work.middle.iter_mut().enumerate().take(signs) {
+                turn_to_ky(input, waves, block, sign, middle);
+            }
+        }
+        self.spectrum.sheared = match qx {
+            Some(_) => Sheared::Yes,
+            None => Sheared::No,
+        };
+        for ky_block in 0..waves.modes_y.div_ceil(LANES) {
+            load_along_x(spec, waves, &self.plans, work, &mut self.spectrum, ky_block);
+        }
+    }
+}
+
+/// Sixteen columns of the surface, the axis at index 0 and y < 0 at the end of the period.
+fn read_rows(spec: &StressSpec, block: usize, field: &[f32], out: &mut [V]) {
+    let n = out.len();
+    let columns = block * LANES..spec.nx.min((block + 1) * LANES);
+    let row = |j: usize| V::from_part(&field[j * spec.nx..][columns.clone()]);
+    out.fill(V::ZERO);
+    match spec.symmetry {
+        Symmetry::MirrorY => {
+            for j in 0..spec.ny {
+                out[j] = row(j);
+                out[(n - j) % n] = out[j];
+            }
+        }
+        Symmetry::General => {
+            let axis = spec.ny / 2;
+            for j in 0..spec.ny {
+                out[(j + n - axis) % n] = row(j);
+            }
+        }
+    }
+}
+
+dispatched! {
+/// Exchanges x in the lanes for ky in the lanes; `sign` 1 takes −ky.
+fn turn_to_ky(z: &Lanes, waves: &Waves, block: usize, sign: usize, middle: &mut Lanes) {
+    let n = waves.n_y;
+    for ky_block in 0..waves.modes_y.div_ceil(LANES) {
+        let o = ky_block * waves.n_x + block * LANES;
+        for (from, to) in [(&z.re, &mut middle.re), (&z.im, &mut middle.im)] {
+            let mut rows = [V::ZERO; LANES];
+            for (l, row) in rows.iter_mut().enumerate() {
+                let ky = ky_block * LANES + l;
+                *row = from[if sign == 0 { ky % n } else { (n - ky) % n }];
+            }
+            to[o..o + LANES].copy_from_slice(&transpose(&rows));
+        }
+    }
+}
+}
+
+fn load_along_x(
+    spec: &StressSpec,
+    waves: &Waves,
+    plans: &[LaneFft],
+    work: &mut LoadScratch,
+    spectrum: &mut Spectrum,
+    ky_block: usize,
+) {
+    let filled = spec.nx.div_ceil(LANES) * LANES;
+    let plan = &plans[work.fft_x];
+    let scale = (0.5 / (waves.n_x as f64 * waves.n_y as f64)) as f32;
+    let line = |middle: &Lanes, input: &mut Lanes| {
+        let o = ky_block * waves.n_x;
+        for (from, to) in [(&middle.re, &mut input.re), (&middle.im, &mut input.im)] {
+            to[..filled].copy_from_slice(&from[o..o + filled]);
+            to[filled..].fill(V::ZERO);
+        }
+    };
+    let [[in_plus, other_plus], [in_minus, other_minus]] = &mut work.along_x;
+    line(&work.middle[0], in_plus);
+    plan.forward(in_plus, other_plus);
+    match &mut spectrum.minus {
+        None => separate(in_plus, in_plus, waves, ky_block, scale, &mut spectrum.plus),
+        Some(half) => {
+            line(&work.middle[1], in_minus);
+            plan.forward(in_minus, other_minus);
+            separate(
+                in_plus,
+                in_minus,
+                waves,
+                ky_block,
+                scale,
+                &mut spectrum.plus,
+            );
+            separate(in_minus, in_plus, waves, ky_block, scale, half);
+        }
+    }
+}
+
+dispatched! {
+/// Pressure and traction out of their common transform; `mate` holds the modes at −ky.
+fn separate(
+    z: &Lanes,
+    mate: &Lanes,
+    waves: &Waves,
+    ky_block: usize,
+    scale: f32,
+    half: &mut Half,
+) {
+    let n = waves.n_x;
+    let scale = V::splat(scale);
+    for block in 0..waves.blocks {
+        let mut lines = [[V::ZERO; LANES]; 4];
+        for l in 0..LANES {
+            let kx = block * LANES + l;
+            if kx >= waves.modes_x {
+                break;
+            }
+            let minus = (n - kx) % n;
+            let (re, im) = (z.re[kx], z.im[kx]);
+            let (mate_re, mate_im) = (mate.re[minus], mate.im[minus]);
+            lines[0][l] = (re + mate_re) * scale;
+            lines[1][l] = (im - mate_im) * scale;
+            lines[2][l] = (im + mate_im) * scale;
+            lines[3][l] = (mate_re - re) * scale;
+        }
+        let from = block * waves.modes_y + ky_block * LANES;
+        let count = (waves.modes_y - ky_block * LANES).min(LANES);
+        let targets = [&mut half.p.re, &mut half.p.im, &mut half.q.re, &mut half.q.im];
+        for (line, to) in lines.iter().zip(targets) {
+            to[from..from + count].copy_from_slice(&transpose(line)[..count]);
+        }
+    }
+}
+}

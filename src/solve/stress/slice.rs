@@ -1,0 +1,391 @@
+//! Stress in the plane y = 0: the spectra are summed over ky, then transformed along x alone.
+//!
+//! ```text
+//! S(c) = Σ_ky E c     σzz = −S(p̂) − z S(kD)          σxx = 2i kx S(q̂/k) − 2ν S(D) − kx² S(A0/k²) + kx² z S(D/k)
+//!                     σxz = −S(q̂) + i kx z S(D)      σyy = −2(1+ν) S(D) − σxx − σzz
+//! unsymmetric:        σxy = i S(ny q̂) − kx S(ny A0/k) + kx z S(ny D)      σyz = i z S(ny kD)
+//! A0 = (1−2ν) p̂ + 2ν Q
+//! ```
+//! The columns c are formed once per surface and shared by all depths. Every depth is given at the full
+//! resolution along x.
+
+use super::engine::{StressEngine, StressSpec, Symmetry};
+use super::fft::{Lanes, pack_pair};
+use super::lanes::{C, LANES, V, transpose};
+use super::layer::{Layer, LowRow, Waves};
+use super::load::{Half, Sheared, Spectrum};
+use super::measure::squared;
+use super::peak::{Peak, refine};
+use super::window::LOW;
+use crate::scene::StressMeasure;
+
+/// Most columns: seven even, four odd.
+const COLUMNS: usize = 11;
+/// First odd column.
+const ODD: usize = 7;
+
+/// Stress in the plane y = 0: `[k·nx + i]`, k over depths; in p_h, tension positive.
+#[derive(Debug, Clone, Default)]
+pub struct SliceOut {
+    /// σxx.
+    pub sxx: Vec<f32>,
+    /// σyy.
+    pub syy: Vec<f32>,
+    /// σzz.
+    pub szz: Vec<f32>,
+    /// σxz, the signed orthogonal shear.
+    pub sxz: Vec<f32>,
+    /// σxy; empty for a mirror surface, where it is zero.
+    pub sxy: Vec<f32>,
+    /// σyz; empty for a mirror surface, where it is zero.
+    pub syz: Vec<f32>,
+    /// Effective stress by the engine's measure.
+    pub effective: Vec<f32>,
+    /// Greatest effective stress of the plane, refined between nodes and depths.
+    pub peak: Peak,
+}
+
+impl SliceOut {
+    /// Memory for an engine's slices.
+    pub fn new(spec: &StressSpec) -> Self {
+        let n = spec.nx * spec.depths.len();
+        let odd = match spec.symmetry {
+            Symmetry::MirrorY => 0,
+            Symmetry::General => n,
+        };
+        Self {
+            sxx: vec![0.0; n],
+            syy: vec![0.0; n],
+            szz: vec![0.0; n],
+            sxz: vec![0.0; n],
+            sxy: vec![0.0; odd],
+            syz: vec![0.0; odd],
+            effective: vec![0.0; n],
+            peak: Peak::default(),
+        }
+    }
+}
+
+/// Columns and sums.
+pub(super) struct SliceScratch {
+    /// `[(block · modes_y + ky) · COLUMNS + column]`.
+    columns: Vec<C>,
+    /// Summed spectra, `[(component · depth blocks + depth block) · kx + i]`, sixteen depths each.
+    fields: Lanes,
+    /// One depth block of one component before it is turned, `[block][depth]`.
+    along_x: [Lanes; 3],
+    other: Lanes,
+}
+
+impl SliceScratch {
+    pub(super) fn new(spec: &StressSpec, waves: &Waves) -> Self {
+        let depth_blocks = spec.depths.len().div_ceil(LANES);
+        Self {
+            columns: vec![C::ZERO; waves.blocks * waves.modes_y * COLUMNS],
+            fields: Lanes::new(6 * depth_blocks * waves.blocks * LANES),
+            along_x: [0, 1, 2].map(|_| Lanes::new(waves.n_x)),
+            other: Lanes::new(waves.n_x),
+        }
+    }
+}
+
+/// Spectra of one depth and block: xx, yy, zz, xz, xy, yz.
+type Six = [C; 6];
+
+impl StressEngine {
+    /// Stress in the plane y = 0 under the surface loaded last.
+    ///
+    /// # Panics
+    /// When `out` was made for another specification.
+    pub fn slice(&mut self, out: &mut SliceOut) {
+        let (spec, waves, work) = (&self.spec, &self.waves, &mut self.slice);
+        assert_eq!(
+            out.effective.len(),
+            spec.nx * spec.depths.len(),
+            "slice size"
+        );
+        form_columns(waves, &self.spectrum, spec.nu, &mut work.columns);
+        let depth_blocks = spec.depths.len().div_ceil(LANES);
+        for depth_block in 0..depth_blocks {
+            let first = depth_block * LANES;
+            let layers = &self.layers[first..self.layers.len().min(first + LANES)];
+            for block in 0..waves.blocks {
+                let mut sums = [[C::ZERO; LANES]; 6];
+                for (l, layer) in layers.iter().enumerate().filter(|(_, d)| block < d.blocks) {
+                    let six =
+                        sum_depth(layer, block, waves, &self.spectrum, spec.nu, &work.columns);
+                    for (sum, component) in sums.iter_mut().zip(six) {
+                        sum[l] = component;
+                    }
+                }
+                let o = depth_block * waves.blocks * LANES + block * LANES;
+                turn_depths(
+                    &sums,
+                    o,
+                    depth_blocks * waves.blocks * LANES,
+                    &mut work.fields,
+                );
+            }
+        }
+        for depth_block in 0..depth_blocks {
+            self.slice_along_x(depth_block, depth_blocks, out);
+        }
+        out.peak = refine(&self.spec, out);
+    }
+
+    fn slice_along_x(&mut self, depth_block: usize, depth_blocks: usize, out: &mut SliceOut) {
+        let (spec, waves, work) = (&self.spec, &self.waves, &mut self.slice);
+        let width = waves.blocks * LANES;
+        let line = |component: usize| (component * depth_blocks + depth_block) * width;
+        let pairs = match spec.symmetry {
+            Symmetry::MirrorY => 2,
+            Symmetry::General => 3,
+        };
+        for (pair, x) in work.along_x.iter_mut().enumerate().take(pairs) {
+            let places = (line(2 * pair), Some(line(2 * pair + 1)));
+            pack_pair(waves.n_x, width, places, &work.fields, x);
+            self.plans[self.load.fft_x()].inverse(x, &mut work.other);
+        }
+        write_rows(spec, depth_block * LANES, &mut work.along_x, out);
+    }
+}
+
+dispatched! {
+/// Columns of the surface loaded, with −ky folded onto ky.
+fn form_columns(waves: &Waves, spectrum: &Spectrum, nu: f64, columns: &mut [C]) {
+    let (two_nu, one_less) = (V::splat((2.0 * nu) as f32), V::splat((1.0 - 2.0 * nu) as f32));
+    for block in 0..waves.blocks {
+        for y in 0..waves.modes_y {
+            let i = block * waves.modes_y + y;
+            let (k, nx, ny) = (waves.k[i], waves.nx[i], waves.ny[i]);
+            let mut by_k = V::ZERO;
+            for l in 0..LANES {
+                by_k.0[l] = if k.0[l] > 0.0 { 1.0 / k.0[l] } else { 0.0 };
+            }
+            let c = &mut columns[i * COLUMNS..(i + 1) * COLUMNS];
+            let (p, x) = folded(spectrum, i, y, V::splat(1.0));
+            let q = x.scale_i(nx);
+            let d = p.minus(q);
+            let a0 = q.fma(two_nu, p.scale(one_less));
+            let six = [p, d.scale(k), d, a0.scale(by_k * by_k), d.scale(by_k), x];
+            c[..6].copy_from_slice(&six);
+            c[6] = x.scale(by_k);
+            if spectrum.minus.is_some() {
+                let (p, x) = folded(spectrum, i, y, V::splat(-1.0));
+                let q = x.scale_i(nx);
+                let d = p.minus(q);
+                let a0 = q.fma(two_nu, p.scale(one_less));
+                let odd = [x.scale(ny), a0.scale(ny * by_k), d.scale(ny), d.scale(ny * k)];
+                c[ODD..].copy_from_slice(&odd);
+            }
+        }
+    }
+}
+}
+
+/// Spectrum at ky plus `sign` times that at −ky; ky = 0 counts once.
+#[inline(always)]
+fn folded(spectrum: &Spectrum, i: usize, y: usize, sign: V) -> (C, C) {
+    let at = |half: &Half| {
+        let c = |lanes: &Lanes| C {
+            re: lanes.re[i],
+            im: lanes.im[i],
+        };
+        match spectrum.sheared {
+            Sheared::Yes => (c(&half.p), c(&half.q)),
+            Sheared::No => (c(&half.p), C::ZERO),
+        }
+    };
+    let plus = at(&spectrum.plus);
+    if y == 0 {
+        return plus;
+    }
+    let minus = at(spectrum.minus.as_ref().unwrap_or(&spectrum.plus));
+    (minus.0.fma(sign, plus.0), minus.1.fma(sign, plus.1))
+}
+
+dispatched! {
+/// Sums one depth and block over ky.
+fn sum_depth(
+    layer: &Layer,
+    block: usize,
+    waves: &Waves,
+    spectrum: &Spectrum,
+    nu: f64,
+    columns: &[C],
+) -> Six {
+    let first = if block == 0 { LOW } else { 0 };
+    let e = &layer.e[block * layer.rows..(block + 1) * layer.rows];
+    let columns = &columns[block * waves.modes_y * COLUMNS..];
+    let (kx, z) = (waves.kx[block], V::splat(layer.z as f32));
+    let s = even_sums(&e[first..], &columns[first * COLUMNS..], spectrum.sheared);
+    let [p, kd, d, a0, d_by_k, x, x_by_k] = s;
+    let kx2 = kx * kx;
+    let zz = negative(kd.fma(z, p));
+    let xz = d.scale_i(kx * z).minus(x);
+    let elastic = d_by_k.scale(kx2 * z).minus(a0.scale(kx2));
+    let two_nu = V::splat((2.0 * nu) as f32);
+    let xx = x_by_k.fma_i(kx + kx, d.fma(-two_nu, elastic));
+    let yy = d.scale(-(two_nu + V::splat(2.0))).minus(xx).minus(zz);
+    let mut six = [xx, yy, zz, xz, C::ZERO, C::ZERO];
+    if spectrum.minus.is_some() {
+        let [x, a0, d, kd] = odd_sums(&e[first..], &columns[first * COLUMNS..]);
+        six[4] = x.scale_i(V::splat(1.0)).plus(d.scale(kx * z)).minus(a0.scale(kx));
+        six[5] = kd.scale_i(z);
+    }
+    if block == 0 {
+        add_low(layer, spectrum, columns, &mut six);
+    }
+    six
+}
+}
+
+#[inline(always)]
+fn negative(c: C) -> C {
+    C {
+        re: -c.re,
+        im: -c.im,
+    }
+}
+
+/// Σ E c of the seven even columns: p̂, kD, D, A0/k², D/k, q̂, q̂/k.
+#[inline(always)]
+fn even_sums(e: &[V], columns: &[C], sheared: Sheared) -> [C; 7] {
+    // Named accumulators stay in registers; an array of them indexed in the loop does not.
+    let (mut s0, mut s1, mut s2, mut s3, mut s4) = (C::ZERO, C::ZERO, C::ZERO, C::ZERO, C::ZERO);
+    let (mut s5, mut s6) = (C::ZERO, C::ZERO);
+    match sheared {
+        Sheared::Yes => {
+            for (e, c) in e.iter().zip(columns.chunks_exact(COLUMNS)) {
+                s0 = c[0].fma(*e, s0);
+                s1 = c[1].fma(*e, s1);
+                s2 = c[2].fma(*e, s2);
+                s3 = c[3].fma(*e, s3);
+                s4 = c[4].fma(*e, s4);
+                s5 = c[5].fma(*e, s5);
+                s6 = c[6].fma(*e, s6);
+            }
+        }
+        Sheared::No => {
+            for (e, c) in e.iter().zip(columns.chunks_exact(COLUMNS)) {
+                s0 = c[0].fma(*e, s0);
+                s1 = c[1].fma(*e, s1);
+                s3 = c[3].fma(*e, s3);
+                s4 = c[4].fma(*e, s4);
+            }
+            s2 = s0;
+        }
+    }
+    [s0, s1, s2, s3, s4, s5, s6]
+}
+
+/// Σ E c of the four odd columns: ny q̂, ny A0/k, ny D, ny kD.
+#[inline(always)]
+fn odd_sums(e: &[V], columns: &[C]) -> [C; 4] {
+    let (mut s0, mut s1, mut s2, mut s3) = (C::ZERO, C::ZERO, C::ZERO, C::ZERO);
+    for (e, c) in e.iter().zip(columns.chunks_exact(COLUMNS)) {
+        s0 = c[ODD].fma(*e, s0);
+        s1 = c[ODD + 1].fma(*e, s1);
+        s2 = c[ODD + 2].fma(*e, s2);
+        s3 = c[ODD + 3].fma(*e, s3);
+    }
+    [s0, s1, s2, s3]
+}
+
+/// The windowed modes of block 0.
+#[inline(always)]
+fn add_low(layer: &Layer, spectrum: &Spectrum, columns: &[C], six: &mut Six) {
+    let [xx, yy, zz, xz, xy, yz] = six;
+    for (y, row) in layer.low.iter().enumerate() {
+        let LowRow { p: t, q: u } = row;
+        let c = &columns[y * COLUMNS..(y + 1) * COLUMNS];
+        let (p, x) = (c[0], c[5]);
+        let (t_yy, u_yy) = (t[1] + t[2], u[1] + u[2]);
+        *xx = x.fma_i(u[0] + u_yy, p.fma(t[0] + t_yy, *xx));
+        *yy = x.fma_i(u_yy, p.fma(t_yy, *yy));
+        *zz = x.fma_i(u[2], p.fma(t[2], *zz));
+        *xz = x.fma(u[4], p.fma_i(t[4], *xz));
+        if spectrum.minus.is_some() {
+            let (p, x) = folded(spectrum, y, y, V::splat(-1.0));
+            *xy = x.fma_i(u[3], p.fma(t[3], *xy));
+            *yz = x.fma(u[5], p.fma_i(t[5], *yz));
+        }
+    }
+}
+
+dispatched! {
+/// Depths into the lanes.
+fn turn_depths(sums: &[[C; LANES]; 6], o: usize, stride: usize, fields: &mut Lanes) {
+    for (component, rows) in sums.iter().enumerate() {
+        let (mut re, mut im) = ([V::ZERO; LANES], [V::ZERO; LANES]);
+        for (l, c) in rows.iter().enumerate() {
+            re[l] = c.re;
+            im[l] = c.im;
+        }
+        let o = o + component * stride;
+        fields.re[o..o + LANES].copy_from_slice(&transpose(&re));
+        fields.im[o..o + LANES].copy_from_slice(&transpose(&im));
+    }
+}
+}
+
+dispatched! {
+/// Components and effective stress of sixteen depths from `first` on.
+fn write_rows(spec: &StressSpec, first: usize, along_x: &mut [Lanes; 3], out: &mut SliceOut) {
+    let [a, b, c] = along_x;
+    if spec.symmetry == Symmetry::MirrorY {
+        c.re.fill(V::ZERO);
+        c.im.fill(V::ZERO);
+    }
+    let depths = (spec.depths.len() - first).min(LANES);
+    let mut i = 0;
+    while i < spec.nx {
+        let count = LANES.min(spec.nx - i);
+        let mut tile = [V::ZERO; LANES];
+        for (l, slot) in tile.iter_mut().enumerate().take(count) {
+            let j = i + l;
+            *slot = effective(spec.measure, [a.re[j], a.im[j], b.re[j], b.im[j], c.re[j], c.im[j]]);
+        }
+        let part = |lanes: &[V]| {
+            let mut tile = [V::ZERO; LANES];
+            tile[..count].copy_from_slice(&lanes[i..i + count]);
+            tile
+        };
+        let place = (first, depths, i, count, spec.nx);
+        write_tile(&tile, place, &mut out.effective);
+        write_tile(&part(&a.re), place, &mut out.sxx);
+        write_tile(&part(&a.im), place, &mut out.syy);
+        write_tile(&part(&b.re), place, &mut out.szz);
+        write_tile(&part(&b.im), place, &mut out.sxz);
+        if spec.symmetry == Symmetry::General {
+            write_tile(&part(&c.re), place, &mut out.sxy);
+            write_tile(&part(&c.im), place, &mut out.syz);
+        }
+        i += LANES;
+    }
+}
+}
+
+/// Effective stress of xx, yy, zz, xz, xy, yz.
+#[inline(always)]
+fn effective(measure: StressMeasure, [xx, yy, zz, xz, xy, yz]: [V; 6]) -> V {
+    let square = squared(measure, xx - yy, yy - zz, xy, xz, yz);
+    let mut root = V::ZERO;
+    for l in 0..LANES {
+        root.0[l] = square.0[l].sqrt();
+    }
+    root
+}
+
+#[inline(always)]
+fn write_tile(
+    tile: &[V; LANES],
+    (first, depths, i, count, nx): (usize, usize, usize, usize, usize),
+    out: &mut [f32],
+) {
+    let rows = transpose(tile);
+    for (l, row) in rows.iter().enumerate().take(depths) {
+        let o = (first + l) * nx + i;
+        out[o..o + count].copy_from_slice(&row.0[..count]);
+    }
+}
