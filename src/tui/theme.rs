@@ -36,6 +36,20 @@ pub enum Contrast {
     Normal,
     /// Nothing is dimmed, borders are bright.
     High,
+    /// Dark colours for a light background.
+    Light,
+}
+
+impl Contrast {
+    /// Reads the background from `COLORFGBG` (`foreground;background`), which some terminals set.
+    pub fn detect(variable: impl Fn(&str) -> Option<String>) -> Self {
+        let background =
+            variable("COLORFGBG").and_then(|colors| colors.rsplit(';').next().map(str::to_owned));
+        match background.as_deref() {
+            Some("7" | "15") => Self::Light,
+            _ => Self::Normal,
+        }
+    }
 }
 
 /// What a terminal can show.
@@ -201,26 +215,27 @@ impl Theme {
         }
     }
 
-    /// Same theme, other contrast.
-    pub fn toggle_contrast(&mut self) {
+    /// Same theme, next contrast.
+    pub fn next_contrast(&mut self) {
         self.contrast = match self.contrast {
             Contrast::Normal => Contrast::High,
-            Contrast::High => Contrast::Normal,
+            Contrast::High => Contrast::Light,
+            Contrast::Light => Contrast::Normal,
         };
     }
 
     /// Whether only ASCII may be drawn.
-    pub fn is_ascii(&self) -> bool {
+    pub fn is_ascii(self) -> bool {
         self.capabilities.glyphs == Glyphs::Ascii
     }
 
     /// `unicode`, or `ascii` where only that may be drawn.
-    pub fn pick(&self, unicode: &'static str, ascii: &'static str) -> &'static str {
+    pub fn pick(self, unicode: &'static str, ascii: &'static str) -> &'static str {
         if self.is_ascii() { ascii } else { unicode }
     }
 
     /// Whether maps are drawn in half blocks of colour (else in characters of growing ink).
-    pub fn paints(&self) -> bool {
+    pub fn paints(self) -> bool {
         !self.is_ascii()
             && matches!(
                 self.capabilities.depth,
@@ -229,11 +244,11 @@ impl Theme {
     }
 
     /// How a thing looks.
-    pub fn style(&self, role: Role) -> Style {
+    pub fn style(self, role: Role) -> Style {
         let mut style = Style::new().add_modifier(weight(role));
         match self.role_color(role) {
             Some(color) => style = style.fg(color),
-            None if role == Role::Dim && self.contrast == Contrast::Normal => {
+            None if role == Role::Dim && self.contrast != Contrast::High => {
                 style = style.add_modifier(Modifier::DIM);
             }
             None => {}
@@ -245,7 +260,7 @@ impl Theme {
     }
 
     /// A colour of a map, `t` from 0 to 1.
-    pub fn map_color(&self, ramp: Ramp, t: f32) -> Color {
+    pub fn map_color(self, ramp: Ramp, t: f32) -> Color {
         if self.capabilities.depth == ColorDepth::Indexed {
             return Color::Indexed(map_index(ramp, t));
         }
@@ -253,7 +268,7 @@ impl Theme {
     }
 
     /// A colour of a map with white mixed in: lines drawn over it.
-    pub fn map_color_lit(&self, ramp: Ramp, t: f32, white: f32) -> Color {
+    pub fn map_color_lit(self, ramp: Ramp, t: f32, white: f32) -> Color {
         let base = map_rgb(ramp, t);
         self.rgb(base.map(|c| (f32::from(c) + (255.0 - f32::from(c)) * white) as u8))
     }
@@ -265,7 +280,7 @@ impl Theme {
     }
 
     /// A colour in the terminal's depth (no colour where it shows none).
-    pub fn rgb(&self, [r, g, b]: [u8; 3]) -> Color {
+    pub fn rgb(self, [r, g, b]: [u8; 3]) -> Color {
         match self.capabilities.depth {
             ColorDepth::True => Color::Rgb(r, g, b),
             ColorDepth::Indexed => Color::Indexed(nearest_index([r, g, b])),
@@ -273,24 +288,32 @@ impl Theme {
         }
     }
 
-    fn role_color(&self, role: Role) -> Option<Color> {
+    fn role_color(self, role: Role) -> Option<Color> {
         match self.capabilities.depth {
             ColorDepth::Mono => None,
-            ColorDepth::Basic => basic(role),
+            ColorDepth::Basic => Some(basic(role)),
             ColorDepth::True | ColorDepth::Indexed => {
                 let rgb = match (role, self.contrast) {
                     (Role::Text | Role::Strong, _) => return Some(Color::Reset),
                     (Role::Dim, Contrast::Normal) => [140, 146, 162],
                     (Role::Border, Contrast::Normal) => [84, 92, 112],
-                    (Role::Dim | Role::Border | Role::Title, Contrast::High) => {
+                    (Role::Dim, Contrast::Light) => [92, 96, 108],
+                    (Role::Border | Role::Hertz, Contrast::Light) => [150, 154, 166],
+                    (Role::Title, _) | (Role::Dim | Role::Border, Contrast::High) => {
                         return Some(Color::Reset);
                     }
+                    (other, Contrast::Light) => darkened(okabe_ito(other)),
                     (other, _) => okabe_ito(other),
                 };
                 Some(self.rgb(rgb))
             }
         }
     }
+}
+
+/// The same hue for a light background.
+fn darkened(rgb: [u8; 3]) -> [u8; 3] {
+    rgb.map(|c| (f32::from(c) * 0.55) as u8)
 }
 
 fn weight(role: Role) -> Modifier {
@@ -315,16 +338,16 @@ fn okabe_ito(role: Role) -> [u8; 3] {
     }
 }
 
-fn basic(role: Role) -> Option<Color> {
+fn basic(role: Role) -> Color {
     match role {
-        Role::Text | Role::Strong | Role::Title => Some(Color::Reset),
-        Role::Dim | Role::Border | Role::Hertz => Some(Color::DarkGray),
-        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Some(Color::Yellow),
-        Role::Body2 | Role::Shear => Some(Color::Magenta),
-        Role::Pressure | Role::Peaks => Some(Color::LightRed),
-        Role::Film | Role::Formula => Some(Color::Cyan),
-        Role::Traction | Role::Good => Some(Color::Green),
-        Role::Bad => Some(Color::Red),
+        Role::Text | Role::Strong | Role::Title => Color::Reset,
+        Role::Dim | Role::Border | Role::Hertz => Color::DarkGray,
+        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Yellow,
+        Role::Body2 | Role::Shear => Color::Magenta,
+        Role::Pressure | Role::Peaks => Color::LightRed,
+        Role::Film | Role::Formula => Color::Cyan,
+        Role::Traction | Role::Good => Color::Green,
+        Role::Bad => Color::Red,
     }
 }
 
@@ -350,8 +373,8 @@ fn map_index(ramp: Ramp, t: f32) -> u8 {
 
 fn interpolate(stops: &[[u8; 3]], t: f32) -> [u8; 3] {
     let last = stops.len() - 1;
-    // A NaN would land on the first stop, as `max` returns the other operand.
-    let place = t.max(0.0).min(1.0) * last as f32;
+    let t = if t.is_nan() { 0.0 } else { t };
+    let place = t.clamp(0.0, 1.0) * last as f32;
     let lower = (place as usize).min(last - 1);
     let part = place - lower as f32;
     let mix = |a: u8, b: u8| (f32::from(a) + (f32::from(b) - f32::from(a)) * part).round() as u8;

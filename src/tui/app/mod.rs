@@ -316,6 +316,11 @@ impl App {
         (seconds > 0.0).then(|| last.1.saturating_sub(first.1) as f64 / seconds)
     }
 
+    /// Where a knob is going, as the screen has it.
+    pub fn target(&self, knob: Knob) -> f64 {
+        target_of(&self.dials, knob)
+    }
+
     /// The line that is being said.
     pub fn message(&self) -> Option<&str> {
         self.message.as_ref().map(|(text, _)| text.as_str())
@@ -380,15 +385,12 @@ impl App {
     }
 
     /// The scene with the knobs where they are going, as TOML.
-    ///
-    /// # Errors
-    /// When the scene cannot be written as TOML.
-    pub fn scene_toml(&self) -> Result<String, String> {
+    pub fn scene_toml(&self) -> String {
         let mut scene = (*self.setup.scene).clone();
         for dial in &self.dials {
             put(&mut scene, dial);
         }
-        toml::to_string(&scene).map_err(|error| error.to_string())
+        scene.to_toml()
     }
 
     fn refresh_estimate(&mut self) {
@@ -424,18 +426,19 @@ fn put(scene: &mut Scene, dial: &Dial) {
 
 /// The operating point that the knobs are going to.
 fn point_of(dials: &[Dial]) -> OperatingPoint {
-    let target = |knob: Knob| {
-        dials
-            .iter()
-            .find(|dial| dial.knob == knob)
-            .map_or(0.0, |dial| dial.target)
-    };
     OperatingPoint {
-        slide_roll: target(Knob::SlideRoll),
-        load_n: target(Knob::ForceN),
-        amplitude_1_m: target(Knob::Amplitude1M),
-        amplitude_2_m: target(Knob::Amplitude2M),
+        slide_roll: target_of(dials, Knob::SlideRoll),
+        load_n: target_of(dials, Knob::ForceN),
+        amplitude_1_m: target_of(dials, Knob::Amplitude1M),
+        amplitude_2_m: target_of(dials, Knob::Amplitude2M),
     }
+}
+
+fn target_of(dials: &[Dial], knob: Knob) -> f64 {
+    dials
+        .iter()
+        .find(|dial| dial.knob == knob)
+        .map_or(0.0, |dial| dial.target)
 }
 
 /// Before anything was simulated only the cycles are known: peaks and traction count as 1.
