@@ -2,6 +2,7 @@
 
 pub mod cycles;
 pub mod estimate;
+pub mod fatigue;
 pub mod film_regression;
 pub mod fluid;
 pub mod groups;

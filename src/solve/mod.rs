@@ -4,6 +4,7 @@ pub mod film;
 pub mod history;
 pub mod jacobian;
 pub mod krylov;
+pub mod life;
 pub mod march;
 pub mod material;
 pub mod newton;
