@@ -4,8 +4,6 @@ use super::door::Door;
 use super::drive::Drive;
 use super::knob::Knob;
 use crate::math::grid::Grid;
-use crate::physics::cycles::contacts;
-use crate::plan::Plan;
 
 /// Travelled ways and the time since the last disturbance.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,15 +55,5 @@ impl Motion {
     /// Whether the contact has been flushed since the last disturbance.
     pub(super) fn is_flushed(&self) -> bool {
         self.unsettled == 0.0
-    }
-
-    /// n of both bodies over the zone 2a: `n_i = 1 + f_j |U2−U1| 2a/|U_i|`; `None` where a body rests.
-    pub(super) fn contacts_per_cycle(&self, plan: &Plan, u: f64, s: f64) -> [Option<f64>; 2] {
-        let speeds = [u * (1.0 - 0.5 * s), u * (1.0 + 0.5 * s)];
-        [0, 1].map(|body: usize| {
-            let crests = plan.waves[1 - body].map_or(0.0, |wave| wave.crests_per_m);
-            contacts(speeds[body], speeds[1 - body], crests, 2.0 * plan.hertz.a_m)
-                .per_loading_cycle()
-        })
     }
 }
