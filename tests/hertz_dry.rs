@@ -7,7 +7,7 @@ use asperity::physics::fluid::{Density, Viscosity};
 use asperity::solve::march::{Flow, Guess, March};
 use asperity::solve::newton::{Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
-use contact::{CIRCLE, LOAD};
+use contact::{CIRCLE, conditions};
 
 #[test]
 fn dry_hertz() {
@@ -33,7 +33,7 @@ fn dry_hertz() {
             *p = (0.8 - r2).max(0.0);
         }
         march.state.history.h0[0] = -0.7;
-        let report = march.attempt(&dry, LOAD, 1.0, tolerance, Guess::Last);
+        let report = march.attempt(&conditions(&dry, tolerance), 1.0, Guess::Last);
         assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
         let (p, grid) = (&march.state.pressure, &march.grid);
         let p_max = p.iter().copied().fold(0.0, f64::max);

@@ -111,4 +111,9 @@ impl Door {
     pub(super) fn m_from_x(&self, x: f64) -> f64 {
         x * self.a_m
     }
+
+    /// κ_s of the deflection by traction, from the mismatch of the materials, 1/Pa.
+    pub(super) fn kappa_s(&self, mismatch_per_pa: f64) -> f64 {
+        self.p_hertz_pa * self.a_m / self.film_m * mismatch_per_pa / std::f64::consts::TAU
+    }
 }

@@ -14,7 +14,7 @@ use super::{Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{Cavitation, Scene};
 use crate::solve::march::{Flow, March, Shape};
 use crate::solve::newton::Tolerance;
 use crate::solve::traction::{FilmShear, TractionLaw};
@@ -37,15 +37,20 @@ impl Simulation {
                 reason: error.to_string(),
             })?;
         let door = Door::new(scene);
-        let flow = if scene.lubricant.is_some() {
-            Flow::Film
-        } else {
-            Flow::Dry
-        };
+        let flow = scene
+            .lubricant
+            .as_ref()
+            .map_or(Flow::Dry, |oil| match oil.cavitation {
+                Cavitation::Reynolds => Flow::Film,
+                Cavitation::Jfo => Flow::MassConserving,
+            });
         let shape = Shape {
             kappa: door.kappa,
             curvature_y: door.curvature_y,
             b_over_a: door.b_over_a,
+            kappa_s: plan
+                .traction_deflection
+                .map_or(0.0, |t| door.kappa_s(t.mismatch_per_pa)),
         };
         let first = COARSEST.min(plan.domain.nodes);
         let grid = grid_of(&plan, first, door.b_over_a);
@@ -88,10 +93,10 @@ impl Simulation {
         }
         let tolerance = Tolerance {
             pressure: scene.numerics.tolerance,
-            mass: if flow == Flow::Film {
-                0.1 * scene.numerics.tolerance
-            } else {
+            mass: if flow == Flow::Dry {
                 f64::INFINITY
+            } else {
+                0.1 * scene.numerics.tolerance
             },
             load: 1e-5,
             max_iterations: scene.numerics.max_iterations,

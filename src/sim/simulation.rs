@@ -124,6 +124,7 @@ impl Simulation {
 
     /// One time step: solved, committed, measured.
     pub(super) fn advance(&mut self) -> Result<(), StepError> {
+        let law = self.law_now();
         let attempted = self.pool.install(|| {
             advance(
                 &mut self.march,
@@ -131,6 +132,7 @@ impl Simulation {
                 &mut self.drive,
                 &mut self.motion,
                 &self.door,
+                law,
                 self.tolerance,
             )
         });

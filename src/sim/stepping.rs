@@ -7,8 +7,9 @@ use super::frame::Metrics;
 use super::knob::Knob;
 use super::motion::Motion;
 use super::terrain::Terrain;
-use crate::solve::march::{Guess, March};
+use crate::solve::march::{Conditions, Guess, March};
 use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
+use crate::solve::traction::TractionLaw;
 
 /// Most times a step is halved.
 const MAX_HALVINGS: u32 = 2;
@@ -95,6 +96,7 @@ struct Mover<'a> {
     drive: &'a mut Drive,
     motion: &'a mut Motion,
     door: &'a Door,
+    law: TractionLaw,
     tolerance: Tolerance,
 }
 
@@ -105,6 +107,7 @@ pub(super) fn advance(
     drive: &mut Drive,
     motion: &mut Motion,
     door: &Door,
+    law: TractionLaw,
     tolerance: Tolerance,
 ) -> Attempted {
     let mut done = Attempted {
@@ -118,6 +121,7 @@ pub(super) fn advance(
         drive,
         motion,
         door,
+        law,
         tolerance,
     };
     mover.part(nodes, 0, &mut done);
@@ -200,8 +204,12 @@ impl Mover<'_> {
         let medium = self
             .door
             .medium(value(Knob::EntrainmentMS), value(Knob::SlideRoll));
-        let load = self.door.load(value(Knob::ForceN));
-        self.march
-            .attempt(&medium, load, nodes, self.tolerance, guess)
+        let conditions = Conditions {
+            medium: &medium,
+            law: Some(&self.law),
+            load: self.door.load(value(Knob::ForceN)),
+            tolerance: self.tolerance,
+        };
+        self.march.attempt(&conditions, nodes, guess)
     }
 }

@@ -5,6 +5,7 @@ use super::measure::{Measured, measure};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::{Knob, LifeEstimate};
+use crate::solve::traction::TractionLaw;
 
 impl Simulation {
     /// Traction, stress, life and scalars of the committed step.
@@ -49,19 +50,26 @@ impl Simulation {
         });
     }
 
-    pub(super) fn measure(&mut self) -> Measured {
+    /// The traction law at the knobs' present values.
+    pub(super) fn law_now(&self) -> TractionLaw {
         let s = self.drive.get(Knob::SlideRoll).now;
         let u = self.drive.get(Knob::EntrainmentMS).now;
-        let scale = (self.drive.get(Knob::ForceN).now / self.plan.force_n).cbrt();
-        self.law.direction = if s == 0.0 { 0.0 } else { s.signum() };
-        if let Some(film) = &mut self.law.film {
+        let mut law = self.law;
+        law.direction = if s == 0.0 { 0.0 } else { s.signum() };
+        if let Some(film) = &mut law.film {
             film.rate = self.motion.shear_rate * (s * u).abs();
         }
+        law
+    }
+
+    pub(super) fn measure(&mut self) -> Measured {
+        let law = self.law_now();
+        let scale = (self.drive.get(Knob::ForceN).now / self.plan.force_n).cbrt();
         let state = &self.march.state;
         self.traction.resize(self.march.grid.len(), 0.0);
         measure(
             &self.march.grid,
-            &self.law,
+            &law,
             &state.pressure,
             &state.film,
             (scale, scale * self.door.b_over_a),

@@ -11,4 +11,5 @@ pub mod newton;
 pub mod precondition;
 pub mod reynolds;
 pub mod stress;
+pub mod tangential;
 pub mod traction;

@@ -6,43 +6,54 @@ use std::f64::consts::PI;
 
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::physics::fluid::{Density, Viscosity};
-use asperity::solve::march::{Flow, Guess, March, Shape};
+use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{NewtonReport, Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
 
 /// Fluids of the reference tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fluid {
+pub(crate) enum Fluid {
     BarusIncompressible,
     /// η0 = 0.04 Pa s, α = 2.2e-8 1/Pa.
     RoelandsDowsonHigginson,
 }
 
 /// A circular contact.
-pub struct Case {
-    pub medium: Medium,
-    pub lambda: f64,
-    pub domain: (f64, f64, f64),
+pub(crate) struct Case {
+    pub(crate) medium: Medium,
+    pub(crate) lambda: f64,
+    pub(crate) domain: (f64, f64, f64),
 }
 
-pub const CIRCLE: Shape = Shape {
+pub(crate) const CIRCLE: Shape = Shape {
     kappa: 2.0 / (PI * PI),
     curvature_y: 1.0,
     b_over_a: 1.0,
+    kappa_s: 0.0,
 };
 
-pub const LOAD: f64 = 2.0 * PI / 3.0;
+pub(crate) const LOAD: f64 = 2.0 * PI / 3.0;
 
-pub const TOLERANCE: Tolerance = Tolerance {
+pub(crate) const TOLERANCE: Tolerance = Tolerance {
     pressure: 1e-4,
     mass: 1e-4,
     load: 1e-5,
     max_iterations: 20,
 };
 
+/// A step under the unit load.
+pub(crate) fn conditions(medium: &Medium, tolerance: Tolerance) -> Conditions<'_> {
+    Conditions {
+        medium,
+        law: None,
+        load: LOAD,
+        tolerance,
+    }
+}
+
 impl Case {
     /// Moes M, L: λ = (128π³/(3M⁴))^{1/3}, α p_h = (L/π)(3M/2)^{1/3}.
-    pub fn moes(m: f64, l: f64, fluid: Fluid, domain: (f64, f64, f64)) -> Self {
+    pub(crate) fn moes(m: f64, l: f64, fluid: Fluid, domain: (f64, f64, f64)) -> Self {
         let lambda = (128.0 * PI.powi(3) / (3.0 * m.powi(4))).cbrt();
         let alpha = 2.2e-8;
         let p_hertz = l / PI * (1.5 * m).cbrt() / alpha;
@@ -70,7 +81,7 @@ impl Case {
     }
 
     /// Film in Moes units.
-    pub fn film(&self, h: f64) -> f64 {
+    pub(crate) fn film(&self, h: f64) -> f64 {
         h * (6.0 * PI / self.lambda).sqrt()
     }
 
@@ -80,7 +91,7 @@ impl Case {
     }
 
     /// The steady smooth contact on `nodes` per side, through 65², 129² ...; `each` sees every grid's.
-    pub fn steady(&self, nodes: usize, mut each: impl FnMut(&March)) -> March {
+    pub(crate) fn steady(&self, nodes: usize, mut each: impl FnMut(&March)) -> March {
         let guess = 1.2 * self.lambda.powf(0.67);
         let mut march = March::from_hertz(self.grid(65), &CIRCLE, guess, 1.0, Flow::Film);
         loop {
@@ -98,8 +109,12 @@ impl Case {
     }
 
     /// One committed step that must converge.
-    pub fn step(&self, march: &mut March, nodes: f64) -> NewtonReport {
-        let report = march.attempt(&self.medium, LOAD, nodes, TOLERANCE, Guess::Extrapolated);
+    pub(crate) fn step(&self, march: &mut March, nodes: f64) -> NewtonReport {
+        let report = march.attempt(
+            &conditions(&self.medium, TOLERANCE),
+            nodes,
+            Guess::Extrapolated,
+        );
         assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
         assert!(march.state.pressure.iter().all(|&p| p >= 0.0));
         assert!(march.state.film.iter().all(|&h| h > 0.0 && h.is_finite()));
@@ -109,7 +124,7 @@ impl Case {
 }
 
 /// H at the origin.
-pub fn central(march: &March) -> f64 {
+pub(crate) fn central(march: &March) -> f64 {
     let grid = &march.grid;
     let i = (-grid.x_min / grid.dx).round() as usize;
     assert!(grid.x(i).abs() < 1e-12, "the origin is a node");
@@ -117,7 +132,7 @@ pub fn central(march: &March) -> f64 {
 }
 
 /// Least H inside r < 1.1, by a parabola through the lowest node along y and x.
-pub fn minimum(march: &March) -> f64 {
+pub(crate) fn minimum(march: &March) -> f64 {
     let grid = &march.grid;
     let film = &march.state.film;
     let mut best = (f64::INFINITY, 0, 0);
