@@ -1,1 +1,6 @@
-//! Grids, fixed-order sums, planned FFTs, convolution. No contact words here.
+//! Grids, fixed-order sums, planned FFTs, roots, elliptic integrals. No contact words here.
+
+pub mod elliptic;
+pub mod filter;
+pub mod grid;
+pub mod root;

@@ -1,9 +1,28 @@
 //! What watches a run. An observer gets every frame that the run hands out and never slows the
 //! solver beyond what its queue says.
+//!
+//! * [`Latest`]: one slot with the newest frame, for screens.
+//! * [`FramePool`]: frames that are filled, shared and filled again without allocating.
+//! * [`Queue`]: runs an observer that may block on a thread of its own.
+//! * [`Table`]: every scalar of every step as CSV.
+//! * `rerun::Recorder` (feature `rerun`): the recording. No other folder names that crate.
 
-use std::sync::{Arc, Mutex};
+mod latest;
+mod pool;
+mod queue;
+#[cfg(feature = "rerun")]
+pub mod rerun;
+mod table;
+
+use std::path::Path;
+use std::sync::Arc;
 
 use thiserror::Error;
+
+pub use latest::Latest;
+pub use pool::FramePool;
+pub use queue::{Queue, QueueStats, WhenFull};
+pub use table::Table;
 
 use crate::scene::Scene;
 use crate::sim::Frame;
@@ -52,13 +71,61 @@ pub enum RunEventKind {
 }
 
 /// An output that failed.
-#[derive(Debug, Error)]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{output}: {reason}")]
 pub struct ObserveError {
     /// Which output (a path).
     pub output: String,
     /// What went wrong and what to do about it.
     pub reason: String,
+}
+
+impl ObserveError {
+    /// An error of the output with that name.
+    pub fn new(output: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self {
+            output: output.into(),
+            reason: reason.into(),
+        }
+    }
+}
+
+/// What to do with an output file that is there already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Overwrite {
+    /// It is left alone and the output is refused.
+    #[default]
+    Refuse,
+    /// It is replaced.
+    Replace,
+}
+
+impl Overwrite {
+    /// Creates (or empties) the file, so that a path that cannot be written is known before the
+    /// run starts and nobody's file is lost.
+    ///
+    /// # Errors
+    /// When the file exists and may not be replaced, or cannot be written.
+    pub fn create(self, path: &Path) -> Result<std::fs::File, ObserveError> {
+        let mut options = std::fs::OpenOptions::new();
+        match self {
+            Self::Refuse => options.write(true).create_new(true),
+            Self::Replace => options.write(true).create(true).truncate(true),
+        };
+        options.open(path).map_err(|error| {
+            let reason = match error.kind() {
+                std::io::ErrorKind::AlreadyExists => {
+                    "the file exists; choose another name or ask for overwriting (--force)"
+                        .to_owned()
+                }
+                std::io::ErrorKind::NotFound => {
+                    "its folder does not exist; create it first".to_owned()
+                }
+                _ => format!("cannot be written: {error}"),
+            };
+            ObserveError::new(path.display().to_string(), reason)
+        })
+    }
 }
 
 /// What an observer did.
@@ -96,24 +163,4 @@ pub trait Observer: Send {
     /// # Errors
     /// When the output could not be completed.
     fn finish(&mut self) -> Result<ObserverReport, ObserveError>;
-}
-
-/// One slot that holds the newest frame: a slow reader skips frames and never delays the run.
-#[derive(Debug, Default, Clone)]
-pub struct Latest {
-    slot: Arc<Mutex<Option<Arc<Frame>>>>,
-}
-
-impl Latest {
-    /// Puts a frame, replacing one that nobody took.
-    pub fn put(&self, frame: Arc<Frame>) {
-        if let Ok(mut slot) = self.slot.lock() {
-            *slot = Some(frame);
-        }
-    }
-
-    /// Takes the newest frame, if there is one that was not taken yet.
-    pub fn take(&self) -> Option<Arc<Frame>> {
-        self.slot.lock().ok().and_then(|mut slot| slot.take())
-    }
 }

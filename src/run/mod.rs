@@ -1,4 +1,24 @@
 //! The loop around a simulation: commands in, frames out, an outcome at the end.
+//!
+//! ```text
+//! main thread                     thread "sim"
+//! Session::start ───────────────> observers begin, simulation made
+//!    send(Command) ──────────────> drained between steps, each logged with its step
+//!    latest().take() <──────────── newest frame          every frame ──> observers
+//!    status() <─────────────────── stage, progress, outputs, what happened
+//! Session::join <──────────────── Outcome
+//! ```
+
+mod driver;
+mod outcome;
+mod session;
+mod stepper;
+mod watcher;
+
+pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
+pub use session::{Ending, Request, RunError, Session, SessionEvent, Status};
+pub use stepper::Stepper;
+pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 
 use crate::sim::Knob;
 

@@ -1,9 +1,23 @@
 //! What the user asked for, in SI units, parsed strictly and validated.
+//!
+//! A scene comes from a preset, a TOML file or code. Whatever its source, it passes the same check: every
+//! key is known, of the right kind and within its range ([`keys`]), and the keys fit together. A refusal
+//! names the key, the value and what is allowed ([`SceneError`]).
 
+mod check;
+mod derived;
+mod emit;
+mod error;
+pub mod keys;
+mod load;
+mod lubricant;
 mod model;
+pub mod presets;
 
+pub use error::SceneError;
+pub use load::Override;
+pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, Cavitation, Contact, ContactKind, CycleBasis, DensityLaw, Event, Friction, Grid, Life,
-    LifeModel, Load, Lubricant, Motion, Numerics, Record, Rheology, Scene, Stress, StressMeasure,
-    Surface, Time, ViscosityLaw, VolumeIntegral,
+    Body, Contact, ContactKind, CycleBasis, Event, Grid, Life, LifeModel, Load, Motion, Numerics,
+    Record, Scene, Stress, StressMeasure, Surface, Time, VolumeIntegral,
 };

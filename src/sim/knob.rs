@@ -42,3 +42,19 @@ impl Knob {
         Self::ALL.into_iter().find(|knob| knob.key() == key)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::keys;
+
+    #[test]
+    fn knobs_are_the_keys_that_scenes_may_script() {
+        let keys: Vec<_> = Knob::ALL.iter().map(|knob| knob.key()).collect();
+        assert_eq!(keys, keys::KNOB_KEYS);
+        for knob in Knob::ALL {
+            assert!(keys::find(knob.key()).is_some());
+            assert_eq!(Knob::from_key(knob.key()), Some(knob));
+        }
+    }
+}

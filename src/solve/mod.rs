@@ -1,5 +1,13 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
 
-pub mod life;
+pub mod film;
+pub mod history;
+pub mod jacobian;
+pub mod krylov;
+pub mod march;
 pub mod material;
+pub mod newton;
+pub mod precondition;
+pub mod reynolds;
 pub mod stress;
+pub mod traction;

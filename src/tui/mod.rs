@@ -1,1 +1,213 @@
 //! The live screen: the only folder that names ratatui and crossterm.
+//!
+//! ```text
+//! Latest ──newest frame──> App ──view──> terminal
+//! keys, mouse ──Action──>  App ──Effect──> Command ──> run
+//! ```
+//!
+//! [`app`] holds the state and the reducer and does not draw, wait or read a clock; [`view`] draws
+//! a state and changes nothing; this file is the loop between them. Frames are taken newest first:
+//! a slow screen skips frames and never delays the run.
+
+pub mod action;
+pub mod app;
+pub mod dial;
+pub mod estimate;
+pub mod lessons;
+mod terminal;
+pub mod theme;
+pub mod trace;
+pub mod units;
+pub mod view;
+pub mod wiring;
+
+use std::env;
+use std::io::{self, ErrorKind};
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::{Duration, Instant};
+
+use crossterm::event::Event;
+use ratatui::layout::Rect;
+
+use crate::run::Command;
+use action::{Action, lookup};
+use app::{App, Effect, ErrandKind, Setup};
+use terminal::{Input, Panics, Stage};
+use theme::{Capabilities, Theme};
+pub use wiring::{Health, LeftOut, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring};
+
+/// Longest wait between two drawings.
+const FRAME_TIME: Duration = Duration::from_millis(33);
+
+/// Whether the loop goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Flow {
+    Go,
+    Stop,
+}
+
+/// Shows the explorer until the user quits, the process is asked to end, or the terminal fails.
+///
+/// On return the terminal is as it was, also after an error or a panic, and the run was sent
+/// [`Command::Stop`]; the caller joins it.
+///
+/// # Errors
+/// [`TuiError::NoScreen`] on a terminal that cannot place a cursor; [`TuiError::Terminal`] when it
+/// fails or vanishes.
+pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
+    let term = env::var("TERM").unwrap_or_default();
+    if term == "dumb" {
+        return Err(TuiError::NoScreen { term });
+    }
+    let capabilities = Capabilities::detect(|name| env::var(name).ok());
+    let mut app = App::new(setup_of(&wiring, Theme::new(capabilities)));
+    let panics = Panics::watch();
+    let result = Stage::enter().and_then(|mut stage| {
+        let input = Input::listen()?;
+        show(&mut stage, &input, &panics, &mut app, &mut wiring)
+    });
+    panics.report();
+    // A run that has ended hears nothing, which is what is wanted.
+    let _ = wiring.commands.send(Command::Stop);
+    Ok(result?)
+}
+
+fn setup_of(wiring: &Wiring, theme: Theme) -> Setup {
+    let errands = [
+        (wiring.toggle_recording.is_some(), ErrandKind::Record),
+        (wiring.open_viewer.is_some(), ErrandKind::View),
+        (wiring.save_scene.is_some(), ErrandKind::Save),
+    ];
+    Setup {
+        scene: wiring.scene.clone(),
+        load_n: wiring.load_n,
+        half_width_m: wiring.half_width_m,
+        p_hertz_pa: wiring.p_hertz_pa,
+        plan_text: wiring.plan_text.clone(),
+        left_out: wiring.left_out.clone(),
+        errands: errands
+            .into_iter()
+            .filter_map(|(wired, errand)| wired.then_some(errand))
+            .collect(),
+        theme,
+    }
+}
+
+/// The loop: draw, wait for an event but not longer than a frame's time, take all that came.
+fn show(
+    stage: &mut Stage,
+    input: &Input,
+    panics: &Panics,
+    app: &mut App,
+    wiring: &mut Wiring,
+) -> io::Result<()> {
+    let start = Instant::now();
+    loop {
+        app.tick(start.elapsed());
+        take_news(app, wiring, panics);
+        stage.terminal.draw(|frame| view::draw(app, frame))?;
+        let drawn = Instant::now();
+        let mut wait = FRAME_TIME;
+        loop {
+            if wiring.interrupt.load(Ordering::Relaxed) {
+                return Ok(());
+            }
+            match input.events.recv_timeout(wait) {
+                Ok(event) => {
+                    app.tick(start.elapsed());
+                    if take_event(stage, app, wiring, &event)? == Flow::Stop {
+                        return Ok(());
+                    }
+                }
+                Err(RecvTimeoutError::Timeout) => break,
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(io::Error::new(
+                        ErrorKind::UnexpectedEof,
+                        "no more keys come",
+                    ));
+                }
+            }
+            // What has come already is taken before the next drawing, but a flood of events (a
+            // held key, a dragged mouse) does not keep the screen from being drawn.
+            wait = Duration::ZERO;
+            if drawn.elapsed() > FRAME_TIME {
+                break;
+            }
+        }
+    }
+}
+
+fn take_news(app: &mut App, wiring: &mut Wiring, panics: &Panics) {
+    let mut status = (wiring.status)();
+    if let Some(text) = panics.first() {
+        status.health = Health::Failed(text);
+    }
+    app.take_status(status);
+    if let Some(frame) = wiring.frames.take() {
+        for effect in app.take_frame(frame) {
+            if let Effect::Send(command) = effect {
+                let _ = wiring.commands.send(command);
+            }
+        }
+    }
+}
+
+fn take_event(
+    stage: &mut Stage,
+    app: &mut App,
+    wiring: &mut Wiring,
+    event: &Event,
+) -> io::Result<Flow> {
+    let action = match event {
+        Event::Key(key) => lookup(key),
+        Event::Mouse(mouse) => {
+            let size = stage.terminal.size()?;
+            view::pointed(app, Rect::new(0, 0, size.width, size.height), mouse)
+        }
+        _ => None,
+    };
+    match action {
+        Some(action) => act(stage, app, wiring, action),
+        None => Ok(Flow::Go),
+    }
+}
+
+fn act(stage: &mut Stage, app: &mut App, wiring: &mut Wiring, action: Action) -> io::Result<Flow> {
+    for effect in app.apply(action) {
+        match effect {
+            // A run that has ended hears nothing; its last frame can still be looked at.
+            Effect::Send(command) => {
+                let _ = wiring.commands.send(command);
+            }
+            Effect::Errand(errand) => {
+                let said = run_errand(app, wiring, errand).unwrap_or_else(|reason| reason);
+                app.say(said);
+            }
+            Effect::Suspend => stage.suspend()?,
+            Effect::Quit => return Ok(Flow::Stop),
+        }
+    }
+    Ok(Flow::Go)
+}
+
+fn run_errand(app: &App, wiring: &mut Wiring, errand: ErrandKind) -> Result<String, String> {
+    let missing = || Err("not wired".to_owned());
+    match errand {
+        ErrandKind::Record => wiring
+            .toggle_recording
+            .as_mut()
+            .map_or_else(missing, |run| run()),
+        ErrandKind::View => wiring
+            .open_viewer
+            .as_mut()
+            .map_or_else(missing, |run| run()),
+        ErrandKind::Save => {
+            let text = app.scene_toml()?;
+            match &mut wiring.save_scene {
+                Some(save) => save(&text).map(|path| format!("saved {}", path.display())),
+                None => missing(),
+            }
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! Filters of 2-D fields by planned FFTs: `out = sum_b w_b . F^-1[ S_b F[in] ]`.
+//!
+//! One real transform along x for every stored row, one complex transform along y for every
+//! wavenumber kx, the symbols `S_b` (real and even in both wavenumbers), and back. Rows of zeros
+//! pad the field to the transform lengths `lx`, `ly`: with `lx = 2 (nx-1)`, `ly = 2 (ny_full-1)` and
+//! a field that is zero on the boundary this is the exact free-space convolution; with
+//! `lx = nx-1`, `ly = ny_full-1` it is the periodic one.
+//!
+//! All buffers are made in [`Filter::new`]; work is split in fixed blocks, so that the result does
+//! not depend on the number of threads.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::{Fft, FftNum, FftPlanner};
+
+use super::grid::{Grid, Symmetry};
+
+const ROWS: usize = 4;
+const COLUMNS: usize = 8;
+
+/// Padding of the transforms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Padding {
+    /// Twice the domain: free space.
+    Doubled,
+    /// The domain itself, periodic.
+    Periodic,
+}
+
+/// Buffers of one block of rows.
+struct RowWork<T> {
+    real: Vec<T>,
+    spectrum: Vec<Complex<T>>,
+    scratch: Vec<Complex<T>>,
+}
+
+/// Buffers of one block of columns.
+struct ColumnWork<T> {
+    line: Vec<Complex<T>>,
+    image: Vec<Complex<T>>,
+    scratch: Vec<Complex<T>>,
+}
+
+/// A planned filter with `n_symbols` symbols.
+pub struct Filter<T: FftNum> {
+    nx: usize,
+    ny: usize,
+    lx: usize,
+    ly: usize,
+    symmetry: Symmetry,
+    n_symbols: usize,
+    n_kx: usize,
+    row_forward: Arc<dyn RealToComplex<T>>,
+    row_inverse: Arc<dyn ComplexToReal<T>>,
+    column_forward: Arc<dyn Fft<T>>,
+    column_inverse: Arc<dyn Fft<T>>,
+    /// `[symbol][kx][ky <= ly/2]`, the normalisation of the transforms included.
+    symbols: Vec<T>,
+    /// `[row][kx]`
+    rows_spectrum: Vec<Complex<T>>,
+    /// `[kx][symbol][row]`
+    columns_out: Vec<Complex<T>>,
+    row_work: Vec<RowWork<T>>,
+    column_work: Vec<ColumnWork<T>>,
+}
+
+impl<T: FftNum> Filter<T> {
+    /// Plans transforms for `grid` and makes all buffers; the symbols start at zero.
+    pub fn new(grid: &Grid, padding: Padding, n_symbols: usize) -> Self {
+        let factor = match padding {
+            Padding::Doubled => 2,
+            Padding::Periodic => 1,
+        };
+        let (lx, ly) = (factor * (grid.nx - 1), factor * (grid.ny_full() - 1));
+        let n_kx = lx / 2 + 1;
+        let mut real_planner = RealFftPlanner::<T>::new();
+        let mut planner = FftPlanner::<T>::new();
+        let row_forward = real_planner.plan_fft_forward(lx);
+        let row_inverse = real_planner.plan_fft_inverse(lx);
+        let column_forward = planner.plan_fft_forward(ly);
+        let column_inverse = planner.plan_fft_inverse(ly);
+        let zero = Complex::new(T::zero(), T::zero());
+        let row_scratch = row_forward
+            .get_scratch_len()
+            .max(row_inverse.get_scratch_len());
+        let column_scratch = column_forward
+            .get_inplace_scratch_len()
+            .max(column_inverse.get_inplace_scratch_len());
+        let row_work = (0..grid.ny.div_ceil(ROWS))
+            .map(|_| RowWork {
+                real: vec![T::zero(); lx],
+                spectrum: vec![zero; n_kx],
+                scratch: vec![zero; row_scratch],
+            })
+            .collect();
+        let column_work = (0..n_kx.div_ceil(COLUMNS))
+            .map(|_| ColumnWork {
+                line: vec![zero; ly * COLUMNS],
+                image: vec![zero; ly],
+                scratch: vec![zero; column_scratch],
+            })
+            .collect();
+        Self {
+            nx: grid.nx,
+            ny: grid.ny,
+            lx,
+            ly,
+            symmetry: grid.symmetry,
+            n_symbols,
+            n_kx,
+            row_forward,
+            row_inverse,
+            column_forward,
+            column_inverse,
+            symbols: vec![T::zero(); n_symbols * n_kx * (ly / 2 + 1)],
+            rows_spectrum: vec![zero; grid.ny * n_kx],
+            columns_out: vec![zero; n_kx * n_symbols * grid.ny],
+            row_work,
+            column_work,
+        }
+    }
+
+    /// Transform length along x.
+    pub fn lx(&self) -> usize {
+        self.lx
+    }
+
+    /// Transform length along y.
+    pub fn ly(&self) -> usize {
+        self.ly
+    }
+
+    /// Sets symbol `b` from `f(kx index, ky index)`, 0 <= kx <= lx/2, 0 <= ky <= ly/2.
+    pub fn set_symbol(&mut self, b: usize, f: impl Fn(usize, usize) -> f64) {
+        let (n_ky, scale) = (self.ly / 2 + 1, 1.0 / (self.lx * self.ly) as f64);
+        let start = b * self.n_kx * n_ky;
+        let table = &mut self.symbols[start..start + self.n_kx * n_ky];
+        for (kx, line) in table.chunks_exact_mut(n_ky).enumerate() {
+            for (ky, s) in line.iter_mut().enumerate() {
+                *s = T::from_f64(f(kx, ky) * scale).unwrap_or_else(T::zero);
+            }
+        }
+    }
+
+    /// `out = F^-1[S_0 F[input]]`.
+    pub fn apply(&mut self, input: &[T], out: &mut [T]) {
+        self.forward(input);
+        self.columns();
+        self.inverse(None, out);
+    }
+
+    /// `out = sum_b weights[b] . F^-1[S_b F[input]]`, `weights` of shape `[symbol][node]`. Rows where
+    /// a weight is zero throughout are not transformed back.
+    pub fn apply_weighted(&mut self, input: &[T], weights: &[T], out: &mut [T]) {
+        self.forward(input);
+        self.columns();
+        self.inverse(Some(weights), out);
+    }
+
+    fn forward(&mut self, input: &[T]) {
+        let (nx, lx, n_kx) = (self.nx, self.lx, self.n_kx);
+        let plan = &self.row_forward;
+        self.rows_spectrum
+            .par_chunks_mut(ROWS * n_kx)
+            .zip(input.par_chunks(ROWS * nx))
+            .zip(self.row_work.par_iter_mut())
+            .for_each(|((spectra, rows), work)| {
+                for (spectrum, row) in spectra.chunks_exact_mut(n_kx).zip(rows.chunks_exact(nx)) {
+                    let n = nx.min(lx);
+                    work.real[..n].copy_from_slice(&row[..n]);
+                    work.real[n..].fill(T::zero());
+                    plan.process_with_scratch(&mut work.real, spectrum, &mut work.scratch)
+                        .expect("buffer lengths were made for this plan");
+                }
+            });
+    }
+
+    fn columns(&mut self) {
+        let (ny, ly, n_kx, n_symbols) = (self.ny, self.ly, self.n_kx, self.n_symbols);
+        let n_ky = ly / 2 + 1;
+        let (forward, inverse) = (&self.column_forward, &self.column_inverse);
+        let (rows, symbols, symmetry) = (&self.rows_spectrum, &self.symbols, self.symmetry);
+        self.columns_out
+            .par_chunks_mut(COLUMNS * n_symbols * ny)
+            .zip(self.column_work.par_iter_mut())
+            .enumerate()
+            .for_each(|(block, (out, work))| {
+                let k0 = block * COLUMNS;
+                let width = COLUMNS.min(n_kx - k0);
+                gather(rows, n_kx, k0, width, ny, ly, symmetry, &mut work.line);
+                for c in 0..width {
+                    let line = &mut work.line[c * ly..(c + 1) * ly];
+                    forward.process_with_scratch(line, &mut work.scratch);
+                    for b in 0..n_symbols {
+                        let start = (b * n_kx + k0 + c) * n_ky;
+                        multiply(line, &symbols[start..start + n_ky], &mut work.image);
+                        inverse.process_with_scratch(&mut work.image, &mut work.scratch);
+                        let at = (c * n_symbols + b) * ny;
+                        let n = ny.min(ly);
+                        out[at..at + n].copy_from_slice(&work.image[..n]);
+                        if ny > ly {
+                            out[at + ly] = work.image[0];
+                        }
+                    }
+                }
+            });
+    }
+
+    fn inverse(&mut self, weights: Option<&[T]>, out: &mut [T]) {
+        let (nx, ny, lx, n_kx, n_symbols) = (self.nx, self.ny, self.lx, self.n_kx, self.n_symbols);
+        let plan = &self.row_inverse;
+        let columns = &self.columns_out;
+        out.par_chunks_mut(ROWS * nx)
+            .zip(self.row_work.par_iter_mut())
+            .enumerate()
+            .for_each(|(block, (rows, work))| {
+                for (r, row) in rows.chunks_exact_mut(nx).enumerate() {
+                    let j = block * ROWS + r;
+                    row.fill(T::zero());
+                    for b in 0..n_symbols {
+                        let weight = weights.map(|w| &w[(b * ny + j) * nx..(b * ny + j + 1) * nx]);
+                        if weight.is_some_and(|w| w.iter().all(|v| v.is_zero())) {
+                            continue;
+                        }
+                        for (kx, s) in work.spectrum.iter_mut().enumerate() {
+                            *s = columns[(kx * n_symbols + b) * ny + j];
+                        }
+                        work.spectrum[0].im = T::zero();
+                        work.spectrum[n_kx - 1].im = T::zero();
+                        plan.process_with_scratch(
+                            &mut work.spectrum,
+                            &mut work.real,
+                            &mut work.scratch,
+                        )
+                        .expect("buffer lengths were made for this plan");
+                        accumulate(row, &work.real, lx, weight);
+                    }
+                }
+            });
+    }
+}
+
+fn accumulate<T: FftNum>(row: &mut [T], real: &[T], lx: usize, weight: Option<&[T]>) {
+    match weight {
+        None => {
+            let n = row.len().min(lx);
+            row[..n].copy_from_slice(&real[..n]);
+        }
+        Some(weight) => {
+            for ((o, &v), &w) in row.iter_mut().zip(real).zip(weight) {
+                *o = *o + v * w;
+            }
+        }
+    }
+    if row.len() > lx && weight.is_none() {
+        row[lx] = real[0];
+    }
+}
+
+/// Columns `k0..k0+width` of the row spectra as contiguous lines of length `ly`.
+fn gather<T: FftNum>(
+    rows: &[Complex<T>],
+    n_kx: usize,
+    k0: usize,
+    width: usize,
+    ny: usize,
+    ly: usize,
+    symmetry: Symmetry,
+    line: &mut [Complex<T>],
+) {
+    let zero = Complex::new(T::zero(), T::zero());
+    match symmetry {
+        Symmetry::General => {
+            let n = ny.min(ly);
+            for j in 0..n {
+                for c in 0..width {
+                    line[c * ly + j] = rows[j * n_kx + k0 + c];
+                }
+            }
+            for c in 0..width {
+                line[c * ly + n..(c + 1) * ly].fill(zero);
+            }
+        }
+        Symmetry::MirrorY => {
+            for c in 0..width {
+                line[c * ly + ny - 1..(c + 1) * ly + 1 - ny.min(ly)].fill(zero);
+            }
+            for j in 0..ny.min(ly / 2 + 1) {
+                for c in 0..width {
+                    let v = rows[j * n_kx + k0 + c];
+                    line[c * ly + j] = v;
+                    line[c * ly + (ly - j) % ly] = v;
+                }
+            }
+        }
+    }
+}
+
+/// `out = line . symbol`, the symbol even in ky.
+fn multiply<T: FftNum>(line: &[Complex<T>], symbol: &[T], out: &mut [Complex<T>]) {
+    let ly = line.len();
+    let half = symbol.len();
+    for ((o, &v), &s) in out.iter_mut().zip(line).zip(symbol) {
+        *o = Complex::new(v.re * s, v.im * s);
+    }
+    for (k, (o, &v)) in out.iter_mut().zip(line).enumerate().skip(half) {
+        let s = symbol[ly - k];
+        *o = Complex::new(v.re * s, v.im * s);
+    }
+}
+
+/// The transform of a kernel `k(x, y)` that is even in both, sampled at node offsets, on the padded
+/// grid: `[kx][ky]`, both to half the length, real.
+pub fn even_kernel_symbol(
+    lx: usize,
+    ly: usize,
+    kernel: impl Fn(usize, usize) -> f64 + Sync,
+) -> Vec<f64> {
+    let (nkx, nky) = (lx / 2 + 1, ly / 2 + 1);
+    let mut planner = FftPlanner::<f64>::new();
+    let (fx, fy) = (planner.plan_fft_forward(lx), planner.plan_fft_forward(ly));
+    let mut table: Vec<f64> = (0..nky * nkx)
+        .into_par_iter()
+        .map(|n| kernel(n % nkx, n / nkx))
+        .collect();
+    let mut line = vec![Complex::new(0.0, 0.0); lx];
+    for row in table.chunks_exact_mut(nkx) {
+        for (i, v) in line.iter_mut().enumerate() {
+            *v = Complex::new(row[i.min(lx - i)], 0.0);
+        }
+        fx.process(&mut line);
+        for (o, v) in row.iter_mut().zip(&line) {
+            *o = v.re;
+        }
+    }
+    let mut out = vec![0.0; nkx * nky];
+    let mut column = vec![Complex::new(0.0, 0.0); ly];
+    for kx in 0..nkx {
+        for (j, v) in column.iter_mut().enumerate() {
+            *v = Complex::new(table[j.min(ly - j) * nkx + kx], 0.0);
+        }
+        fy.process(&mut column);
+        for (o, v) in out[kx * nky..(kx + 1) * nky].iter_mut().zip(&column) {
+            *o = v.re;
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn direct(grid: &Grid, p: &[f64], kernel: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+        let nyf = grid.ny_full();
+        let full = |j: usize, i: usize| p[grid.stored_row(j) * grid.nx + i];
+        let mut out = vec![0.0; grid.len()];
+        for j in 0..nyf {
+            for i in 0..grid.nx {
+                let mut sum = 0.0;
+                for jj in 0..nyf {
+                    for ii in 0..grid.nx {
+                        sum += kernel(i.abs_diff(ii), j.abs_diff(jj)) * full(jj, ii);
+                    }
+                }
+                out[grid.stored_row(j) * grid.nx + i] = sum;
+            }
+        }
+        out
+    }
+
+    #[test]
+    fn doubled_filter_is_the_direct_sum() {
+        for symmetry in [Symmetry::General, Symmetry::MirrorY] {
+            let grid = Grid::new(9, -1.0, 1.0, 1.0, symmetry);
+            let kernel = |i: usize, j: usize| 1.0 / (1.0 + i as f64 + 0.5 * (j * j) as f64);
+            let mut p = vec![0.0; grid.len()];
+            for j in grid.interior_rows() {
+                for i in 1..grid.nx - 1 {
+                    p[j * grid.nx + i] = ((3 * i + 7 * j) % 5) as f64 - 1.3;
+                }
+            }
+            let mut filter = Filter::<f64>::new(&grid, Padding::Doubled, 1);
+            let symbol = even_kernel_symbol(filter.lx(), filter.ly(), kernel);
+            let nky = filter.ly() / 2 + 1;
+            filter.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
+            let mut out = vec![f64::NAN; grid.len()];
+            filter.apply(&p, &mut out);
+            let expected = direct(&grid, &p, kernel);
+            for (a, b) in out.iter().zip(&expected) {
+                assert!((a - b).abs() < 1e-12, "{symmetry:?}: {a} {b}");
+            }
+        }
+    }
+}

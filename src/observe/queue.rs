@@ -1,0 +1,456 @@
+//! A bounded queue that runs an observer on a thread of its own.
+//!
+//! An observer that writes to a disk or a socket may block; the solver must not. The queue holds
+//! at most `capacity` frames (references, no copies). When it is full, a headless run waits
+//! ([`WhenFull::Wait`], so the file is complete) and a live run goes on ([`WhenFull::Skip`], and
+//! what was skipped is counted). An error of the observer comes back on the next call and again
+//! from `finish`; the observer is not called any more after it.
+
+use std::collections::VecDeque;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+
+use super::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
+use crate::sim::Frame;
+
+/// Events that may wait besides the frames before they are treated like frames.
+const EVENT_CAPACITY: usize = 1024;
+
+/// What to do with a frame when the queue is full.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhenFull {
+    /// Wait for room: nothing is lost, a slow observer slows the run.
+    Wait,
+    /// Drop it and count it: the run never waits.
+    Skip,
+}
+
+/// How a queue was used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct QueueStats {
+    /// Most messages that were waiting when a frame was put in, with it.
+    pub max_depth: usize,
+    /// Times that the sender had to wait for room.
+    pub waits: u64,
+    /// Frames that were not delivered because the queue was full.
+    pub skipped: u64,
+    /// Frames that were handed to the observer's thread.
+    pub frames: u64,
+}
+
+enum Message {
+    Begin(Box<RunContext>),
+    Frame(Arc<Frame>),
+    Event(RunEvent),
+    Finish,
+}
+
+#[derive(Default)]
+struct State {
+    waiting: VecDeque<Message>,
+    /// The observer's thread has nothing more to do and takes no more.
+    closed: bool,
+    /// `begin` has been answered.
+    begun: bool,
+    error: Option<ObserveError>,
+    report: Option<ObserverReport>,
+    stats: QueueStats,
+}
+
+#[derive(Default)]
+struct Shared {
+    state: Mutex<State>,
+    filled: Condvar,
+    emptied: Condvar,
+}
+
+impl Shared {
+    /// The state stays consistent between statements, so a panic elsewhere does not spoil it.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Runs an observer on its own thread behind a bounded queue.
+pub struct Queue {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+    name: String,
+    capacity: usize,
+    when_full: WhenFull,
+}
+
+impl Queue {
+    /// Starts the thread `name`, on which `observer` will be called.
+    ///
+    /// # Errors
+    /// When the thread cannot be started.
+    pub fn spawn(
+        name: &str,
+        capacity: usize,
+        when_full: WhenFull,
+        mut observer: Box<dyn Observer>,
+    ) -> Result<Self, ObserveError> {
+        let shared = Arc::new(Shared::default());
+        shared.lock().waiting.reserve(capacity.max(1) + 1);
+        let on_thread = Arc::clone(&shared);
+        let label = name.to_owned();
+        let thread = std::thread::Builder::new()
+            .name(name.to_owned())
+            .spawn(move || serve(&on_thread, observer.as_mut(), &label))
+            .map_err(|error| {
+                ObserveError::new(name, format!("its thread did not start: {error}"))
+            })?;
+        Ok(Self {
+            shared,
+            thread: Some(thread),
+            name: name.to_owned(),
+            capacity: capacity.max(1),
+            when_full,
+        })
+    }
+
+    /// How the queue was used so far.
+    pub fn stats(&self) -> QueueStats {
+        self.shared.lock().stats
+    }
+
+    /// Puts a message in, or says why not. `limit` is the number of waiting messages from which
+    /// the queue counts as full for it.
+    fn put(&self, message: Message, limit: usize, when_full: WhenFull) -> Result<(), ObserveError> {
+        let mut state = self.shared.lock();
+        let mut waited = false;
+        while state.error.is_none() && !state.closed && state.waiting.len() >= limit {
+            if when_full == WhenFull::Skip {
+                state.stats.skipped += u64::from(matches!(message, Message::Frame(_)));
+                return Ok(());
+            }
+            if !waited {
+                state.stats.waits += 1;
+                waited = true;
+            }
+            state = self
+                .shared
+                .emptied
+                .wait(state)
+                .unwrap_or_else(PoisonError::into_inner);
+        }
+        if let Some(error) = &state.error {
+            return Err(error.clone());
+        }
+        if state.closed {
+            return Err(ObserveError::new(&self.name, "was finished already"));
+        }
+        if matches!(message, Message::Frame(_)) {
+            state.stats.frames += 1;
+            state.stats.max_depth = state.stats.max_depth.max(state.waiting.len() + 1);
+        }
+        state.waiting.push_back(message);
+        drop(state);
+        self.shared.filled.notify_one();
+        Ok(())
+    }
+
+    /// Waits until the thread has ended.
+    fn join(&mut self) {
+        if let Some(thread) = self.thread.take() {
+            // A panic of the observer was caught on the thread and is in `error`.
+            drop(thread.join());
+        }
+    }
+}
+
+impl Observer for Queue {
+    fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
+        self.put(
+            Message::Begin(Box::new(context.clone())),
+            usize::MAX,
+            WhenFull::Wait,
+        )?;
+        let mut state = self.shared.lock();
+        while !state.begun && state.error.is_none() && !state.closed {
+            state = self
+                .shared
+                .emptied
+                .wait(state)
+                .unwrap_or_else(PoisonError::into_inner);
+        }
+        state.error.clone().map_or(Ok(()), Err)
+    }
+
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+        self.put(
+            Message::Frame(Arc::clone(frame)),
+            self.capacity,
+            self.when_full,
+        )
+    }
+
+    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        self.put(
+            Message::Event(event.clone()),
+            self.capacity + EVENT_CAPACITY,
+            self.when_full,
+        )
+    }
+
+    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        let asked = self.put(Message::Finish, usize::MAX, WhenFull::Wait);
+        self.join();
+        let state = self.shared.lock();
+        let mut report = state.report.clone().ok_or_else(|| {
+            state.error.clone().unwrap_or_else(|| {
+                asked
+                    .err()
+                    .unwrap_or_else(|| ObserveError::new(&self.name, "ended without a report"))
+            })
+        })?;
+        report.skipped += state.stats.skipped;
+        Ok(report)
+    }
+}
+
+impl Drop for Queue {
+    /// Lets the observer work off what is waiting, so that a dropped queue leaves whole outputs.
+    fn drop(&mut self) {
+        if self.thread.is_some() {
+            drop(self.put(Message::Finish, usize::MAX, WhenFull::Wait));
+            self.join();
+        }
+    }
+}
+
+/// The observer's thread: works off messages until it finishes, fails or panics.
+fn serve(shared: &Shared, observer: &mut dyn Observer, name: &str) {
+    loop {
+        let message = next(shared);
+        let last = matches!(message, Message::Finish);
+        let outcome = catch_unwind(AssertUnwindSafe(|| deliver(shared, observer, message)));
+        let result = outcome.unwrap_or_else(|_| {
+            Err(ObserveError::new(
+                name,
+                "stopped by a programming error (panic); what was written before is kept",
+            ))
+        });
+        let mut state = shared.lock();
+        let failed = result.is_err();
+        if let Err(error) = result {
+            state.error = Some(error);
+        }
+        if last || failed {
+            state.closed = true;
+            state.waiting.clear();
+            drop(state);
+            shared.emptied.notify_all();
+            return;
+        }
+    }
+}
+
+fn next(shared: &Shared) -> Message {
+    let mut state = shared.lock();
+    loop {
+        if let Some(message) = state.waiting.pop_front() {
+            drop(state);
+            shared.emptied.notify_all();
+            return message;
+        }
+        state = shared
+            .filled
+            .wait(state)
+            .unwrap_or_else(PoisonError::into_inner);
+    }
+}
+
+fn deliver(
+    shared: &Shared,
+    observer: &mut dyn Observer,
+    message: Message,
+) -> Result<(), ObserveError> {
+    match message {
+        Message::Begin(context) => {
+            observer.begin(&context)?;
+            shared.lock().begun = true;
+            shared.emptied.notify_all();
+            Ok(())
+        }
+        Message::Frame(frame) => observer.frame(&frame),
+        Message::Event(event) => observer.event(&event),
+        Message::Finish => {
+            let report = observer.finish()?;
+            shared.lock().report = Some(report);
+            Ok(())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::{Receiver, Sender, channel};
+
+    use super::*;
+
+    /// An observer that is let through one frame at a time and tells what it saw.
+    struct Gated {
+        gate: Receiver<()>,
+        seen: Sender<u64>,
+        fails_at: u64,
+        panics_at: u64,
+        frames: u64,
+    }
+
+    struct Remote {
+        gate: Sender<()>,
+        seen: Receiver<u64>,
+    }
+
+    fn gated(fails_at: u64, panics_at: u64) -> (Box<dyn Observer>, Remote) {
+        let (gate_in, gate) = channel();
+        let (seen, seen_out) = channel();
+        let observer = Gated {
+            gate,
+            seen,
+            fails_at,
+            panics_at,
+            frames: 0,
+        };
+        let remote = Remote {
+            gate: gate_in,
+            seen: seen_out,
+        };
+        (Box::new(observer), remote)
+    }
+
+    impl Observer for Gated {
+        fn begin(&mut self, _context: &RunContext) -> Result<(), ObserveError> {
+            Ok(())
+        }
+        fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+            // A closed gate means that the test has let everything through.
+            let _ = self.gate.recv();
+            if frame.step == self.fails_at {
+                return Err(ObserveError::new("disk", "full"));
+            }
+            assert_ne!(frame.step, self.panics_at, "planted");
+            self.frames += 1;
+            let _ = self.seen.send(frame.step);
+            Ok(())
+        }
+        fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+            let _ = self.seen.send(1000 + event.step);
+            Ok(())
+        }
+        fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+            Ok(ObserverReport {
+                output: "gated".into(),
+                frames: self.frames,
+                ..ObserverReport::default()
+            })
+        }
+    }
+
+    fn frame(step: u64) -> Arc<Frame> {
+        Arc::new(Frame {
+            step,
+            ..Frame::default()
+        })
+    }
+
+    fn event(step: u64) -> RunEvent {
+        RunEvent {
+            step,
+            time_s: 0.0,
+            kind: super::super::RunEventKind::Caption("look".into()),
+        }
+    }
+
+    #[test]
+    fn waiting_keeps_every_frame_in_order() {
+        let (observer, remote) = gated(u64::MAX, u64::MAX);
+        let queue = Queue::spawn("record", 3, WhenFull::Wait, observer);
+        let mut queue = queue.expect("thread starts");
+        drop(remote.gate);
+        for step in 0..50 {
+            assert_eq!(queue.frame(&frame(step)), Ok(()));
+        }
+        assert_eq!(queue.event(&event(7)), Ok(()));
+        let report = queue.finish().expect("finishes");
+        assert_eq!((report.frames, report.skipped), (50, 0));
+        let seen: Vec<u64> = remote.seen.iter().collect();
+        let expected: Vec<u64> = (0..50).chain([1007]).collect();
+        assert_eq!(seen, expected);
+        assert!(queue.stats().max_depth <= 3, "{:?}", queue.stats());
+        assert_eq!(queue.stats().frames, 50);
+    }
+
+    #[test]
+    fn skipping_never_waits_and_counts() {
+        let (observer, remote) = gated(u64::MAX, u64::MAX);
+        let queue = Queue::spawn("record", 2, WhenFull::Skip, observer);
+        let mut queue = queue.expect("thread starts");
+        // The observer is held at its first frame: at most one in work and two waiting.
+        for step in 0..10 {
+            assert_eq!(queue.frame(&frame(step)), Ok(()));
+        }
+        let skipped = queue.stats().skipped;
+        assert!((7..=8).contains(&skipped), "skipped {skipped}");
+        assert_eq!(queue.stats().waits, 0);
+        drop(remote.gate);
+        let report = queue.finish().expect("finishes");
+        assert_eq!(report.skipped, skipped);
+        assert_eq!(report.frames, 10 - skipped);
+    }
+
+    #[test]
+    fn an_error_comes_back_on_the_next_call_and_at_the_end() {
+        let (observer, remote) = gated(2, u64::MAX);
+        let queue = Queue::spawn("record", 2, WhenFull::Wait, observer);
+        let mut queue = queue.expect("thread starts");
+        drop(remote.gate);
+        let full = ObserveError::new("disk", "full");
+        // Frame 2 fails at some time after it was sent; the calls must start to fail and never hang.
+        let first = (0..1000).find_map(|step| queue.frame(&frame(step)).err());
+        assert_eq!(first, Some(full.clone()));
+        assert_eq!(queue.frame(&frame(9)), Err(full.clone()));
+        assert_eq!(queue.finish().err(), Some(full));
+        assert_eq!(remote.seen.iter().collect::<Vec<_>>(), vec![0, 1]);
+    }
+
+    #[test]
+    fn a_panic_of_the_observer_is_an_error_of_the_output() {
+        let (observer, remote) = gated(u64::MAX, 1);
+        let queue = Queue::spawn("record", 2, WhenFull::Wait, observer);
+        let mut queue = queue.expect("thread starts");
+        drop(remote.gate);
+        let first = (0..1000).find_map(|step| queue.frame(&frame(step)).err());
+        let error = first.expect("the panic is reported");
+        assert_eq!(error.output, "record");
+        assert!(error.reason.contains("panic"), "{error}");
+    }
+
+    #[test]
+    fn a_dropped_queue_delivers_what_waits() {
+        let (observer, remote) = gated(u64::MAX, u64::MAX);
+        let queue = Queue::spawn("record", 8, WhenFull::Wait, observer);
+        let mut queue = queue.expect("thread starts");
+        for step in 0..5 {
+            assert_eq!(queue.frame(&frame(step)), Ok(()));
+        }
+        drop(remote.gate);
+        drop(queue);
+        assert_eq!(remote.seen.iter().count(), 5);
+    }
+
+    #[test]
+    fn finishing_twice_gives_the_same_report() {
+        let (observer, remote) = gated(u64::MAX, u64::MAX);
+        let queue = Queue::spawn("record", 8, WhenFull::Wait, observer);
+        let mut queue = queue.expect("thread starts");
+        drop(remote.gate);
+        let frames = queue.finish().expect("finishes").frames;
+        assert_eq!(frames, 0);
+        assert_eq!(queue.finish().map(|report| report.frames), Ok(0));
+        assert!(queue.frame(&frame(1)).is_err());
+    }
+}

@@ -1,0 +1,159 @@
+//! Viscosity, density and shear laws of the film, over dimensionless pressure `P = p/p_h`.
+//!
+//! ```text
+//! Barus      ln η̄ = α p
+//! Roelands   ln η̄ = (ln η0 + 9.67) [(1 + p/p0)^z − 1],   p0 = 1.962e8 Pa,  z = α p0/(ln η0 + 9.67)
+//! density    ρ̄ = 1 + 0.6e-9 p/(1 + 1.7e-9 p)
+//! Ree-Eyring 1/η̄* = (1/η̄) ζ/asinh ζ,   ζ = Z η̄/H,   Z = η0 |U2−U1| Rx/(τ0 a²)
+//! ```
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | η̄, ρ̄ | viscosity, density over their values at p = 0 | 1 |
+//! | H | film h Rx/a² | 1 |
+//! | Z | sliding over Eyring stress; 0: Newtonian | 1 |
+//!
+//! Sources: Barus (1893); Roelands (1966), slope matched to α at p = 0; Dowson and Higginson (1966);
+//! Eyring (1936) in the effective-viscosity form along the sliding direction (Conry et al. 1987).
+//! The exponent is capped at 300 so that a trial pressure cannot overflow; nothing else is clamped.
+
+/// Greatest exponent used for the viscosity.
+const EXPONENT_CAP: f64 = 300.0;
+/// Roelands' pressure constant, Pa.
+const ROELANDS_P0_PA: f64 = 1.962e8;
+/// Roelands' constant: -ln of 6.315e-5 Pa s.
+const ROELANDS_LN: f64 = 9.67;
+
+/// Viscosity law with its constants made dimensionless.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Viscosity {
+    /// `ln η̄ = alpha_p P`.
+    Barus {
+        /// α p_h.
+        alpha_p: f64,
+    },
+    /// Roelands.
+    Roelands {
+        /// ln η0 + 9.67 (η0 in Pa s).
+        scale: f64,
+        /// p_h/p0.
+        p_ratio: f64,
+        /// z.
+        z: f64,
+    },
+}
+
+impl Viscosity {
+    /// Barus' law.
+    pub fn barus(alpha_per_pa: f64, p_hertz_pa: f64) -> Self {
+        Self::Barus {
+            alpha_p: alpha_per_pa * p_hertz_pa,
+        }
+    }
+
+    /// Roelands' law with slope `alpha_per_pa` at p = 0.
+    pub fn roelands(viscosity_pa_s: f64, alpha_per_pa: f64, p_hertz_pa: f64) -> Self {
+        let scale = viscosity_pa_s.ln() + ROELANDS_LN;
+        Self::Roelands {
+            scale,
+            p_ratio: p_hertz_pa / ROELANDS_P0_PA,
+            z: alpha_per_pa * ROELANDS_P0_PA / scale,
+        }
+    }
+
+    /// `ln η̄` and its derivative with respect to P.
+    #[inline]
+    pub fn ln_eta(self, p: f64) -> (f64, f64) {
+        let (value, slope) = match self {
+            Self::Barus { alpha_p } => (alpha_p * p, alpha_p),
+            Self::Roelands { scale, p_ratio, z } => {
+                let base = 1.0 + p_ratio * p.max(0.0);
+                let power = (z * base.ln()).exp();
+                (scale * (power - 1.0), scale * z * p_ratio * power / base)
+            }
+        };
+        if value > EXPONENT_CAP {
+            (EXPONENT_CAP, 0.0)
+        } else {
+            (value, slope)
+        }
+    }
+}
+
+/// Density law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Density {
+    /// ρ̄ = 1.
+    Incompressible,
+    /// Dowson-Higginson.
+    DowsonHigginson {
+        /// p_h in GPa.
+        p_hertz_gpa: f64,
+    },
+}
+
+impl Density {
+    /// ρ̄ and its derivative with respect to P.
+    #[inline]
+    pub fn rho(self, p: f64) -> (f64, f64) {
+        match self {
+            Self::Incompressible => (1.0, 0.0),
+            Self::DowsonHigginson { p_hertz_gpa } => {
+                let s = p_hertz_gpa * p.max(0.0);
+                let d = 1.0 + 1.7 * s;
+                (1.0 + 0.6 * s / d, 0.6 * p_hertz_gpa / (d * d))
+            }
+        }
+    }
+}
+
+/// `ln(ζ/asinh ζ)` and its derivative with respect to ln ζ: 0 for ζ → 0, 1 for ζ → ∞.
+#[inline]
+pub fn eyring_ln_factor(zeta: f64) -> (f64, f64) {
+    if zeta < 1e-2 {
+        // ζ/asinh ζ = 1 + ζ²/6 − 17 ζ⁴/360: next term below 1e-13.
+        let z2 = zeta * zeta;
+        (
+            z2 / 6.0 - 11.0 * z2 * z2 / 180.0,
+            z2 / 3.0 - 11.0 * z2 * z2 / 45.0,
+        )
+    } else {
+        let a = zeta.asinh();
+        (
+            (zeta / a).ln(),
+            1.0 - zeta / (a * (1.0 + zeta * zeta).sqrt()),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_are_the_derivatives() {
+        let laws = [
+            Viscosity::barus(2e-8, 1e9),
+            Viscosity::roelands(0.04, 2.2e-8, 1e9),
+        ];
+        for law in laws {
+            for p in [0.0, 0.3, 1.0, 1.7] {
+                let h = 1e-6;
+                let d = (law.ln_eta(p + h).0 - law.ln_eta(p).0) / h;
+                assert!((d / law.ln_eta(p).1 - 1.0).abs() < 1e-4, "{law:?} {p}");
+            }
+        }
+        for zeta in [1e-3, 0.9e-2, 1.1e-2, 0.5, 30.0, 1e6] {
+            let h: f64 = 1e-6;
+            let d = (eyring_ln_factor(zeta * h.exp()).0 - eyring_ln_factor(zeta * (-h).exp()).0)
+                / (2.0 * h);
+            let slope = eyring_ln_factor(zeta).1;
+            assert!((d - slope).abs() < 1e-8, "{zeta}: {d} {slope}");
+        }
+    }
+
+    #[test]
+    fn roelands_has_the_barus_slope_at_zero() {
+        let slope = Viscosity::roelands(0.04, 2.2e-8, 1e9).ln_eta(0.0).1;
+        assert!((slope / 22.0 - 1.0).abs() < 1e-12);
+    }
+}

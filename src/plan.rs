@@ -1,1 +1,0 @@
-//! What a scene needs: one option per stage, sizes, memory, cadence, and why a stage is left out.

@@ -1,0 +1,63 @@
+//! What a run will cost: memory, time, size of a recorded frame. Estimates to one digit, for `asperity check`
+//! and for deciding on a progress bar; nothing in the results depends on them.
+
+/// Memory and time of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cost {
+    /// Memory of the solver's arrays, bytes.
+    pub memory_bytes: u64,
+    /// Time of the whole run on one core of a laptop, s.
+    pub time_s: f64,
+}
+
+/// What decides the cost.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Load {
+    pub(super) nodes: usize,
+    /// Part of the rows that is computed: 1/2 with a mirror.
+    pub(super) rows: f64,
+    pub(super) depths: usize,
+    pub(super) steps: u64,
+    pub(super) start_up_steps: u64,
+    pub(super) volumes: u64,
+}
+
+/// Fields of one f64 per node that the solver keeps, Krylov basis and padded transforms (4 nodes each)
+/// included.
+const FIELDS: f64 = 160.0;
+/// Complex f32 values per node and depth for the stress: transforms of the frequency response.
+const STRESS_BYTES_PER_NODE: f64 = 8.0 * 4.0;
+/// Seconds of one converged rough step at 129², one thread, and the exponent of its growth with the nodes
+/// per side (8, 29 and 180 ms were measured at 65², 129² and 257²).
+const STEP_129_S: f64 = 0.029;
+const STEP_GROWTH: f64 = 2.3;
+/// Seconds of one stress field per depth at 129²: six transforms of 33 000 values.
+const DEPTH_129_S: f64 = 1.5e-3;
+/// Bytes of the fields of one recorded frame: 15 a node for maps and slice, the sheets of the 3-D view besides,
+/// of which 3/4 reach the disk. The recorder starts from the same numbers and then keeps to what it measures.
+const FIELD_BYTES_PER_NODE: f64 = 0.75 * 15.0;
+const SHEET_BYTES: f64 = 0.75 * 1e5;
+/// Bytes of the scalars of one step, which are recorded whatever the cadence of the fields.
+pub(super) const SCALAR_BYTES: f64 = 1.5e3;
+
+/// Bytes of the fields of one recorded frame.
+pub(super) fn frame_bytes(nodes: usize) -> f64 {
+    FIELD_BYTES_PER_NODE * (nodes * nodes) as f64 + SHEET_BYTES
+}
+
+impl Cost {
+    pub(super) fn new(load: Load) -> Self {
+        let nodes = load.nodes as f64;
+        let all = nodes * nodes;
+        let scale = nodes / 129.0;
+        let step_s = STEP_129_S * scale.powf(STEP_GROWTH) * (0.1 + 0.9 * load.rows);
+        let volume_s = DEPTH_129_S * scale * scale * load.depths as f64;
+        let memory =
+            8.0 * FIELDS * all * load.rows + STRESS_BYTES_PER_NODE * all * load.depths as f64;
+        Self {
+            memory_bytes: memory as u64,
+            time_s: step_s * (load.steps + load.start_up_steps) as f64
+                + volume_s * load.volumes as f64,
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! The decisions, one function each: what a scene needs, and why a stage is left out.
+
+use super::{
+    Domain, FilmPlan, LeftOut, March, Plan, StressPlan, Symmetry, TractionDeflection, Warning,
+    inlet_error, mesh_error,
+};
+use crate::physics::film_regression;
+use crate::physics::hertz::Hertz;
+use crate::scene::{Rheology, Scene};
+
+pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
+    let point = scene.operating_point()?;
+    let central_m = film_regression::nijenbanning_central_m(&point);
+    let hamrock_dowson_central_m = film_regression::hamrock_dowson_central_m(&point);
+    let rq_m = scene.composite_rq_m();
+    Some(FilmPlan {
+        groups: point.groups(),
+        central_m,
+        hamrock_dowson_central_m,
+        hamrock_dowson_minimum_m: film_regression::hamrock_dowson_minimum_m(&point),
+        central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
+        lambda_ratio: (rq_m > 0.0).then(|| hamrock_dowson_central_m / rq_m),
+    })
+}
+
+pub(super) fn domain_warnings(domain: &Domain, film: Option<&FilmPlan>) -> Vec<Warning> {
+    /// Errors of the film above which the user is told.
+    const WORTH_A_WORD: f64 = 0.05;
+    let Some(film) = film else {
+        return Vec::new();
+    };
+    let mut warnings = Vec::new();
+    let mesh = mesh_error(film.central, domain.dx_a());
+    if mesh > WORTH_A_WORD {
+        warnings.push(Warning::CoarseForTheFilm { error: mesh });
+    }
+    let inlet = inlet_error(film.central, domain.x_min_a);
+    if inlet > WORTH_A_WORD {
+        warnings.push(Warning::ShortInlet {
+            error: inlet,
+            x_min_a: domain.x_min_a,
+        });
+    }
+    warnings
+}
+
+pub(super) fn symmetry(scene: &Scene) -> Symmetry {
+    if scene
+        .surfaces()
+        .iter()
+        .all(|surface| surface.is_even_in_y())
+    {
+        Symmetry::MirrorY
+    } else {
+        Symmetry::General
+    }
+}
+
+pub(super) fn march(scene: &Scene) -> March {
+    let surfaces = scene.surfaces();
+    if scene.events.iter().any(|event| !event.set.is_empty()) {
+        March::Transient
+    } else if surfaces.iter().all(|surface| surface.is_smooth()) {
+        March::Steady {
+            why: "both surfaces are smooth, so nothing changes in time",
+        }
+    } else if surfaces.iter().all(|surface| !surface.varies_along_x()) {
+        March::Steady {
+            why: "the ridges lie along the rolling direction, so nothing changes in time",
+        }
+    } else {
+        March::Transient
+    }
+}
+
+pub(super) fn traction_deflection(scene: &Scene) -> Option<TractionDeflection> {
+    let compliance =
+        |young_pa: f64, poisson: f64| (1.0 + poisson) * (1.0 - 2.0 * poisson) / young_pa;
+    let one = compliance(scene.body_1.young_pa, scene.body_1.poisson);
+    let two = compliance(scene.body_2.young_pa, scene.body_2.poisson);
+    let mismatch_per_pa = one - two;
+    // Equal constants give exactly 0; the bound is for constants that differ in the last digit.
+    (mismatch_per_pa.abs() > 1e-12 * one.max(two)).then_some(TractionDeflection { mismatch_per_pa })
+}
+
+pub(super) fn stress_plan(
+    scene: &Scene,
+    hertz: &Hertz,
+    warnings: &mut Vec<Warning>,
+) -> Option<StressPlan> {
+    let stress = scene.stress.as_ref()?;
+    if scene.life.is_some() && stress.depth_max_a < 2.0 {
+        warnings.push(Warning::ShallowStress {
+            depth_max_a: stress.depth_max_a,
+        });
+    }
+    // For an ellipse the stress reaches as deep as its narrow side says.
+    Some(StressPlan {
+        depths: stress.depths,
+        depth_max_m: stress.depth_max_a * hertz.a_m.min(hertz.b_m),
+    })
+}
+
+pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
+    let mut list = Vec::new();
+    let mut leave = |stage: &'static str, why: &str| {
+        list.push(LeftOut {
+            stage,
+            why: why.to_owned(),
+        });
+    };
+    match &scene.lubricant {
+        None => leave("film and flow", "the scene has no [lubricant]: dry contact"),
+        Some(oil) if oil.rheology == Rheology::Newtonian => {
+            leave("shear thinning", "lubricant.rheology is \"newtonian\"");
+        }
+        Some(_) => {}
+    }
+    for (wave, stage) in plan
+        .waves
+        .iter()
+        .zip(["waves of body 1", "waves of body 2"])
+    {
+        if wave.is_none() {
+            leave(stage, "its surface is smooth");
+        }
+    }
+    if let March::Steady { why } = plan.march {
+        leave("time steps", why);
+    }
+    if plan.symmetry == Symmetry::MirrorY {
+        leave("rows y < 0", "both surfaces are even in y: mirrored");
+    }
+    if plan.traction_deflection.is_none() {
+        leave(
+            "deflection by traction",
+            "both bodies have the same elastic constants, so it is zero",
+        );
+    }
+    if plan.stress.is_none() {
+        leave("subsurface stress", "the scene has no [stress]");
+    }
+    if plan.life.is_none() {
+        leave("fatigue life", "the scene has no [life]");
+    }
+    if plan.record.is_none() {
+        leave("recording", "the scene has no [record]");
+    }
+    list
+}

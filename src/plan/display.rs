@@ -1,0 +1,206 @@
+//! The plan as text: what `asperity check` prints.
+
+use std::fmt;
+
+use super::{March, Plan, Symmetry, WavePlan};
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.title.is_empty() {
+            writeln!(f, "{}\n", self.title)?;
+        }
+        self.write_operating_point(f)?;
+        self.write_grid(f)?;
+        writeln!(f, "\nComputed")?;
+        for line in self.computed() {
+            writeln!(f, "  {line}")?;
+        }
+        writeln!(f, "\nLeft out")?;
+        for item in &self.left_out {
+            writeln!(f, "  {:<24}{}", item.stage, item.why)?;
+        }
+        writeln!(
+            f,
+            "  {:<24}the model has none of them: isothermal, elastic, initiation only",
+            "heat, yield, wear"
+        )?;
+        if !self.warnings.is_empty() {
+            writeln!(f, "\nMind")?;
+            for warning in &self.warnings {
+                writeln!(f, "  {warning}")?;
+            }
+        }
+        writeln!(
+            f,
+            "\nEstimate    {} of memory, {} on one core",
+            size(self.cost.memory_bytes),
+            duration(self.cost.time_s)
+        )
+    }
+}
+
+impl Plan {
+    fn write_operating_point(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let hertz = &self.hertz;
+        writeln!(
+            f,
+            "Contact     {}: a {:.1} um, b {:.1} um; Hertz pressure {:.3} GPa; load {} N; approach {:.2} um",
+            if (hertz.ellipticity() - 1.0).abs() < 1e-9 {
+                "circular"
+            } else {
+                "elliptical"
+            },
+            hertz.a_m * 1e6,
+            hertz.b_m * 1e6,
+            hertz.p_max_pa * 1e-9,
+            significant(self.force_n),
+            hertz.approach_m * 1e6
+        )?;
+        let [u_1, u_2] = self.speeds_m_s;
+        writeln!(
+            f,
+            "Motion      S = (U2 - U1)/U = {}; U1 {} m/s, U2 {} m/s",
+            self.slide_roll,
+            significant(u_1),
+            significant(u_2)
+        )?;
+        if let Some(film) = &self.film {
+            writeln!(
+                f,
+                "Film        M {:.0}, L {:.2}, alpha p_h {:.1}; smooth by formula: central {:.1} nm \
+                 (Nijenbanning), {:.1} nm (Hamrock-Dowson), minimum {:.1} nm (Hamrock-Dowson)",
+                film.groups.m,
+                film.groups.l,
+                film.groups.alpha_p_hertz,
+                film.central_m * 1e9,
+                film.hamrock_dowson_central_m * 1e9,
+                film.hamrock_dowson_minimum_m * 1e9
+            )?;
+            if let Some(ratio) = film.lambda_ratio {
+                writeln!(
+                    f,
+                    "Lambda      {ratio:.2} = central film (Hamrock-Dowson)/composite root-mean-square roughness"
+                )?;
+            }
+        }
+        for (index, wave) in self.waves.iter().enumerate() {
+            if let Some(wave) = wave {
+                writeln!(f, "Body {}      {}", index + 1, wave_text(wave))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_grid(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let domain = &self.domain;
+        writeln!(
+            f,
+            "Grid        {n} x {n} nodes, x {} a to {} a, y +-{} b; dx {:.2} um, dy {:.2} um",
+            domain.x_min_a,
+            domain.x_max_a,
+            domain.y_half_b,
+            self.dx_m * 1e6,
+            self.dy_m * 1e6,
+            n = domain.nodes
+        )?;
+        match self.march {
+            March::Steady { .. } => writeln!(f, "Time        steady: one solution"),
+            March::Transient => writeln!(
+                f,
+                "Time        {} steps of {:.3e} s after the start-up: {:.3e} s, {:.2} lengths of 4 a",
+                self.steps,
+                self.dt_s,
+                self.steps as f64 * self.dt_s,
+                self.steps as f64 / self.steps_per_passage as f64
+            ),
+        }
+    }
+
+    /// The stages that are computed, one line each.
+    fn computed(&self) -> Vec<String> {
+        let rows = match self.symmetry {
+            Symmetry::MirrorY => "half of the rows",
+            Symmetry::General => "all rows",
+        };
+        let mut lines = vec![match self.film {
+            Some(_) => format!("mixed lubrication: flow, film and contact together ({rows})"),
+            None => format!("dry contact ({rows})"),
+        }];
+        lines.push("traction on both bodies, friction coefficient".to_owned());
+        if let Some(traction) = self.traction_deflection {
+            lines.push(format!(
+                "deflection by traction: compliances differ by {:.2e} 1/Pa",
+                traction.mismatch_per_pa
+            ));
+        }
+        if let Some(stress) = self.stress {
+            lines.push(format!(
+                "stress in the plane y = 0, {} depths down to {:.0} um, every step",
+                stress.depths,
+                stress.depth_max_m * 1e6
+            ));
+        }
+        if let Some(life) = self.life {
+            lines.push(format!(
+                "stress in the whole volume and relative life, every {} steps ({} phases in 4 a)",
+                life.volume_every_steps, life.phases_per_passage
+            ));
+        }
+        if let Some(record) = self.record {
+            lines.push(format!(
+                "recording: scalars every step, fields every {} ({} frames, about {})",
+                if record.every_steps == 1 {
+                    "step".to_owned()
+                } else {
+                    format!("{} steps", record.every_steps)
+                },
+                record.frames,
+                size(record.bytes)
+            ));
+        }
+        lines
+    }
+}
+
+fn wave_text(wave: &WavePlan) -> String {
+    let along = |nodes: f64| {
+        if nodes.is_finite() {
+            format!("{nodes:.1} nodes a wave")
+        } else {
+            "no wave".to_owned()
+        }
+    };
+    format!(
+        "amplitude {:.0} nm; along x {}, along y {}",
+        wave.amplitude_m * 1e9,
+        along(wave.nodes[0]),
+        along(wave.nodes[1])
+    )
+}
+
+/// Four significant digits without an exponent.
+fn significant(value: f64) -> String {
+    let rounded = format!("{value:.3e}").parse::<f64>();
+    rounded.map_or_else(|_| value.to_string(), |rounded| rounded.to_string())
+}
+
+fn size(bytes: u64) -> String {
+    let mega = bytes as f64 * 1e-6;
+    if mega >= 1000.0 {
+        format!("{:.1} GB", mega * 1e-3)
+    } else if mega >= 10.0 {
+        format!("{mega:.0} MB")
+    } else {
+        format!("{mega:.1} MB")
+    }
+}
+
+fn duration(seconds: f64) -> String {
+    if seconds < 100.0 {
+        format!("{seconds:.0} s")
+    } else if seconds < 6000.0 {
+        format!("{:.0} min", seconds / 60.0)
+    } else {
+        format!("{:.1} h", seconds / 3600.0)
+    }
+}

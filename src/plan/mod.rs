@@ -1,0 +1,342 @@
+//! What a scene needs: one option per stage, sizes, memory, cadence, and why a stage is left out.
+//!
+//! A plan holds no arrays. `Simulation::new` takes it as given; `asperity check` prints it. A stage that
+//! is not needed is `None`, and [`Plan::left_out`] says why.
+
+mod cost;
+mod decide;
+mod display;
+mod domain;
+mod surfaces;
+
+use thiserror::Error;
+
+pub use cost::Cost;
+pub use domain::{Domain, inlet_error, mesh_error};
+pub use surfaces::WavePlan;
+
+use crate::physics::groups::Groups;
+use crate::physics::hertz::Hertz;
+use crate::scene::{Record, Scene};
+
+/// Everything that is decided before the first step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// The scene's title.
+    pub title: String,
+    /// The Hertz contact.
+    pub hertz: Hertz,
+    /// Normal load, N.
+    pub force_n: f64,
+    /// Speeds of body 1 and 2, m/s.
+    pub speeds_m_s: [f64; 2],
+    /// Slide-to-roll ratio S = (U2 - U1)/U.
+    pub slide_roll: f64,
+    /// The film; `None`: dry.
+    pub film: Option<FilmPlan>,
+    /// Nodes and edges.
+    pub domain: Domain,
+    /// Node spacing along x, m.
+    pub dx_m: f64,
+    /// Node spacing along y, m.
+    pub dy_m: f64,
+    /// Whether half of the rows is enough.
+    pub symmetry: Symmetry,
+    /// Whether time matters.
+    pub march: March,
+    /// Time step, s.
+    pub dt_s: f64,
+    /// Time steps after the start-up.
+    pub steps: u64,
+    /// Time steps of one length of 4 a at U.
+    pub steps_per_passage: u64,
+    /// The waves of body 1 and 2; `None`: smooth.
+    pub waves: [Option<WavePlan>; 2],
+    /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
+    pub traction_deflection: Option<TractionDeflection>,
+    /// Subsurface stress.
+    pub stress: Option<StressPlan>,
+    /// Fatigue life.
+    pub life: Option<LifePlan>,
+    /// Recording.
+    pub record: Option<RecordPlan>,
+    /// Stages that are left out, and why.
+    pub left_out: Vec<LeftOut>,
+    /// What the user should know before trusting the numbers.
+    pub warnings: Vec<Warning>,
+    /// Estimated cost.
+    pub cost: Cost,
+}
+
+/// The film by regression formulas: first guess and scale.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmPlan {
+    /// Dimensionless groups.
+    pub groups: Groups,
+    /// Central film by Nijenbanning, Venner and Moes, m.
+    pub central_m: f64,
+    /// Central film by Hamrock and Dowson, m.
+    pub hamrock_dowson_central_m: f64,
+    /// Minimum film by Hamrock and Dowson, m.
+    pub hamrock_dowson_minimum_m: f64,
+    /// Central film in a²/Rx.
+    pub central: f64,
+    /// Central film by Hamrock and Dowson over the composite root-mean-square roughness; `None`: smooth.
+    pub lambda_ratio: Option<f64>,
+}
+
+/// Which rows are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Symmetry {
+    /// Both surfaces are even in y: rows y ≥ 0 are computed and mirrored.
+    MirrorY,
+    /// All rows.
+    General,
+}
+
+/// Whether time is marched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum March {
+    /// Nothing changes in time: one solution is all.
+    Steady {
+        /// Why.
+        why: &'static str,
+    },
+    /// Time steps.
+    Transient,
+}
+
+/// Normal deflection by tangential traction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TractionDeflection {
+    /// (1 + ν₁)(1 − 2ν₁)/E₁ − (1 + ν₂)(1 − 2ν₂)/E₂, 1/Pa.
+    pub mismatch_per_pa: f64,
+}
+
+/// Subsurface stress of body 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StressPlan {
+    /// Depths of the slice and of the volume.
+    pub depths: usize,
+    /// Deepest point, m.
+    pub depth_max_m: f64,
+}
+
+/// Fatigue life.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LifePlan {
+    /// Time steps between two volume integrals.
+    pub volume_every_steps: u64,
+    /// Volume integrals in one length of 4 a at U.
+    pub phases_per_passage: u64,
+}
+
+/// Recording, as far as it can be known before: the recorder keeps to the budget by what it measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RecordPlan {
+    /// Time steps between two recordings of the fields: the scene's, or more to keep its budget.
+    pub every_steps: u64,
+    /// Recordings of the fields in the whole run.
+    pub frames: u64,
+    /// Estimated size, bytes.
+    pub bytes: u64,
+}
+
+/// A stage that is left out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Stage, in a word or two.
+    pub stage: &'static str,
+    /// Why.
+    pub why: String,
+}
+
+/// What the user should know before trusting the numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Warning {
+    /// The mesh is too coarse for the film.
+    #[error(
+        "the mesh costs about {:.0} % of the central film ((dX/H_c^(2/3))^2); more grid.nodes make it thinner{}",
+        100.0 * error.min(9.99), if *error > 1.0 { ", and here the film may vanish" } else { "" }
+    )]
+    CoarseForTheFilm {
+        /// Estimated relative error.
+        error: f64,
+    },
+    /// The inlet is too short.
+    #[error("the inlet at {x_min_a} a starves the film by about {:.1} %; grid.x_min_a moves it", 100.0 * error)]
+    ShortInlet {
+        /// Estimated relative error.
+        error: f64,
+        /// Inlet edge, in a.
+        x_min_a: f64,
+    },
+    /// A wave has few nodes.
+    #[error("body {body}: {nodes:.1} nodes a wave; 12 or more follow its deformation well")]
+    CoarseWave {
+        /// Body, 1 or 2.
+        body: u8,
+        /// Nodes of the shorter wavelength.
+        nodes: f64,
+    },
+    /// The film wave that travels at U has few nodes.
+    #[error(
+        "body {body}: {nodes:.1} nodes in its convected film wave (W U/U_{body}); 16 are advised"
+    )]
+    CoarseConvectedWave {
+        /// Body, 1 or 2.
+        body: u8,
+        /// Nodes.
+        nodes: f64,
+    },
+    /// Crests pass a material point in few time steps.
+    #[error(
+        "body {body}'s crests pass in {samples:.1} steps; cycle counting wants 16: less time.step_nodes"
+    )]
+    CoarseCounting {
+        /// Body whose crests pass, 1 or 2.
+        body: u8,
+        /// Time steps in which one crest of it slides past a point of the other body.
+        samples: f64,
+    },
+    /// The stress integral is cut off.
+    #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; 2 or more hold it")]
+    ShallowStress {
+        /// Deepest point, in a.
+        depth_max_a: f64,
+    },
+}
+
+/// A scene that cannot be computed as asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PlanError {
+    /// A wavelength is not resolved by the grid.
+    #[error("{key} = {value} is refused; allowed: {allowed}")]
+    Unresolved {
+        /// Key in full.
+        key: String,
+        /// The value.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+    },
+}
+
+/// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
+const PHASES: u64 = 16;
+/// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
+const START_UP_PASSAGES: f64 = 2.5;
+
+impl Plan {
+    /// Decides what a validated scene needs.
+    ///
+    /// # Errors
+    /// [`PlanError::Unresolved`] when a wavelength has fewer than 4 nodes.
+    pub fn new(scene: &Scene) -> Result<Self, PlanError> {
+        let hertz = scene.hertz();
+        let film = decide::film_plan(scene, &hertz);
+        let domain = Domain::choose(&scene.grid, film.map(|film| film.central));
+        let (dx_m, dy_m) = (domain.dx_a() * hertz.a_m, domain.dy_b() * hertz.b_m);
+        let mut warnings = decide::domain_warnings(&domain, film.as_ref());
+        let step_m = scene.time.step_nodes * dx_m;
+        let waves = surfaces::plan(scene, [dx_m, dy_m], step_m, &mut warnings)?;
+        let march = decide::march(scene);
+        let steps_per_passage = (4.0 * hertz.a_m / step_m).round().max(1.0) as u64;
+        let steps = match march {
+            March::Steady { .. } => 1,
+            March::Transient => (scene.time.passages * 4.0 * hertz.a_m / step_m).ceil() as u64,
+        };
+        let mut plan = Self {
+            title: scene.title.clone(),
+            hertz,
+            force_n: scene.force_n(),
+            speeds_m_s: scene.speeds_m_s(),
+            slide_roll: scene.motion.slide_roll,
+            film,
+            domain,
+            dx_m,
+            dy_m,
+            symmetry: decide::symmetry(scene),
+            march,
+            dt_s: step_m / scene.motion.entrainment_m_s,
+            steps,
+            steps_per_passage,
+            waves,
+            traction_deflection: decide::traction_deflection(scene),
+            stress: decide::stress_plan(scene, &hertz, &mut warnings),
+            life: None,
+            record: None,
+            left_out: Vec::new(),
+            warnings,
+            cost: Cost {
+                memory_bytes: 0,
+                time_s: 0.0,
+            },
+        };
+        plan.life = scene.life.as_ref().map(|_| plan.life_plan());
+        plan.record = scene.record.as_ref().map(|record| plan.record_plan(record));
+        plan.left_out = decide::left_out(scene, &plan);
+        plan.cost = plan.estimate();
+        Ok(plan)
+    }
+
+    fn depths(&self) -> usize {
+        self.stress.map_or(0, |stress| stress.depths)
+    }
+
+    /// Volume integrals at least [`PHASES`] times in 4 a, at the longest interval that meets every wave in
+    /// all of its phases; an interval that fits a whole number of times into a wave would miss most.
+    fn life_plan(&self) -> LifePlan {
+        /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
+        const GAP: f64 = 0.14;
+        let longest = (self.steps_per_passage / PHASES).max(1);
+        let widest = |every: u64| {
+            let n = self.steps_per_passage / every;
+            let waves = self.waves.iter().flatten();
+            waves
+                .map(|wave| wave.widest_gap(every, n))
+                .fold(0.0, f64::max)
+        };
+        let intervals = (1..=longest).rev();
+        let every = intervals
+            .clone()
+            .find(|every| widest(*every) <= GAP)
+            .or_else(|| intervals.min_by(|one, two| widest(*one).total_cmp(&widest(*two))))
+            .unwrap_or(1);
+        LifePlan {
+            volume_every_steps: every,
+            phases_per_passage: self.steps_per_passage / every,
+        }
+    }
+
+    fn record_plan(&self, record: &Record) -> RecordPlan {
+        let frame = cost::frame_bytes(self.domain.nodes);
+        let scalars = self.steps as f64 * cost::SCALAR_BYTES;
+        let budget = (record.budget_mb * 1e6 - scalars).max(0.1 * record.budget_mb * 1e6);
+        let budget_frames = (budget / frame).floor().max(1.0) as u64;
+        let every_steps = (record.every_steps as u64).max(self.steps.div_ceil(budget_frames));
+        let frames = self.steps.div_ceil(every_steps);
+        RecordPlan {
+            every_steps,
+            frames,
+            bytes: (frames as f64 * frame + scalars) as u64,
+        }
+    }
+
+    fn estimate(&self) -> Cost {
+        let volumes = self
+            .life
+            .map_or(0, |life| self.steps / life.volume_every_steps + 1);
+        Cost::new(cost::Load {
+            nodes: self.domain.nodes,
+            rows: match self.symmetry {
+                Symmetry::MirrorY => 0.5,
+                Symmetry::General => 1.0,
+            },
+            depths: self.depths(),
+            steps: self.steps,
+            start_up_steps: (START_UP_PASSAGES * self.steps_per_passage as f64) as u64,
+            volumes,
+        })
+    }
+}

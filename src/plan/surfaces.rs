@@ -1,0 +1,128 @@
+//! What the grid and the time step make of the waves on each body.
+
+use super::{PlanError, Warning};
+use crate::scene::{Scene, Surface};
+
+/// The waves of one body on the grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WavePlan {
+    /// A, m.
+    pub amplitude_m: f64,
+    /// Nodes of one wavelength along x and along y; infinite where the surface does not vary.
+    pub nodes: [f64; 2],
+    /// Crests per metre along x, f = 1/Wx, 1/m.
+    pub crests_per_m: f64,
+    /// Crests that pass a fixed place in one time step.
+    pub crests_per_step: f64,
+}
+
+impl WavePlan {
+    /// Widest gap between the phases in which `n` looks at a fixed place, `every` steps apart, meet the wave, in
+    /// waves; 0 for a wave that does not pass.
+    pub(super) fn widest_gap(&self, every: u64, n: u64) -> f64 {
+        if self.crests_per_step == 0.0 || n == 0 {
+            return 0.0;
+        }
+        let mut phases: Vec<f64> = (0..n)
+            .map(|look| (look as f64 * every as f64 * self.crests_per_step).fract())
+            .collect();
+        phases.sort_by(f64::total_cmp);
+        let around = 1.0 - phases[phases.len() - 1] + phases[0];
+        let gaps = phases.windows(2).map(|pair| pair[1] - pair[0]);
+        gaps.fold(around, f64::max)
+    }
+}
+
+/// Fewest nodes of a wave: below it the sampled wave is not the one that was asked for.
+const NODES_MIN: f64 = 4.0;
+/// Nodes of a wave below which its deformation is inaccurate.
+const NODES_GOOD: f64 = 12.0;
+/// Nodes of the convected film wave below which it decays numerically.
+const NODES_CONVECTED: f64 = 16.0;
+/// Time steps per passing crest that rainflow counting wants.
+const SAMPLES_GOOD: f64 = 16.0;
+
+/// The waves of both bodies; `spacing_m` along x and y, `step_m` the way travelled at U in a time step.
+pub(super) fn plan(
+    scene: &Scene,
+    spacing_m: [f64; 2],
+    step_m: f64,
+    warnings: &mut Vec<Warning>,
+) -> Result<[Option<WavePlan>; 2], PlanError> {
+    let mut waves = [None, None];
+    for (index, surface) in scene.surfaces().into_iter().enumerate() {
+        let body = index as u8 + 1;
+        if surface.is_smooth() {
+            continue;
+        }
+        check_resolved(body, surface, spacing_m)?;
+        let [k_x, k_y] = surface.wavenumbers_per_m();
+        let nodes = [1.0 / (k_x * spacing_m[0]), 1.0 / (k_y * spacing_m[1])];
+        let speed_ratio = (scene.speeds_m_s()[index] / scene.motion.entrainment_m_s).abs();
+        let fewest = nodes[0].min(nodes[1]);
+        if fewest < NODES_GOOD {
+            warnings.push(Warning::CoarseWave {
+                body,
+                nodes: fewest,
+            });
+        }
+        let convected = nodes[0] / speed_ratio;
+        if scene.lubricant.is_some() && convected < NODES_CONVECTED {
+            warnings.push(Warning::CoarseConvectedWave {
+                body,
+                nodes: convected,
+            });
+        }
+        let sliding = scene.motion.slide_roll.abs();
+        let samples = 1.0 / (k_x * step_m * sliding);
+        if sliding > 0.0 && samples < SAMPLES_GOOD {
+            warnings.push(Warning::CoarseCounting { body, samples });
+        }
+        waves[index] = Some(WavePlan {
+            amplitude_m: surface.amplitude_m(),
+            nodes,
+            crests_per_m: k_x,
+            crests_per_step: k_x * speed_ratio * step_m,
+        });
+    }
+    Ok(waves)
+}
+
+fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<(), PlanError> {
+    let Surface::Sinusoid {
+        wavelength_x_m,
+        wavelength_y_m,
+        ..
+    } = *surface
+    else {
+        return Ok(());
+    };
+    let [k_x, k_y] = surface.wavenumbers_per_m();
+    let nodes = (1.0 / (k_x * spacing_m[0])).min(1.0 / (k_y * spacing_m[1]));
+    if nodes >= NODES_MIN {
+        return Ok(());
+    }
+    // The key to change is the wave that varies fastest in the coarse direction: without a turn, the
+    // wave along that axis.
+    let coarse_along_x = k_x * spacing_m[0] >= k_y * spacing_m[1];
+    let alone = |wavelength_m: f64, axis: usize| wavelength_m / spacing_m[axis] < NODES_MIN;
+    let (name, value_m) = if wavelength_y_m.is_infinite() {
+        ("wavelength_x_m", wavelength_x_m)
+    } else if wavelength_x_m.is_infinite() {
+        ("wavelength_y_m", wavelength_y_m)
+    } else if coarse_along_x && (alone(wavelength_x_m, 0) || !alone(wavelength_y_m, 0)) {
+        ("wavelength_x_m", wavelength_x_m)
+    } else {
+        ("wavelength_y_m", wavelength_y_m)
+    };
+    Err(PlanError::Unresolved {
+        key: format!("body_{body}.surface.{name}"),
+        value: format!("{value_m:e} m"),
+        allowed: format!(
+            "at least {:.3e} m (4 nodes; now {nodes:.1} on a spacing of {:.2} by {:.2} um), or more grid.nodes",
+            value_m * NODES_MIN / nodes,
+            spacing_m[0] * 1e6,
+            spacing_m[1] * 1e6,
+        ),
+    })
+}

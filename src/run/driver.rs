@@ -1,0 +1,321 @@
+//! The loop itself: commands, script, step, frames, in this order, on the simulation's thread.
+
+use std::collections::VecDeque;
+use std::sync::mpsc::Receiver;
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+
+use super::Command;
+use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
+use super::session::{Ending, SessionEvent, Shared, lock};
+use super::stepper::Stepper;
+use super::watcher::Watcher;
+use crate::observe::{
+    FramePool, Latest, ObserveError, ObserverReport, RunContext, RunEvent, RunEventKind,
+};
+use crate::scene::{Event, Scene};
+use crate::sim::{Frame, Knob, SimError, Stage};
+
+/// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
+const FRAMES: usize = 6;
+
+/// Whether the loop steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Pace {
+    Running,
+    Paused,
+    /// Paused, after one more step.
+    OneStep,
+}
+
+/// The loop's own state, on the simulation's thread.
+pub(super) struct Driver {
+    ending: Ending,
+    watchers: Vec<Watcher>,
+    script: VecDeque<Event>,
+    inbox: Receiver<Command>,
+    latest: Latest,
+    shared: Arc<Mutex<Shared>>,
+    pool: FramePool,
+    pace: Pace,
+    applied: Vec<AppliedCommand>,
+    unconverged: Vec<Unconverged>,
+    n_unconverged: u64,
+    output_errors: Vec<ObserveError>,
+}
+
+impl Driver {
+    pub(super) fn new(
+        ending: Ending,
+        watchers: Vec<Watcher>,
+        events: &[Event],
+        inbox: Receiver<Command>,
+        latest: Latest,
+        shared: Arc<Mutex<Shared>>,
+    ) -> Self {
+        let mut script = events.to_vec();
+        script.sort_by(|one, two| one.at_s.total_cmp(&two.at_s));
+        Self {
+            ending,
+            watchers,
+            script: script.into(),
+            inbox,
+            latest,
+            shared,
+            pool: FramePool::new(FRAMES, &Frame::default()),
+            pace: Pace::Running,
+            applied: Vec::new(),
+            unconverged: Vec::new(),
+            n_unconverged: 0,
+            output_errors: Vec::new(),
+        }
+    }
+
+    /// The whole run, from opening the outputs to closing them.
+    pub(super) fn run<S: Stepper>(
+        mut self,
+        context: &RunContext,
+        name: &str,
+        make: impl FnOnce(&Scene) -> Result<S, SimError>,
+    ) -> Outcome {
+        let started = Instant::now();
+        // Outputs first: a path that cannot be written must not cost a start-up.
+        for index in 0..self.watchers.len() {
+            let begun = self.watchers[index].begin(context);
+            self.note_output(begun);
+        }
+        let mut summary = None;
+        let mut steps = 0;
+        let end = if self.must_end_for_outputs() {
+            End::OutputFailed
+        } else {
+            match make(&context.scene) {
+                Err(error) => End::NotStarted(error),
+                Ok(mut sim) => {
+                    let end = self.drive(&mut sim);
+                    steps = sim.passage_steps();
+                    summary = (steps > 0).then(|| sim.summary());
+                    end
+                }
+            }
+        };
+        self.tell_failure(&end);
+        let reports = self.finish_outputs();
+        let wall_s = started.elapsed().as_secs_f64();
+        if let Some(summary) = &mut summary {
+            name.clone_into(&mut summary.scene);
+            summary.wall_s = wall_s;
+            summary.steps = steps;
+            summary.steps_not_converged = self.n_unconverged;
+            summary.converged = self.n_unconverged == 0 && !matches!(end, End::Stalled(_));
+        }
+        Outcome {
+            end,
+            summary,
+            steps,
+            unconverged: self.unconverged,
+            n_unconverged: self.n_unconverged,
+            applied: self.applied,
+            reports,
+            output_errors: self.output_errors,
+            wall_s,
+        }
+    }
+
+    /// Steps until something ends the run.
+    fn drive<S: Stepper>(&mut self, sim: &mut S) -> End {
+        loop {
+            if let Some(end) = self.obey(sim) {
+                return end;
+            }
+            self.play_script(sim);
+            if let Err(error) = sim.step() {
+                return End::Stalled(error);
+            }
+            if self.pace == Pace::OneStep {
+                self.pace = Pace::Paused;
+            }
+            self.judge_step(sim);
+            self.hand_out(sim);
+            self.tell_status(sim);
+            if self.must_end_for_outputs() {
+                return End::OutputFailed;
+            }
+            if self.ending == Ending::Passages && sim.is_done() {
+                return End::Done;
+            }
+        }
+    }
+
+    /// Takes all commands that wait; while paused, waits for them.
+    fn obey<S: Stepper>(&mut self, sim: &mut S) -> Option<End> {
+        loop {
+            let command = if self.pace == Pace::Paused {
+                // All senders gone while paused: nobody can ever go on.
+                self.inbox.recv().unwrap_or(Command::Stop)
+            } else {
+                match self.inbox.try_recv() {
+                    Ok(command) => command,
+                    Err(_) => return None,
+                }
+            };
+            match command {
+                Command::Stop => {
+                    self.log(sim, command);
+                    return Some(End::Stopped);
+                }
+                Command::Pause => {
+                    self.pace = match self.pace {
+                        Pace::Running => Pace::Paused,
+                        Pace::Paused | Pace::OneStep => Pace::Running,
+                    };
+                    self.log(sim, command);
+                }
+                Command::StepOnce => {
+                    // Without a pause there is nothing to single-step; the next step comes anyway.
+                    if self.pace == Pace::Paused {
+                        self.pace = Pace::OneStep;
+                        self.log(sim, command);
+                        return None;
+                    }
+                }
+                Command::Set(knob, value) => self.set(sim, knob, value),
+            }
+        }
+    }
+
+    fn log<S: Stepper>(&mut self, sim: &S, command: Command) {
+        self.applied.push(AppliedCommand {
+            step: sim.passage_steps(),
+            time_s: sim.time_s(),
+            command,
+        });
+    }
+
+    fn set<S: Stepper>(&mut self, sim: &mut S, knob: Knob, value: f64) {
+        match sim.set(knob, value) {
+            Ok(()) => {
+                self.log(sim, Command::Set(knob, value));
+                let kind = RunEventKind::Set {
+                    key: knob.key().to_owned(),
+                    value,
+                };
+                self.announce(sim, kind);
+            }
+            Err(error) => self.show(SessionEvent::Refused(error)),
+        }
+    }
+
+    /// Applies the scripted events whose time has come, in the order of their times.
+    fn play_script<S: Stepper>(&mut self, sim: &mut S) {
+        while let Some(event) = self.script.front() {
+            // At t = 0 the passage begins; before that there is only the start-up.
+            let has_begun = event.at_s == 0.0 || sim.stage() == Stage::Passage;
+            if !has_begun || event.at_s > sim.time_s() {
+                return;
+            }
+            let Some(event) = self.script.pop_front() else {
+                return;
+            };
+            for (key, value) in &event.set {
+                if let Some(knob) = Knob::from_key(key) {
+                    self.set(sim, knob, *value);
+                }
+            }
+            if !event.caption.is_empty() {
+                self.announce(sim, RunEventKind::Caption(event.caption));
+            }
+        }
+    }
+
+    fn judge_step<S: Stepper>(&mut self, sim: &S) {
+        let metrics = sim.metrics();
+        if metrics.converged || sim.stage() == Stage::StartUp {
+            return;
+        }
+        let residual = metrics.residual;
+        self.n_unconverged += 1;
+        if self.unconverged.len() < Outcome::UNCONVERGED_KEPT {
+            self.unconverged.push(Unconverged {
+                step: sim.passage_steps(),
+                time_s: sim.time_s(),
+                residual,
+            });
+        }
+        self.announce(sim, RunEventKind::NotConverged { residual });
+    }
+
+    /// Gives the step to the screen, and to the outputs if it belongs to the results.
+    fn hand_out<S: Stepper>(&mut self, sim: &S) {
+        let frame = self.pool.fill(|frame| sim.fill(frame));
+        if sim.stage() == Stage::Passage {
+            for index in 0..self.watchers.len() {
+                let written = self.watchers[index].frame(&frame);
+                self.note_output(written);
+            }
+        }
+        self.latest.put(frame);
+    }
+
+    fn announce<S: Stepper>(&mut self, sim: &S, kind: RunEventKind) {
+        let event = RunEvent {
+            step: sim.passage_steps(),
+            time_s: sim.time_s(),
+            kind,
+        };
+        for index in 0..self.watchers.len() {
+            let written = self.watchers[index].event(&event);
+            self.note_output(written);
+        }
+        self.show(SessionEvent::Run(event));
+    }
+
+    fn show(&self, event: SessionEvent) {
+        lock(&self.shared).show(event);
+    }
+
+    fn note_output(&mut self, result: Result<(), ObserveError>) {
+        if let Err(error) = result {
+            self.show(SessionEvent::OutputFailed(error.clone()));
+            self.output_errors.push(error);
+        }
+    }
+
+    fn must_end_for_outputs(&self) -> bool {
+        self.ending == Ending::Passages && !self.output_errors.is_empty()
+    }
+
+    fn tell_status<S: Stepper>(&self, sim: &S) {
+        let mut shared = lock(&self.shared);
+        let status = &mut shared.status;
+        status.stage = sim.stage();
+        status.progress = sim.progress();
+        status.steps = sim.passage_steps();
+        status.n_unconverged = self.n_unconverged;
+        status.outputs.clear();
+        status
+            .outputs
+            .extend(self.watchers.iter().map(Watcher::status));
+    }
+
+    fn tell_failure(&self, end: &End) {
+        let failure = match end {
+            End::Stalled(error) => error.to_string(),
+            End::NotStarted(error) => error.to_string(),
+            End::OutputFailed => "an output failed".to_owned(),
+            End::Done | End::Stopped => return,
+        };
+        lock(&self.shared).status.failure = Some(failure);
+    }
+
+    fn finish_outputs(&mut self) -> Vec<ObserverReport> {
+        let mut reports = Vec::new();
+        for watcher in &mut self.watchers {
+            match watcher.finish() {
+                Ok(report) => reports.extend(report),
+                Err(error) => self.output_errors.push(error),
+            }
+        }
+        reports
+    }
+}

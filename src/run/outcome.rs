@@ -1,0 +1,82 @@
+//! How a run ended.
+
+use crate::observe::{ObserveError, ObserverReport};
+use crate::run::Command;
+use crate::sim::{SimError, StepError, Summary};
+
+/// A command that took effect, with the step before which it did: scene and log replay the run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AppliedCommand {
+    /// Time steps made since the start-up when it took effect.
+    pub step: u64,
+    /// Simulated time, s.
+    pub time_s: f64,
+    /// The command.
+    pub command: Command,
+}
+
+/// A step that did not converge but was kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unconverged {
+    /// Time step.
+    pub step: u64,
+    /// Simulated time, s.
+    pub time_s: f64,
+    /// Residual reached.
+    pub residual: f64,
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone)]
+pub enum End {
+    /// All that was asked for was done.
+    Done,
+    /// Somebody said stop.
+    Stopped,
+    /// A step failed beyond repair.
+    Stalled(StepError),
+    /// The simulation could not be made or started.
+    NotStarted(SimError),
+    /// An output failed ([`Outcome::output_errors`]).
+    OutputFailed,
+}
+
+/// What a run leaves.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Why it ended.
+    pub end: End,
+    /// Results so far; `None` when the passage never began.
+    pub summary: Option<Summary>,
+    /// Time steps after the start-up.
+    pub steps: u64,
+    /// The first steps that did not converge, at most [`Outcome::UNCONVERGED_KEPT`].
+    pub unconverged: Vec<Unconverged>,
+    /// How many did not in all.
+    pub n_unconverged: u64,
+    /// Commands that took effect, scripted ones included.
+    pub applied: Vec<AppliedCommand>,
+    /// What the outputs hold.
+    pub reports: Vec<ObserverReport>,
+    /// Outputs that failed.
+    pub output_errors: Vec<ObserveError>,
+    /// Time taken, s.
+    pub wall_s: f64,
+}
+
+impl Outcome {
+    /// Most unconverged steps that are listed one by one.
+    pub const UNCONVERGED_KEPT: usize = 100;
+
+    /// Exit code of the command line: 0 converged, 2 some steps did not converge, 3 stalled or not
+    /// started, 4 an output failed. A failed solution weighs more than a failed output.
+    pub fn exit_code(&self) -> u8 {
+        match self.end {
+            End::Stalled(_) | End::NotStarted(_) => 3,
+            End::OutputFailed => 4,
+            End::Done | End::Stopped if !self.output_errors.is_empty() => 4,
+            End::Done | End::Stopped if self.n_unconverged > 0 => 2,
+            End::Done | End::Stopped => 0,
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! A run on a thread of its own.
+
+use std::collections::VecDeque;
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+
+use thiserror::Error;
+
+use super::Command;
+use super::driver::Driver;
+use super::outcome::Outcome;
+use super::stepper::Stepper;
+use super::watcher::{Watcher, WatcherStatus};
+use crate::observe::{Latest, ObserveError, RunContext, RunEvent};
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::sim::{SimError, Simulation, Stage};
+
+/// When a session ends by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// After the passages that the scene asks for, or when an output fails.
+    Passages,
+    /// Never: only when told to stop (the explorer). An output that fails is reported and left out.
+    OnStop,
+}
+
+/// What to run.
+#[derive(Debug)]
+pub struct Request {
+    /// Preset or file, for the summary.
+    pub name: String,
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// Its plan.
+    pub plan: Plan,
+    /// Worker threads of the solver.
+    pub threads: usize,
+    /// Outputs.
+    pub watchers: Vec<Watcher>,
+    /// When to end.
+    pub ending: Ending,
+}
+
+/// Something that happened, for a screen to show.
+#[derive(Debug, Clone)]
+pub enum SessionEvent {
+    /// A knob was set, a caption came up, a step did not converge.
+    Run(RunEvent),
+    /// A command was refused.
+    Refused(SimError),
+    /// An output failed.
+    OutputFailed(ObserveError),
+}
+
+/// Where a session is.
+#[derive(Debug, Clone, Default)]
+pub struct Status {
+    /// Part of the run.
+    pub stage: Stage,
+    /// How much is done, 0 to 1.
+    pub progress: f64,
+    /// Time steps after the start-up.
+    pub steps: u64,
+    /// Steps that did not converge.
+    pub n_unconverged: u64,
+    /// Outputs.
+    pub outputs: Vec<WatcherStatus>,
+    /// What went wrong, once the run has ended by a failure.
+    pub failure: Option<String>,
+}
+
+/// A session that could not be started or came to grief.
+#[derive(Debug, Clone, Error)]
+pub enum RunError {
+    /// No thread.
+    #[error("the simulation's thread could not be started: {0}")]
+    NoThread(String),
+    /// A programming error.
+    #[error(
+        "the simulation broke off by a programming error: {0}; what was recorded before is kept"
+    )]
+    Panicked(String),
+}
+
+/// Events that wait to be shown at most; a screen takes them at each drawing.
+const EVENTS_KEPT: usize = 256;
+
+#[derive(Debug, Default)]
+pub(super) struct Shared {
+    pub(super) status: Status,
+    events: VecDeque<SessionEvent>,
+}
+
+impl Shared {
+    /// Keeps an event for the screen; the oldest makes room.
+    pub(super) fn show(&mut self, event: SessionEvent) {
+        if self.events.len() == EVENTS_KEPT {
+            self.events.pop_front();
+        }
+        self.events.push_back(event);
+    }
+}
+
+pub(super) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
+    // Every write leaves the value whole, so a panic elsewhere does not spoil it.
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A running session.
+#[derive(Debug)]
+pub struct Session {
+    commands: Sender<Command>,
+    latest: Latest,
+    shared: Arc<Mutex<Shared>>,
+    thread: JoinHandle<Outcome>,
+}
+
+impl Session {
+    /// Starts the scene's simulation on its own thread.
+    ///
+    /// # Errors
+    /// [`RunError::NoThread`] when the system gives no thread.
+    pub fn start(request: Request) -> Result<Self, RunError> {
+        let threads = request.threads;
+        let plan = request.plan.clone();
+        Self::start_with(request, move |scene| Simulation::new(scene, plan, threads))
+    }
+
+    /// Same with another simulation, made on the thread that will own it.
+    ///
+    /// # Errors
+    /// [`RunError::NoThread`] when the system gives no thread.
+    pub fn start_with<S: Stepper>(
+        request: Request,
+        make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
+    ) -> Result<Self, RunError> {
+        let (commands, inbox) = channel();
+        let latest = Latest::default();
+        let shared = Arc::new(Mutex::new(Shared::default()));
+        let driver = Driver::new(
+            request.ending,
+            request.watchers,
+            &request.scene.events,
+            inbox,
+            latest.clone(),
+            Arc::clone(&shared),
+        );
+        let context = RunContext {
+            scene_toml: request.scene.to_toml(),
+            plan_text: request.plan.to_string(),
+            program: concat!("asperity ", env!("CARGO_PKG_VERSION")).to_owned(),
+            scene: Arc::clone(&request.scene),
+        };
+        let name = request.name;
+        let thread = std::thread::Builder::new()
+            .name("sim".to_owned())
+            .spawn(move || driver.run(&context, &name, make))
+            .map_err(|error| RunError::NoThread(error.to_string()))?;
+        Ok(Self {
+            commands,
+            latest,
+            shared,
+            thread,
+        })
+    }
+
+    /// Asks for something. A session that has ended hears nothing, which is no error.
+    pub fn send(&self, command: Command) {
+        let _ = self.commands.send(command);
+    }
+
+    /// A sender for others (a signal handler, a screen).
+    pub fn commands(&self) -> Sender<Command> {
+        self.commands.clone()
+    }
+
+    /// The newest frame.
+    pub fn latest(&self) -> Latest {
+        self.latest.clone()
+    }
+
+    /// Where the run is.
+    pub fn status(&self) -> Status {
+        lock(&self.shared).status.clone()
+    }
+
+    /// A way to ask for the status from elsewhere, once the session itself is given away.
+    pub fn status_reader(&self) -> impl Fn() -> Status + Send + 'static {
+        let shared = Arc::clone(&self.shared);
+        move || lock(&shared).status.clone()
+    }
+
+    /// What happened since the last call.
+    pub fn take_events(&self) -> Vec<SessionEvent> {
+        lock(&self.shared).events.drain(..).collect()
+    }
+
+    /// Whether the run has ended, so that `join` returns at once.
+    pub fn is_finished(&self) -> bool {
+        self.thread.is_finished()
+    }
+
+    /// Waits for the end.
+    ///
+    /// # Errors
+    /// [`RunError::Panicked`] when the thread broke off.
+    pub fn join(self) -> Result<Outcome, RunError> {
+        self.thread.join().map_err(|cause| {
+            let text = cause
+                .downcast_ref::<String>()
+                .cloned()
+                .or_else(|| cause.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+            RunError::Panicked(text.unwrap_or_else(|| "no message".to_owned()))
+        })
+    }
+}

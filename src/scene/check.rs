@@ -1,0 +1,304 @@
+//! The strict check of a scene: every key known, of the right kind and within its range, and the rules
+//! that tie keys together. It reads plain TOML tables, so that the error names what was written.
+
+use toml::{Table, Value};
+
+use super::error::{SceneError, nearest};
+use super::keys::{self, EVENT_KEYS, KNOB_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
+use super::model::{Event, Scene, Surface};
+
+/// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
+pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
+    check_section("", table)?;
+    for section in SECTIONS {
+        check_presence(section, table)?;
+    }
+    Ok(())
+}
+
+fn check_section(path: &str, table: &mut Table) -> Result<(), SceneError> {
+    let is_smooth = table.get("kind").and_then(Value::as_str) == Some("smooth");
+    for (name, value) in table.iter_mut() {
+        let full = joined(path, name);
+        if path.is_empty() && name == "event" {
+            check_events(value)?;
+        } else if let Some(key) = keys::find(&full) {
+            if is_smooth && path.ends_with("surface") && name != "kind" {
+                return Err(SceneError::value(
+                    full,
+                    shown(value),
+                    format!("only with {path}.kind = \"sinusoid\""),
+                ));
+            }
+            check_value(&full, key, value)?;
+        } else if keys::section(&full).is_some() {
+            match value {
+                Value::Table(inner) => check_section(&full, inner)?,
+                other => {
+                    return Err(SceneError::value(
+                        &full,
+                        shown(other),
+                        format!("a table [{full}]"),
+                    ));
+                }
+            }
+        } else {
+            return Err(unknown(&full));
+        }
+    }
+    Ok(())
+}
+
+/// The error for a key that no scene has.
+pub(super) fn unknown(full: &str) -> SceneError {
+    let paths: Vec<String> = keys::all_paths()
+        .chain(SECTIONS.iter().map(|section| section.path.to_owned()))
+        .chain(["event".to_owned()])
+        .collect();
+    SceneError::UnknownKey {
+        key: super::error::shortened(full),
+        nearest: nearest(full, paths.iter().map(String::as_str)).map(str::to_owned),
+    }
+}
+
+fn check_presence(section: &Section, root: &Table) -> Result<(), SceneError> {
+    let table = lookup(root, section.path);
+    let Some(table) = table else {
+        return if section.need == Need::Required {
+            Err(SceneError::Missing {
+                key: format!("[{}]", section.path),
+                allowed: section.doc.to_owned(),
+            })
+        } else {
+            Ok(())
+        };
+    };
+    let is_smooth = table.get("kind").and_then(Value::as_str) == Some("smooth");
+    let missing = section
+        .keys
+        .iter()
+        .filter(|key| key.need == Need::Required && !(is_smooth && key.name != "kind"))
+        .find(|key| !table.contains_key(key.name));
+    match missing {
+        Some(key) => Err(SceneError::Missing {
+            key: section.path_of(key.name),
+            allowed: key.allowed(),
+        }),
+        None => Ok(()),
+    }
+}
+
+/// The table at a dotted path.
+pub(super) fn lookup<'a>(root: &'a Table, path: &str) -> Option<&'a Table> {
+    if path.is_empty() {
+        return Some(root);
+    }
+    path.split('.')
+        .try_fold(root, |table, name| table.get(name)?.as_table())
+}
+
+fn check_events(value: &mut Value) -> Result<(), SceneError> {
+    let refused =
+        |value: &Value| SceneError::value("event", shown(value), "tables, each [[event]]");
+    let Value::Array(events) = value else {
+        return Err(refused(value));
+    };
+    for (index, event) in events.iter_mut().enumerate() {
+        let Value::Table(table) = event else {
+            return Err(refused(event));
+        };
+        let path = format!("event[{index}]");
+        for (name, value) in table.iter_mut() {
+            let full = joined(&path, name);
+            if name == "set" {
+                check_settings(&full, value)?;
+            } else if let Some(key) = EVENT_KEYS.iter().find(|key| key.name == name) {
+                check_value(&full, key, value)?;
+            } else {
+                return Err(SceneError::UnknownKey {
+                    key: super::error::shortened(&full),
+                    nearest: nearest(name, ["at_s", "caption", "set"]).map(str::to_owned),
+                });
+            }
+        }
+        if !table.contains_key("at_s") {
+            return Err(SceneError::Missing {
+                key: joined(&path, "at_s"),
+                allowed: EVENT_KEYS[0].allowed(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// `set` of an event: knobs and values within the range of their keys.
+fn check_settings(path: &str, value: &mut Value) -> Result<(), SceneError> {
+    let Value::Table(settings) = value else {
+        return Err(SceneError::value(
+            path,
+            shown(value),
+            "a table such as { \"motion.slide_roll\" = 1.0 }",
+        ));
+    };
+    for (name, value) in settings.iter_mut() {
+        let full = format!("{path}.\"{}\"", super::error::shortened(name));
+        let known = KNOB_KEYS.contains(&name.as_str());
+        match keys::find(name) {
+            Some(key) if known => check_value(&full, key, value)?,
+            _ => {
+                return Err(SceneError::value(
+                    full,
+                    shown(value),
+                    format!("a knob: {}", KNOB_KEYS.join(", ")),
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_value(full: &str, key: &Key, value: &mut Value) -> Result<(), SceneError> {
+    if let (Kind::Number(..) | Kind::NumberOrInf(..), Value::Integer(whole)) = (key.kind, &*value) {
+        *value = Value::Float(*whole as f64);
+    }
+    let fits = match (key.kind, &*value) {
+        (Kind::Text(longest), Value::String(text)) => text.chars().count() <= longest,
+        (Kind::Number(min, max), Value::Float(number)) => (min..=max).contains(number),
+        (Kind::NumberOrInf(min, max), Value::Float(number)) => {
+            (min..=max).contains(number) || *number == f64::INFINITY
+        }
+        (Kind::Integer(min, max), Value::Integer(whole)) => (min..=max).contains(whole),
+        (Kind::IntegerOf(values), Value::Integer(whole)) => values.contains(whole),
+        (Kind::Choice(words), Value::String(text)) => words.contains(&text.as_str()),
+        _ => false,
+    };
+    if fits {
+        Ok(())
+    } else {
+        Err(SceneError::value(full, shown(value), key.allowed()))
+    }
+}
+
+/// A value as a user would write it.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Float(number) => short(*number),
+        Value::Table(_) => "a table".to_owned(),
+        Value::Array(_) => "a list".to_owned(),
+        other => other.to_string(),
+    }
+}
+
+/// Highest Hertz pressure that any material stands, Pa.
+const P_HERTZ_MAX_PA: f64 = 1e10;
+/// Steepest slope for which half-space elasticity means anything.
+const SLOPE_MAX: f64 = 0.5;
+
+/// The rules that tie keys together.
+pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
+    check_load(scene)?;
+    check_surface("body_1.surface", &scene.body_1.surface)?;
+    check_surface("body_2.surface", &scene.body_2.surface)?;
+    if scene.life.is_some() && scene.stress.is_none() {
+        return Err(SceneError::value(
+            "life",
+            "a table",
+            "only with a [stress] table; leave both out, or --set life=none",
+        ));
+    }
+    scene
+        .events
+        .iter()
+        .enumerate()
+        .try_for_each(|(index, event)| check_event_fits(scene, index, event))
+}
+
+fn check_load(scene: &Scene) -> Result<(), SceneError> {
+    match (scene.load.force_n, scene.load.hertz_pressure_pa) {
+        (Some(_), Some(_)) => Err(SceneError::value(
+            "load",
+            "force_n and hertz_pressure_pa",
+            "exactly one of the two",
+        )),
+        (None, None) => Err(SceneError::Missing {
+            key: "load.force_n".to_owned(),
+            allowed: "exactly one of load.force_n (N) and load.hertz_pressure_pa (1e6 to 1e10 Pa)"
+                .to_owned(),
+        }),
+        (Some(force_n), None) => check_force(scene, "load.force_n", force_n),
+        (None, Some(_)) => Ok(()),
+    }
+}
+
+/// A force may be anything whose Hertz pressure is possible.
+fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), SceneError> {
+    let p_max_pa = scene.hertz_at(force_n).p_max_pa;
+    if p_max_pa <= P_HERTZ_MAX_PA {
+        return Ok(());
+    }
+    let allowed = format!(
+        "a Hertz pressure of at most 10 GPa; this force makes {:.3} GPa",
+        p_max_pa * 1e-9
+    );
+    Err(SceneError::value(
+        key,
+        format!("{} N", short(force_n)),
+        allowed,
+    ))
+}
+
+fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
+    let Surface::Sinusoid {
+        amplitude_m,
+        wavelength_x_m,
+        wavelength_y_m,
+        ..
+    } = *surface
+    else {
+        return Ok(());
+    };
+    let shortest = wavelength_x_m.min(wavelength_y_m);
+    if shortest == f64::INFINITY {
+        return Err(SceneError::value(
+            joined(path, "wavelength_x_m"),
+            "inf",
+            "a length in m, when wavelength_y_m is inf too (or kind = \"smooth\")",
+        ));
+    }
+    let slope = std::f64::consts::TAU * amplitude_m / shortest;
+    if slope > SLOPE_MAX {
+        return Err(SceneError::value(
+            joined(path, "amplitude_m"),
+            format!("{} m", short(amplitude_m)),
+            format!(
+                "a slope 2 pi A/W of at most {SLOPE_MAX}; this one is {slope:.2} at W = {} m",
+                short(shortest)
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// An event's knobs must act on something that the scene has.
+fn check_event_fits(scene: &Scene, index: usize, event: &Event) -> Result<(), SceneError> {
+    for (name, &value) in &event.set {
+        let full = format!("event[{index}].set.\"{name}\"");
+        let surface = match name.as_str() {
+            "body_1.surface.amplitude_m" => &scene.body_1.surface,
+            "body_2.surface.amplitude_m" => &scene.body_2.surface,
+            "load.force_n" => {
+                check_force(scene, &full, value)?;
+                continue;
+            }
+            _ => continue,
+        };
+        if matches!(surface, Surface::Smooth {}) {
+            return Err(SceneError::value(
+                full,
+                short(value),
+                "only on a body whose surface is not smooth",
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,246 @@
+//! What follows from a scene by closed forms: moduli, Hertz contact, speeds, roughness.
+
+use std::f64::consts::SQRT_2;
+
+use super::model::{Scene, Surface};
+use crate::physics::groups::OperatingPoint;
+use crate::physics::hertz::{self, Hertz};
+
+impl Scene {
+    /// E', 2/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, Pa.
+    pub fn e_prime_pa(&self) -> f64 {
+        hertz::e_prime_pa(
+            self.body_1.young_pa,
+            self.body_1.poisson,
+            self.body_2.young_pa,
+            self.body_2.poisson,
+        )
+    }
+
+    /// The Hertz contact at another force than the scene's.
+    pub fn hertz_at(&self, force_n: f64) -> Hertz {
+        Hertz::from_force(
+            self.contact.rx_m,
+            self.contact.ry_m,
+            self.e_prime_pa(),
+            force_n,
+        )
+    }
+
+    /// The Hertz contact.
+    pub fn hertz(&self) -> Hertz {
+        self.hertz_and_force().0
+    }
+
+    /// The normal load, N.
+    pub fn force_n(&self) -> f64 {
+        self.hertz_and_force().1
+    }
+
+    fn hertz_and_force(&self) -> (Hertz, f64) {
+        match (self.load.force_n, self.load.hertz_pressure_pa) {
+            (Some(force_n), _) => (self.hertz_at(force_n), force_n),
+            (None, pressure_pa) => Hertz::from_pressure(
+                self.contact.rx_m,
+                self.contact.ry_m,
+                self.e_prime_pa(),
+                // A scene without a load does not validate; NaN would show it.
+                pressure_pa.unwrap_or(f64::NAN),
+            ),
+        }
+    }
+
+    /// Speeds of body 1 and 2, U₁ = U(1 − S/2), U₂ = U(1 + S/2), m/s.
+    pub fn speeds_m_s(&self) -> [f64; 2] {
+        let (u, s) = (self.motion.entrainment_m_s, self.motion.slide_roll);
+        [u * (1.0 - 0.5 * s), u * (1.0 + 0.5 * s)]
+    }
+
+    /// What the film regressions need; `None` for a dry scene.
+    pub fn operating_point(&self) -> Option<OperatingPoint> {
+        let lubricant = self.lubricant.as_ref()?;
+        Some(OperatingPoint {
+            rx_m: self.contact.rx_m,
+            ry_m: self.contact.ry_m,
+            e_prime_pa: self.e_prime_pa(),
+            viscosity_pa_s: lubricant.viscosity_pa_s,
+            alpha_per_pa: lubricant.pressure_viscosity_per_pa,
+            entrainment_m_s: self.motion.entrainment_m_s,
+            force_n: self.force_n(),
+        })
+    }
+
+    /// Both surfaces, body 1 first.
+    pub fn surfaces(&self) -> [&Surface; 2] {
+        [&self.body_1.surface, &self.body_2.surface]
+    }
+
+    /// Composite root-mean-square roughness √(Rq₁² + Rq₂²), m.
+    pub fn composite_rq_m(&self) -> f64 {
+        let [one, two] = self.surfaces();
+        one.rq_m().hypot(two.rq_m())
+    }
+}
+
+impl Surface {
+    /// A, m; 0 for a smooth surface.
+    pub fn amplitude_m(&self) -> f64 {
+        match *self {
+            Self::Smooth {} => 0.0,
+            Self::Sinusoid { amplitude_m, .. } => amplitude_m,
+        }
+    }
+
+    /// Root-mean-square height: A/√2 for ridges, A/2 for the product of two waves, m.
+    pub fn rq_m(&self) -> f64 {
+        match *self {
+            Self::Smooth {} => 0.0,
+            Self::Sinusoid {
+                amplitude_m,
+                wavelength_x_m,
+                wavelength_y_m,
+                ..
+            } if wavelength_x_m.is_finite() && wavelength_y_m.is_finite() => 0.5 * amplitude_m,
+            Self::Sinusoid { amplitude_m, .. } => amplitude_m / SQRT_2,
+        }
+    }
+
+    /// Whether there is no micro-geometry at all (an amplitude of 0 may still be turned up).
+    pub fn is_smooth(&self) -> bool {
+        matches!(self, Self::Smooth {})
+    }
+
+    /// Wavenumbers of the surface along x and y, 1/m: the greatest that the turned product holds.
+    pub fn wavenumbers_per_m(&self) -> [f64; 2] {
+        let Self::Sinusoid {
+            wavelength_x_m,
+            wavelength_y_m,
+            angle_deg,
+            ..
+        } = *self
+        else {
+            return [0.0, 0.0];
+        };
+        let (sin, cos) = exact_sin_cos(angle_deg);
+        let (k_x, k_y) = (1.0 / wavelength_x_m, 1.0 / wavelength_y_m);
+        [
+            (k_x * cos).abs() + (k_y * sin).abs(),
+            (k_x * sin).abs() + (k_y * cos).abs(),
+        ]
+    }
+
+    /// Whether the surface changes along the rolling direction, so that its motion shows.
+    pub fn varies_along_x(&self) -> bool {
+        self.wavenumbers_per_m()[0] > 0.0
+    }
+
+    /// Whether the surface is its own mirror image in y = 0, wherever it has moved along x.
+    pub fn is_even_in_y(&self) -> bool {
+        let Self::Sinusoid {
+            wavelength_x_m,
+            angle_deg,
+            phase_deg,
+            ..
+        } = *self
+        else {
+            return true;
+        };
+        let (sin, cos) = exact_sin_cos(angle_deg);
+        if sin == 0.0 {
+            true
+        } else if cos == 0.0 {
+            // x' runs along y: its wave is even only without a phase.
+            wavelength_x_m.is_infinite() || phase_deg.rem_euclid(180.0) == 0.0
+        } else {
+            false
+        }
+    }
+}
+
+/// Sine and cosine that are exactly 0 at the multiples of 90 degrees.
+fn exact_sin_cos(angle_deg: f64) -> (f64, f64) {
+    let turned = angle_deg.rem_euclid(180.0);
+    if turned == 0.0 {
+        (0.0, 1.0)
+    } else if turned == 90.0 {
+        (1.0, 0.0)
+    } else {
+        turned.to_radians().sin_cos()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sinusoid(
+        wavelength_x_m: f64,
+        wavelength_y_m: f64,
+        angle_deg: f64,
+        phase_deg: f64,
+    ) -> Surface {
+        Surface::Sinusoid {
+            amplitude_m: 2e-7,
+            wavelength_x_m,
+            wavelength_y_m,
+            angle_deg,
+            phase_deg,
+        }
+    }
+
+    #[test]
+    fn root_mean_square_of_ridges_and_of_a_product() {
+        for (surface, expected) in [
+            (sinusoid(1e-4, f64::INFINITY, 0.0, 20.0), 2e-7 / SQRT_2),
+            (sinusoid(1e-4, 3e-4, 0.0, 0.0), 1e-7),
+        ] {
+            let Surface::Sinusoid {
+                wavelength_x_m,
+                wavelength_y_m,
+                phase_deg,
+                ..
+            } = surface
+            else {
+                unreachable!("made above")
+            };
+            let n = 64;
+            let mut sum = 0.0;
+            for i in 0..n {
+                for j in 0..n {
+                    let x = i as f64 / n as f64 * std::f64::consts::TAU + phase_deg.to_radians();
+                    let y = if wavelength_y_m.is_finite() {
+                        j as f64 / n as f64 * std::f64::consts::TAU
+                    } else {
+                        0.0
+                    };
+                    assert!(wavelength_x_m.is_finite());
+                    sum += (2e-7 * x.cos() * y.cos()).powi(2);
+                }
+            }
+            let rq = (sum / (n * n) as f64).sqrt();
+            assert!((rq / expected - 1.0).abs() < 1e-12);
+            assert!((surface.rq_m() / expected - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn lay_decides_what_moves_and_what_is_mirrored() {
+        let inf = f64::INFINITY;
+        // Wx, Wy, angle, phase: varies along x, even in y.
+        for (wx, wy, angle, phase, moves, even) in [
+            (1e-4, inf, 0.0, 30.0, true, true),
+            (inf, 1e-4, 0.0, 0.0, false, true),
+            (1e-4, 1e-4, 0.0, 30.0, true, true),
+            (1e-4, inf, 90.0, 0.0, false, true),
+            (1e-4, inf, 90.0, 30.0, false, false),
+            (inf, 1e-4, 90.0, 30.0, true, true),
+            (1e-4, inf, 30.0, 0.0, true, false),
+            (1e-4, inf, -180.0, 0.0, true, true),
+        ] {
+            let surface = sinusoid(wx, wy, angle, phase);
+            assert_eq!(surface.varies_along_x(), moves, "{surface:?}");
+            assert_eq!(surface.is_even_in_y(), even, "{surface:?}");
+        }
+        assert!(Surface::Smooth {}.is_even_in_y());
+    }
+}

@@ -1,0 +1,395 @@
+//! Every key of a scene in one table: unit, range and meaning. The strict check, the errors, the printed
+//! scenes and the help all read it, so that none of them can drift from the others.
+
+/// What a key takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// Text of at most so many characters.
+    Text(usize),
+    /// A finite number between two bounds, both included.
+    Number(f64, f64),
+    /// A finite number between two bounds, or `inf`.
+    NumberOrInf(f64, f64),
+    /// A whole number between two bounds, both included.
+    Integer(i64, i64),
+    /// One of a few whole numbers.
+    IntegerOf(&'static [i64]),
+    /// One of a few words.
+    Choice(&'static [&'static str]),
+}
+
+/// Whether a key or a table may be left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Need {
+    /// It must be there.
+    Required,
+    /// Left out, it takes its default, which printed scenes show.
+    Defaulted,
+    /// Left out means something of its own; the text says what.
+    Optional(&'static str),
+}
+
+/// One key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// Name within its table.
+    pub name: &'static str,
+    /// Unit, empty for pure numbers and words.
+    pub unit: &'static str,
+    /// What it takes.
+    pub kind: Kind,
+    /// Whether it may be left out.
+    pub need: Need,
+    /// What it means.
+    pub doc: &'static str,
+}
+
+/// One table of a scene file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// Its path, such as `body_1.surface`; empty for the top of the file.
+    pub path: &'static str,
+    /// Whether it may be left out.
+    pub need: Need,
+    /// What it holds.
+    pub doc: &'static str,
+    /// Its keys in the order in which they are printed.
+    pub keys: &'static [Key],
+}
+
+const fn key(
+    name: &'static str,
+    unit: &'static str,
+    kind: Kind,
+    need: Need,
+    doc: &'static str,
+) -> Key {
+    Key {
+        name,
+        unit,
+        kind,
+        need,
+        doc,
+    }
+}
+
+use Kind::{Choice, Integer, IntegerOf, Number, NumberOrInf, Text};
+use Need::{Defaulted, Optional, Required};
+
+#[rustfmt::skip]
+const BODY: &[Key] = &[
+    key("young_pa", "Pa", Number(1e6, 1e13), Defaulted, "Young's modulus"),
+    key("poisson", "", Number(0.0, 0.5), Defaulted, "Poisson's ratio"),
+];
+
+#[rustfmt::skip]
+const SURFACE: &[Key] = &[
+    key("kind", "", Choice(&["smooth", "sinusoid"]), Required, "micro-geometry that moves with the body"),
+    key("amplitude_m", "m", Number(0.0, 1e-4), Required, "A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy); peak to valley is 2 A"),
+    key("wavelength_x_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wx, at least 4 nodes; inf: longitudinal ridges"),
+    key("wavelength_y_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wy, at least 4 nodes; inf: transverse ridges"),
+    key("angle_deg", "degrees", Number(-360.0, 360.0), Defaulted, "angle of x' from the rolling direction x"),
+    key("phase_deg", "degrees", Number(-360.0, 360.0), Defaulted, "phase of the wave along x' at t = 0, x = 0"),
+];
+
+/// Every table of a scene in the order in which it is printed.
+#[rustfmt::skip] // one line a key
+pub const SECTIONS: &[Section] = &[
+    Section {
+        path: "",
+        need: Required,
+        doc: "",
+        keys: &[
+            key("title", "", Text(200), Defaulted, "one line naming the scene"),
+            key("about", "", Text(4000), Defaulted, "what is looked at, and where the numbers come from"),
+        ],
+    },
+    Section {
+        path: "contact",
+        need: Required,
+        doc: "Shape of the contact, as equivalent radii: 1/R = 1/R_1 + 1/R_2.",
+        keys: &[
+            key("kind", "", Choice(&["point"]), Required, "kind of contact"),
+            key("rx_m", "m", Number(1e-6, 100.0), Required, "equivalent radius along the rolling direction x"),
+            key("ry_m", "m", Number(1e-6, 100.0), Required, "equivalent radius across"),
+        ],
+    },
+    Section {
+        path: "body_1",
+        need: Defaulted,
+        doc: "The body below; z points into it. S > 0 makes it the slower one.",
+        keys: BODY,
+    },
+    Section {
+        path: "body_1.surface",
+        need: Defaulted,
+        doc: "",
+        keys: SURFACE,
+    },
+    Section {
+        path: "body_2",
+        need: Defaulted,
+        doc: "The body above.",
+        keys: BODY,
+    },
+    Section {
+        path: "body_2.surface",
+        need: Defaulted,
+        doc: "",
+        keys: SURFACE,
+    },
+    Section {
+        path: "lubricant",
+        need: Optional("dry contact"),
+        doc: "The oil. Leave the table out for a dry scene.",
+        keys: &[
+            key("viscosity_pa_s", "Pa s", Number(1e-6, 1e4), Required, "viscosity at ambient pressure"),
+            key("pressure_viscosity_per_pa", "1/Pa", Number(0.0, 1e-7), Required, "pressure-viscosity coefficient alpha"),
+            key("viscosity_law", "", Choice(&["barus", "roelands"]), Defaulted, "viscosity against pressure"),
+            key("density_law", "", Choice(&["incompressible", "dowson_higginson"]), Defaulted, "density against pressure"),
+            key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
+            key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
+            key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),
+            key("cavitation", "", Choice(&["reynolds", "jfo"]), Defaulted, "how the film ruptures"),
+        ],
+    },
+    Section {
+        path: "friction",
+        need: Defaulted,
+        doc: "Where the film is gone.",
+        keys: &[
+            key("boundary", "", Number(0.0, 1.0), Defaulted, "friction coefficient where surfaces touch"),
+            key("contact_film_m", "m", Number(0.0, 1e-6), Defaulted, "film at or below which a spot counts as touching"),
+        ],
+    },
+    Section {
+        path: "motion",
+        need: Required,
+        doc: "U = (U1 + U2)/2 and S = (U2 - U1)/U, so U1 = U (1 - S/2), U2 = U (1 + S/2).",
+        keys: &[
+            key("entrainment_m_s", "m/s", Number(1e-6, 200.0), Required, "entrainment speed U along +x"),
+            key("slide_roll", "", Number(-2.0, 2.0), Defaulted, "slide-to-roll ratio S; 0: pure rolling"),
+        ],
+    },
+    Section {
+        path: "load",
+        need: Required,
+        doc: "Exactly one of the two.",
+        keys: &[
+            key("force_n", "N", Number(1e-6, 1e8), Optional("the load is given as a Hertz pressure"), "normal load; its Hertz pressure at most 10 GPa"),
+            key("hertz_pressure_pa", "Pa", Number(1e6, 1e10), Optional("the load is given as a force"), "maximum Hertz pressure"),
+        ],
+    },
+    Section {
+        path: "grid",
+        need: Defaulted,
+        doc: "Nodes and domain, in Hertz half-widths along x and along y.",
+        keys: &[
+            key("nodes", "", IntegerOf(&[33, 65, 129, 257, 513, 1025]), Defaulted, "nodes per side, 2^k + 1"),
+            key("x_min_a", "a", Number(-20.0, -1.2), Optional("chosen by the plan"), "inlet edge"),
+            key("x_max_a", "a", Number(1.1, 10.0), Optional("chosen by the plan"), "outlet edge"),
+            key("y_half_a", "b", Number(1.1, 10.0), Optional("chosen by the plan"), "half-width across, in half-widths along y"),
+        ],
+    },
+    Section {
+        path: "time",
+        need: Defaulted,
+        doc: "Time step and length of the run.",
+        keys: &[
+            key("step_nodes", "", Number(0.05, 4.0), Defaulted, "time step in nodes travelled at U; 1 has no numerical diffusion"),
+            key("passages", "", Number(0.01, 1e4), Defaulted, "length of the run in lengths of 4 a at U, after the start-up"),
+        ],
+    },
+    Section {
+        path: "numerics",
+        need: Defaulted,
+        doc: "When a time step counts as converged.",
+        keys: &[
+            key("tolerance", "", Number(1e-9, 0.1), Defaulted, "relative change of the pressure"),
+            key("max_iterations", "", Integer(1, 1000), Defaulted, "most Newton iterations of one step"),
+        ],
+    },
+    Section {
+        path: "stress",
+        need: Optional("no subsurface stress"),
+        doc: "Subsurface stress of body 1. Leave the table out to compute none; life needs it.",
+        keys: &[
+            key("depths", "", Integer(8, 256), Defaulted, "number of depths"),
+            key("depth_max_a", "a", Number(0.5, 20.0), Defaulted, "deepest point, in the narrower Hertz half-width; life wants 2 or more"),
+            key("measure", "", Choice(&["von_mises", "max_shear", "octahedral"]), Defaulted, "effective stress that drives fatigue"),
+        ],
+    },
+    Section {
+        path: "life",
+        need: Optional("no fatigue life"),
+        doc: "Relative fatigue life: ln(1/Ps) = C (n N)^e times the integral of sigma^(c e) over the volume.",
+        keys: &[
+            key("model", "", Choice(&["zaretsky"]), Defaulted, "life model"),
+            key("stress_exponent", "", Number(1.0, 40.0), Defaulted, "c: assumption, not from the paper"),
+            key("weibull_slope", "", Number(0.3, 10.0), Defaulted, "e: assumption, not from the paper"),
+            key("survival", "", Number(0.001, 0.999), Defaulted, "probability of survival Ps; drops out of relative lives"),
+            key("cycles", "", Choice(&["global"]), Defaulted, "how cycles enter: one n for the volume, an upper bound on damage"),
+            key("volume", "", Choice(&["snapshot"]), Defaulted, "which integral: mean over the phases of a passage"),
+        ],
+    },
+    Section {
+        path: "record",
+        need: Optional("no recording"),
+        doc: "The recording (.rrd).",
+        keys: &[
+            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "a frame every so many time steps; the plan takes more to keep the budget"),
+            key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "most that the recording may take"),
+        ],
+    },
+];
+
+/// The keys of an `[[event]]` beside its table `set`.
+#[rustfmt::skip]
+pub const EVENT_KEYS: &[Key] = &[
+    key("at_s", "s", Number(0.0, 1e9), Required, "simulated time after the start-up"),
+    key("caption", "", Text(1000), Defaulted, "text shown beside the run"),
+];
+
+/// The keys that an `[[event]]` may set and a live run may turn, in the order of `Knob::ALL`.
+pub const KNOB_KEYS: &[&str] = &[
+    "motion.slide_roll",
+    "load.force_n",
+    "body_1.surface.amplitude_m",
+    "body_2.surface.amplitude_m",
+    "motion.entrainment_m_s",
+];
+
+impl Key {
+    /// What the key takes, in words, with its unit.
+    pub fn allowed(&self) -> String {
+        let unit = if self.unit.is_empty() {
+            String::new()
+        } else {
+            format!(" {}", self.unit)
+        };
+        match self.kind {
+            Text(longest) => format!("a text of at most {longest} characters"),
+            Number(min, max) => format!("{} to {}{unit}", short(min), short(max)),
+            NumberOrInf(min, max) => format!("{} to {}{unit}, or inf", short(min), short(max)),
+            Integer(min, max) => format!("a whole number, {min} to {max}{unit}"),
+            IntegerOf(values) => {
+                let list: Vec<_> = values.iter().map(i64::to_string).collect();
+                format!("one of {}", list.join(", "))
+            }
+            Choice(words) => {
+                let list: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
+                if list.len() == 1 {
+                    format!("{} (more in later versions)", list[0])
+                } else {
+                    list.join(" or ")
+                }
+            }
+        }
+    }
+}
+
+impl Section {
+    /// A key's path in full.
+    pub fn path_of(&self, name: &str) -> String {
+        joined(self.path, name)
+    }
+
+    /// The key of that name.
+    pub fn key(&self, name: &str) -> Option<&'static Key> {
+        self.keys.iter().find(|key| key.name == name)
+    }
+}
+
+/// The table at that path.
+pub fn section(path: &str) -> Option<&'static Section> {
+    SECTIONS.iter().find(|section| section.path == path)
+}
+
+/// The key with that full path, such as `motion.slide_roll`.
+pub fn find(path: &str) -> Option<&'static Key> {
+    let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
+    section(table)?.key(name)
+}
+
+/// Every key in full, in printed order.
+pub fn all_paths() -> impl Iterator<Item = String> {
+    SECTIONS
+        .iter()
+        .flat_map(|section| section.keys.iter().map(|key| section.path_of(key.name)))
+}
+
+pub(crate) fn joined(table: &str, name: &str) -> String {
+    if table.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{table}.{name}")
+    }
+}
+
+/// A number in the fewest characters that read well: 0.3, 1e-6, 2.1e11.
+pub(crate) fn short(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || (1e-3..1e5).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_unique_and_documented() {
+        let mut paths: Vec<_> = all_paths().collect();
+        let n_all = paths.len();
+        paths.sort();
+        paths.dedup();
+        assert_eq!(paths.len(), n_all);
+        for section in SECTIONS {
+            for key in section.keys {
+                assert!(!key.doc.is_empty(), "{}", key.name);
+                assert!(find(&section.path_of(key.name)).is_some());
+            }
+        }
+    }
+
+    #[test]
+    fn units_agree_with_the_names() {
+        for section in SECTIONS {
+            for key in section.keys {
+                for (suffix, unit) in [
+                    ("_m_s", "m/s"),
+                    ("_pa_s", "Pa s"),
+                    ("_per_pa", "1/Pa"),
+                    ("_deg", "degrees"),
+                    ("_mb", "MB"),
+                ] {
+                    assert!(
+                        !key.name.ends_with(suffix) || key.unit == unit,
+                        "{} is in {unit}",
+                        key.name
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_allowed_reads_well() {
+        let allowed = |path| find(path).map(Key::allowed);
+        assert_eq!(
+            allowed("load.hertz_pressure_pa").as_deref(),
+            Some("1e6 to 1e10 Pa")
+        );
+        assert_eq!(
+            allowed("lubricant.rheology").as_deref(),
+            Some("\"newtonian\" or \"eyring\"")
+        );
+        assert_eq!(
+            allowed("body_2.surface.wavelength_x_m").as_deref(),
+            Some("1e-7 to 1 m, or inf")
+        );
+    }
+}

@@ -1,0 +1,219 @@
+//! From a preset, a file or a text to a scene that has passed every check.
+
+use std::fs::File;
+use std::io::Read as _;
+
+use toml::{Table, Value};
+
+use super::check;
+use super::error::{SceneError, nearest};
+use super::keys;
+use super::model::Scene;
+use super::presets;
+
+/// Longest scene file, bytes. Scenes are some kilobytes; anything longer is not one.
+const LONGEST_FILE: u64 = 1 << 20;
+
+/// One `--set KEY=VALUE`: a key of the scene and the TOML value it takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Override {
+    key: String,
+    value: Value,
+}
+
+impl std::str::FromStr for Override {
+    type Err = SceneError;
+
+    /// Reads `KEY=VALUE`. The value is TOML; a bare word is a text; `none` takes the key or table out.
+    fn from_str(text: &str) -> Result<Self, SceneError> {
+        let malformed = || SceneError::Override {
+            text: super::error::shortened(text),
+        };
+        let (key, value) = text.split_once('=').ok_or_else(malformed)?;
+        let (key, value) = (key.trim(), value.trim());
+        if key.is_empty() || value.is_empty() {
+            return Err(malformed());
+        }
+        if keys::find(key).is_none() && (keys::section(key).is_none() || value != "none") {
+            return Err(match keys::section(key) {
+                Some(_) => {
+                    SceneError::value(key, value, "none, or one of its keys, as TABLE.KEY=VALUE")
+                }
+                None => check::unknown(key),
+            });
+        }
+        // Only a text that is one TOML value and nothing else counts as TOML.
+        let parsed = format!("v = {value}").parse::<Table>().ok();
+        let value = parsed
+            .filter(|table| table.len() == 1)
+            .and_then(|mut table| table.remove("v"))
+            .unwrap_or_else(|| Value::String(value.to_owned()));
+        Ok(Self {
+            key: key.to_owned(),
+            value,
+        })
+    }
+}
+
+impl Override {
+    /// An override from a key and a number.
+    ///
+    /// # Errors
+    /// [`SceneError::UnknownKey`] when no scene has that key.
+    pub fn number(key: &str, value: f64) -> Result<Self, SceneError> {
+        if keys::find(key).is_none() {
+            return Err(check::unknown(key));
+        }
+        Ok(Self {
+            key: key.to_owned(),
+            value: Value::Float(value),
+        })
+    }
+
+    fn apply(&self, root: &mut Table) {
+        let (path, name) = self.key.rsplit_once('.').unwrap_or(("", &self.key));
+        if self.value.as_str() == Some("none") {
+            if let Some(table) = descend(root, path) {
+                table.remove(name);
+            }
+            return;
+        }
+        if self.key.ends_with("surface.kind") && self.value.as_str() == Some("smooth") {
+            // A body made smooth keeps nothing of its former waves.
+            if let Some(table) = descend(root, path) {
+                table.clear();
+            }
+        }
+        if path == "load" {
+            // The two ways of giving the load exclude each other: the last word counts.
+            if let Some(table) = descend(root, path) {
+                table.clear();
+            }
+        }
+        if let Some(table) = descend(root, path) {
+            table.insert(name.to_owned(), self.value.clone());
+        }
+    }
+}
+
+/// The table at a path, made where it is missing; `None` where something else stands in its place,
+/// which the check then reports.
+fn descend<'a>(root: &'a mut Table, path: &str) -> Option<&'a mut Table> {
+    if path.is_empty() {
+        return Some(root);
+    }
+    path.split('.').try_fold(root, |table, name| {
+        table
+            .entry(name)
+            .or_insert_with(|| Value::Table(Table::new()))
+            .as_table_mut()
+    })
+}
+
+impl Scene {
+    /// A preset by name, or a TOML file by path.
+    ///
+    /// # Errors
+    /// [`SceneError`] naming the key, the value and what is allowed, or why the file cannot be read.
+    pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
+        Self::load_with(name_or_path, &[])
+    }
+
+    /// Same, with keys set on top of what the file says, in order.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn load_with(name_or_path: &str, overrides: &[Override]) -> Result<Self, SceneError> {
+        if let Some(preset) = presets::find(name_or_path) {
+            return Self::from_toml_with(preset.toml, name_or_path, overrides);
+        }
+        let text = read(name_or_path)?;
+        Self::from_toml_with(&text, name_or_path, overrides)
+    }
+
+    /// A scene from TOML text.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn from_toml(text: &str) -> Result<Self, SceneError> {
+        Self::from_toml_with(text, "the scene", &[])
+    }
+
+    /// Same, with a name for messages and keys set on top.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn from_toml_with(
+        text: &str,
+        origin: &str,
+        overrides: &[Override],
+    ) -> Result<Self, SceneError> {
+        let mut table = text
+            .parse::<Table>()
+            .map_err(|error| syntax(origin, &error))?;
+        for setting in overrides {
+            setting.apply(&mut table);
+        }
+        check::check_table(&mut table)?;
+        // The check knows every key and kind, so this cannot fail unless the two disagree (a test
+        // walks all presets and keys); an error is still better than a panic.
+        let scene: Self = table.try_into().map_err(|error| syntax(origin, &error))?;
+        check::check_rules(&scene)?;
+        Ok(scene)
+    }
+
+    /// Checks a scene that was made or changed in code by the same rules as a file.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn validate(&self) -> Result<(), SceneError> {
+        let mut table = Table::try_from(self).map_err(|error| SceneError::Syntax {
+            origin: "the scene".to_owned(),
+            reason: error.to_string(),
+        })?;
+        check::check_table(&mut table)?;
+        check::check_rules(self)
+    }
+}
+
+fn syntax(origin: &str, error: &toml::de::Error) -> SceneError {
+    SceneError::Syntax {
+        origin: origin.to_owned(),
+        reason: error.to_string(),
+    }
+}
+
+/// Reads a scene file, but never more than a scene can be.
+fn read(path: &str) -> Result<String, SceneError> {
+    let has_extension = std::path::Path::new(path).extension().is_some();
+    let looks_like_a_path = has_extension || path.contains(['/', '\\']);
+    let failed = |error: std::io::Error| {
+        if error.kind() == std::io::ErrorKind::NotFound && !looks_like_a_path {
+            return SceneError::UnknownScene {
+                name: super::error::shortened(path),
+                nearest: nearest(path, presets::all().iter().map(|preset| preset.name))
+                    .map(str::to_owned),
+                presets: presets::names(),
+            };
+        }
+        SceneError::Read {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        }
+    };
+    let file = File::open(path).map_err(failed)?;
+    let mut bytes = Vec::new();
+    file.take(LONGEST_FILE + 1)
+        .read_to_end(&mut bytes)
+        .map_err(failed)?;
+    if bytes.len() as u64 > LONGEST_FILE {
+        return Err(SceneError::Read {
+            path: path.to_owned(),
+            reason: "longer than 1 MiB, which no scene is".to_owned(),
+        });
+    }
+    String::from_utf8(bytes).map_err(|_| SceneError::Read {
+        path: path.to_owned(),
+        reason: "not UTF-8 text".to_owned(),
+    })
+}

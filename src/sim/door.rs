@@ -1,0 +1,114 @@
+//! The one door between SI and the dimensionless solver.
+//!
+//! ```text
+//! X = x/a, Y = y/a, P = p/p_h, H = h Rx/a², T = t U/a      a, b, p_h: Hertz at the scene's load
+//! λ = 12 η0 U Rx²/(a³ p_h)   κ = 2 p_h Rx/(π E' a)   load = w/(p_h a²)   Z = η0 |U2−U1| Rx/(τ0 a²)
+//! ```
+//! The scaling is fixed for a whole run: when a knob changes the load or the speed, λ, Z and the load
+//! integral change, not a or p_h.
+
+use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::hertz::Hertz;
+use crate::scene::{DensityLaw, Rheology, Scene, ViscosityLaw};
+use crate::solve::reynolds::Medium;
+
+/// Scales and constants of one scene.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Door {
+    /// Half-width along x, m.
+    pub(super) a_m: f64,
+    /// Maximum Hertz pressure, Pa.
+    pub(super) p_hertz_pa: f64,
+    /// Film unit a²/Rx, m.
+    pub(super) film_m: f64,
+    /// κ.
+    pub(super) kappa: f64,
+    /// Rx/Ry.
+    pub(super) curvature_y: f64,
+    /// Ellipse half-widths over a.
+    pub(super) b_over_a: f64,
+    /// λ per m/s of entrainment; 0 in a dry scene.
+    lambda_s_m: f64,
+    /// Z per m/s of sliding.
+    sliding_s_m: f64,
+    viscosity: Viscosity,
+    density: Density,
+}
+
+impl Door {
+    /// The door of `scene`.
+    pub(super) fn new(scene: &Scene) -> Self {
+        let hertz: Hertz = scene.hertz();
+        let (a, p) = (hertz.a_m, hertz.p_max_pa);
+        let rx = scene.contact.rx_m;
+        let mut door = Self {
+            a_m: a,
+            p_hertz_pa: p,
+            film_m: a * a / rx,
+            kappa: 2.0 * p * rx / (std::f64::consts::PI * scene.e_prime_pa() * a),
+            curvature_y: rx / scene.contact.ry_m,
+            b_over_a: hertz.b_m / a,
+            lambda_s_m: 0.0,
+            sliding_s_m: 0.0,
+            viscosity: Viscosity::barus(0.0, p),
+            density: Density::Incompressible,
+        };
+        if let Some(oil) = &scene.lubricant {
+            let (eta, alpha) = (oil.viscosity_pa_s, oil.pressure_viscosity_per_pa);
+            door.lambda_s_m = 12.0 * eta * rx * rx / (a.powi(3) * p);
+            door.viscosity = match oil.viscosity_law {
+                ViscosityLaw::Barus => Viscosity::barus(alpha, p),
+                ViscosityLaw::Roelands => Viscosity::roelands(eta, alpha, p),
+            };
+            door.density = match oil.density_law {
+                DensityLaw::Incompressible => Density::Incompressible,
+                DensityLaw::DowsonHigginson => Density::DowsonHigginson {
+                    p_hertz_gpa: p * 1e-9,
+                },
+            };
+            if oil.rheology == Rheology::Eyring {
+                door.sliding_s_m = eta * rx / (oil.eyring_stress_pa * a * a);
+            }
+        }
+        door
+    }
+
+    /// The fluid at entrainment speed `u_m_s` and slide-to-roll ratio `s`; a dry scene has λ = ∞: no flow.
+    pub(super) fn medium(&self, u_m_s: f64, s: f64) -> Medium {
+        Medium {
+            viscosity: self.viscosity,
+            density: self.density,
+            lambda: if self.lambda_s_m > 0.0 {
+                self.lambda_s_m * u_m_s
+            } else {
+                f64::INFINITY
+            },
+            sliding: self.sliding_s_m * (s * u_m_s).abs(),
+        }
+    }
+
+    /// Load integral of a force.
+    pub(super) fn load(&self, force_n: f64) -> f64 {
+        force_n / (self.p_hertz_pa * self.a_m * self.a_m)
+    }
+
+    /// Pressure, Pa.
+    pub(super) fn pa_from_p(&self, p: f64) -> f64 {
+        p * self.p_hertz_pa
+    }
+
+    /// Film, m.
+    pub(super) fn m_from_h(&self, h: f64) -> f64 {
+        h * self.film_m
+    }
+
+    /// Dimensionless film.
+    pub(super) fn h_from_m(&self, h_m: f64) -> f64 {
+        h_m / self.film_m
+    }
+
+    /// Length along the surface, m.
+    pub(super) fn m_from_x(&self, x: f64) -> f64 {
+        x * self.a_m
+    }
+}

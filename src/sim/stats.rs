@@ -1,0 +1,20 @@
+//! Work counters: integers that are the same on any machine, so that a change of algorithm shows.
+
+use serde::{Deserialize, Serialize};
+
+/// How much work a run has done so far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Stats {
+    /// Time steps, the start-up's included.
+    pub steps: u64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+    /// Linear (Krylov) iterations.
+    pub linear_iterations: u64,
+    /// Real two-dimensional transforms, forward and back counted singly.
+    pub ffts: u64,
+    /// Steps that were tried again with safer settings.
+    pub retries: u64,
+    /// Volume integrals of the stress.
+    pub stress_volumes: u64,
+}

@@ -1,0 +1,76 @@
+//! The result of a run in one flat record: the keys that scripts read.
+
+use serde::{Deserialize, Serialize};
+
+use super::Stats;
+
+/// Summary of a run, SI. Means are over the last full passage period; what was not computed is `None`
+/// (`null` in JSON). `life_relative = cycle_factor * stress_factor`,
+/// `stress_factor = peak_factor * traction_factor`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Summary {
+    /// Preset or file.
+    pub scene: String,
+    /// Whether every step converged.
+    pub converged: bool,
+    /// Time steps after the start-up.
+    pub steps: u64,
+    /// Those that did not converge.
+    pub steps_not_converged: u64,
+    /// Time taken, s.
+    pub wall_s: f64,
+    /// Hertz half-width along x, m.
+    pub a_m: f64,
+    /// Maximum Hertz pressure, Pa.
+    pub p_hertz_pa: f64,
+    /// Film thickness at the origin, m.
+    pub h_central_m: f64,
+    /// Least film inside the Hertz ellipse, m.
+    pub h_min_m: f64,
+    /// Greatest pressure, Pa.
+    pub p_max_pa: f64,
+    /// Part of the Hertz ellipse in contact.
+    pub contact_ratio: f64,
+    /// Load asked for, N.
+    pub load_n: f64,
+    /// |carried - asked|/asked, the greatest of the mean's steps.
+    pub load_error: f64,
+    /// Mass residual, the greatest of the mean's steps.
+    pub mass_error: f64,
+    /// Friction force over load.
+    pub friction_coefficient: f64,
+    /// Contacts per loading cycle of body 1 by formula.
+    pub n_body_1: Option<f64>,
+    /// Same for body 2.
+    pub n_body_2: Option<f64>,
+    /// Cycles of body 1 counted by rainflow.
+    pub n_counted_body_1: Option<f64>,
+    /// Same for body 2.
+    pub n_counted_body_2: Option<f64>,
+    /// Volume integral of the smooth, frictionless reference.
+    pub i_ref: Option<f64>,
+    /// Same of this run.
+    pub i_mean: Option<f64>,
+    /// n_ref/n.
+    pub cycle_factor: Option<f64>,
+    /// (I_ref/I)^(1/e).
+    pub stress_factor: Option<f64>,
+    /// Part of the stress factor due to pressure peaks.
+    pub peak_factor: Option<f64>,
+    /// Part of the stress factor due to traction.
+    pub traction_factor: Option<f64>,
+    /// Relative life.
+    pub life_relative: Option<f64>,
+    /// Lower end of its band.
+    pub life_relative_low: Option<f64>,
+    /// Upper end of its band.
+    pub life_relative_high: Option<f64>,
+    /// Greatest effective stress, Pa.
+    pub sigma_eff_max_pa: Option<f64>,
+    /// Its depth, m.
+    pub sigma_eff_max_depth_m: Option<f64>,
+    /// Its x, m.
+    pub sigma_eff_max_x_m: Option<f64>,
+    /// Work counters.
+    pub counters: Stats,
+}

@@ -1,0 +1,378 @@
+//! One time step: semi-smooth Newton on pressure, film and load together.
+//!
+//! ```text
+//! unknowns  P ≥ 0 (nodes), H0
+//! active    where P − F/D > 0;  elsewhere v = −P, carried into the right-hand side
+//! solve     J v + b h0 = −F/D on the active nodes,  wᵀ(P + v) = load          (krylov.rs)
+//! update    P ← max(P + t v, 0), H0 ← H0 + t h0,  t halved until the natural residual falls
+//! natural residual  φ = min(P, F/D): zero exactly at the solution
+//! ```
+//! Converged when the last change of pressure Σ|dP|/ΣP, the mass error Σ|F|/Σρ̄H over the
+//! pressurised nodes and the load error are below their tolerances. Not converging is a verdict,
+//! never a panic; nothing is committed by this file.
+
+use super::film::Elastic;
+use super::jacobian::Jacobian;
+use super::krylov::Krylov;
+use super::precondition::Preconditioner;
+use super::reynolds::{Medium, Reynolds};
+use crate::math::grid::Grid;
+
+/// Largest change of pressure (in p_h) of one iteration at one node.
+const STEP_LIMIT: f64 = 2.0;
+/// Reduction asked of the linear solve: tighter costs more than the Newton iterations it saves.
+const FORCING: f64 = 0.1;
+/// Most halvings of the line search.
+const MAX_HALVINGS: u32 = 4;
+
+/// When to stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Σ|dP|/ΣP of the last iteration.
+    pub pressure: f64,
+    /// Mass error.
+    pub mass: f64,
+    /// Load error.
+    pub load: f64,
+    /// Most Newton iterations.
+    pub max_iterations: usize,
+}
+
+/// How the iteration ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// All tolerances hold.
+    Converged,
+    /// The iterations ran out.
+    Stalled,
+    /// A value was not finite.
+    NotFinite,
+}
+
+/// What one step took and reached.
+#[derive(Debug, Clone, Copy)]
+pub struct NewtonReport {
+    /// How it ended.
+    pub verdict: Verdict,
+    /// Newton iterations.
+    pub iterations: u32,
+    /// Krylov iterations.
+    pub linear_iterations: u32,
+    /// Residual evaluations (one deflection in double precision each).
+    pub evaluations: u32,
+    /// Last Σ|dP|/ΣP.
+    pub change: f64,
+    /// Σ|F| over Σ ρ̄H, pressurised nodes.
+    pub mass_error: f64,
+    /// |ΣP − load|/load.
+    pub load_error: f64,
+    /// Node of the largest |φ|.
+    pub worst_node: usize,
+}
+
+/// What a step is solved against.
+pub struct Problem<'a> {
+    /// Grid.
+    pub grid: &'a Grid,
+    /// Fluid.
+    pub medium: &'a Medium,
+    /// Undeformed gap without H0: macroscopic minus roughness.
+    pub gap: &'a [f64],
+    /// C*.
+    pub c_star: &'a [f64],
+    /// s.
+    pub s: &'a [f64],
+    /// ∬P.
+    pub load: f64,
+    /// Tolerances.
+    pub tolerance: Tolerance,
+}
+
+/// The iterate: pressure, film and approach.
+pub struct Iterate<'a> {
+    /// P.
+    pub p: &'a mut [f64],
+    /// H.
+    pub h: &'a mut [f64],
+    /// H0.
+    pub h0: &'a mut f64,
+}
+
+/// Workspace of the step.
+pub struct Newton {
+    /// Deflection.
+    pub elastic: Elastic,
+    /// Residual and properties of the last evaluation.
+    pub reynolds: Reynolds,
+    /// Preconditioner.
+    pub precondition: Preconditioner,
+    jacobian: Jacobian,
+    krylov: Krylov,
+    active: Vec<bool>,
+    deflection: Vec<f64>,
+    reference: Vec<f64>,
+    old_p: Vec<f64>,
+    v: Vec<f32>,
+    fixed: Vec<f32>,
+    fixed_deflection: Vec<f32>,
+    rhs: Vec<f32>,
+    scratch: Vec<f32>,
+}
+
+struct Evaluation {
+    merit: f64,
+    mass_error: f64,
+    load: f64,
+    worst: usize,
+    finite: bool,
+}
+
+impl Newton {
+    /// Makes all buffers; `s` is the usual effective step, for the preconditioner's symbols.
+    pub fn new(grid: &Grid, kappa: f64, s: f64) -> Self {
+        let n = grid.len();
+        let elastic = Elastic::new(grid, kappa);
+        let precondition = Preconditioner::new(grid, &elastic, kappa, s);
+        Self {
+            elastic,
+            reynolds: Reynolds::new(grid),
+            precondition,
+            jacobian: Jacobian::new(grid),
+            krylov: Krylov::new(grid),
+            active: vec![false; n],
+            deflection: vec![0.0; n],
+            reference: vec![1.0; n],
+            old_p: vec![0.0; n],
+            v: vec![0.0; n],
+            fixed: vec![0.0; n],
+            fixed_deflection: vec![0.0; n],
+            rhs: vec![0.0; n],
+            scratch: vec![0.0; n],
+        }
+    }
+
+    /// Solves one time step from the iterate given.
+    pub fn solve(&mut self, problem: &Problem, iterate: &mut Iterate) -> NewtonReport {
+        let mut report = NewtonReport {
+            verdict: Verdict::Stalled,
+            iterations: 0,
+            linear_iterations: 0,
+            evaluations: 0,
+            change: f64::INFINITY,
+            mass_error: f64::INFINITY,
+            load_error: f64::INFINITY,
+            worst_node: 0,
+        };
+        let mut now = self.evaluate(problem, iterate, &mut report);
+        loop {
+            report.mass_error = now.mass_error;
+            report.load_error = (now.load / problem.load - 1.0).abs();
+            report.worst_node = now.worst;
+            if !now.finite {
+                report.verdict = Verdict::NotFinite;
+                return report;
+            }
+            if Self::is_converged(&problem.tolerance, &report) {
+                report.verdict = Verdict::Converged;
+                return report;
+            }
+            if report.iterations as usize >= problem.tolerance.max_iterations {
+                return report;
+            }
+            report.iterations += 1;
+            let h0_step = self.linear_step(problem, iterate, now.load, &mut report);
+            now = self.line_search(problem, iterate, h0_step, &mut report);
+        }
+    }
+
+    fn is_converged(tolerance: &Tolerance, report: &NewtonReport) -> bool {
+        report.change <= tolerance.pressure
+            && report.mass_error <= tolerance.mass
+            && report.load_error <= tolerance.load
+    }
+
+    /// Film, properties, F and D of the iterate; the merit uses the frozen D in `reference`.
+    fn evaluate(
+        &mut self,
+        problem: &Problem,
+        iterate: &mut Iterate,
+        report: &mut NewtonReport,
+    ) -> Evaluation {
+        let grid = problem.grid;
+        report.evaluations += 1;
+        self.elastic.deflect(iterate.p, &mut self.deflection);
+        for ((h, &g), &u) in iterate.h.iter_mut().zip(problem.gap).zip(&self.deflection) {
+            *h = *iterate.h0 + g + u;
+        }
+        self.reynolds
+            .properties(grid, problem.medium, iterate.p, iterate.h);
+        self.reynolds.residual(
+            grid,
+            self.elastic.k00,
+            problem.medium.lambda,
+            iterate.p,
+            iterate.h,
+            problem.c_star,
+            problem.s,
+        );
+        self.judge(problem, iterate)
+    }
+
+    fn judge(&self, problem: &Problem, iterate: &Iterate) -> Evaluation {
+        let grid = problem.grid;
+        let (mut merit, mut lost, mut mass, mut load) = (0.0, 0.0, 0.0, 0.0);
+        let (mut worst, mut largest) = (0, 0.0);
+        for j in grid.interior_rows() {
+            let weight = grid.weight(j);
+            let (mut m, mut l, mut c, mut q) = (0.0, 0.0, 0.0, 0.0);
+            for n in j * grid.nx + 1..(j + 1) * grid.nx - 1 {
+                let (f, p) = (self.reynolds.residual[n], iterate.p[n]);
+                let phi = p.min(f / self.reference[n]);
+                m += phi * phi;
+                if phi.abs() > largest {
+                    (worst, largest) = (n, phi.abs());
+                }
+                if p > 0.0 {
+                    l += f.abs();
+                    c += (self.reynolds.rho(n) * iterate.h[n]).abs();
+                    q += p;
+                }
+            }
+            merit += m * weight;
+            lost += l * weight;
+            mass += c * weight;
+            load += q * weight;
+        }
+        Evaluation {
+            merit,
+            mass_error: lost / mass.max(f64::MIN_POSITIVE),
+            load,
+            worst,
+            finite: merit.is_finite() && load.is_finite(),
+        }
+    }
+
+    /// Linearises, solves, leaves the step in `v`; returns the change of H0.
+    fn linear_step(
+        &mut self,
+        problem: &Problem,
+        iterate: &Iterate,
+        load: f64,
+        report: &mut NewtonReport,
+    ) -> f64 {
+        let grid = problem.grid;
+        let (p, f, d) = (
+            &*iterate.p,
+            &self.reynolds.residual,
+            &self.reynolds.diagonal,
+        );
+        self.active.fill(false);
+        let mut any_fixed = false;
+        self.fixed.fill(0.0);
+        for j in grid.interior_rows() {
+            for n in j * grid.nx + 1..(j + 1) * grid.nx - 1 {
+                self.active[n] = p[n] - f[n] / d[n] > 0.0;
+                if !self.active[n] && p[n] > 0.0 {
+                    self.fixed[n] = -p[n] as f32;
+                    any_fixed = true;
+                }
+            }
+        }
+        self.reynolds.linearise(
+            grid,
+            problem.medium.lambda,
+            p,
+            iterate.h,
+            problem.s,
+            &self.active,
+            &mut self.jacobian,
+        );
+        for n in 0..grid.len() {
+            self.rhs[n] = if self.active[n] {
+                (-self.reynolds.residual[n] / self.reynolds.row_scale[n]) as f32
+            } else {
+                0.0
+            };
+        }
+        let mut missing = problem.load - load;
+        if any_fixed {
+            self.elastic
+                .deflect_single(&self.fixed, &mut self.fixed_deflection);
+            self.jacobian.apply(
+                grid,
+                &self.fixed,
+                &self.fixed_deflection,
+                0.0,
+                &mut self.scratch,
+            );
+            for (r, &c) in self.rhs.iter_mut().zip(&self.scratch) {
+                *r -= c;
+            }
+            missing -= grid.integrate(|n| f64::from(self.fixed[n]));
+        }
+        self.precondition.prepare(
+            grid,
+            &self.jacobian,
+            &self.reynolds.row_scale,
+            &self.reynolds.conductance,
+            &self.active,
+            self.elastic.k00,
+        );
+        self.krylov
+            .prepare(grid, &self.jacobian, &mut self.precondition);
+        let linear = self.krylov.solve(
+            grid,
+            &mut self.elastic,
+            &self.jacobian,
+            &mut self.precondition,
+            &self.rhs,
+            missing,
+            FORCING,
+            super::krylov::MAX_ITERATIONS,
+            &mut self.v,
+        );
+        report.linear_iterations += linear.iterations as u32;
+        for (v, &fixed) in self.v.iter_mut().zip(&self.fixed) {
+            *v += fixed;
+        }
+        linear.h0
+    }
+
+    /// Takes the step, halved until the natural residual falls; leaves the new evaluation.
+    fn line_search(
+        &mut self,
+        problem: &Problem,
+        iterate: &mut Iterate,
+        h0_step: f64,
+        report: &mut NewtonReport,
+    ) -> Evaluation {
+        self.old_p.copy_from_slice(iterate.p);
+        self.reference.copy_from_slice(&self.reynolds.diagonal);
+        let base = self.judge(problem, iterate).merit;
+        let old_h0 = *iterate.h0;
+        let mut t = 1.0;
+        for halving in 0..=MAX_HALVINGS {
+            let (mut moved, mut total) = (0.0, 0.0);
+            for (n, p) in iterate.p.iter_mut().enumerate() {
+                let old = self.old_p[n];
+                *p = if self.active[n] {
+                    let step = (t * f64::from(self.v[n])).clamp(-STEP_LIMIT, STEP_LIMIT);
+                    (old + step).max(0.0)
+                } else {
+                    // Exactly zero for a full step: single precision would leave a trace.
+                    old * (1.0 - t)
+                };
+                moved += (*p - old).abs();
+                total += *p;
+            }
+            *iterate.h0 = old_h0 + t * h0_step;
+            report.change = moved / total.max(f64::MIN_POSITIVE) / t;
+            let new = self.evaluate(problem, iterate, report);
+            if new.finite && new.merit <= base || halving == MAX_HALVINGS {
+                return new;
+            }
+            t *= 0.5;
+        }
+        unreachable!("the last halving returns")
+    }
+}

@@ -1,0 +1,411 @@
+//! Keys: one table from key to action, which is also the help screen.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+
+/// What a person asks for. The app turns it into a change of its own state and, where the run is
+/// concerned, into a command.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Action {
+    /// Leave.
+    Quit,
+    /// Hand the terminal back to the shell until `fg`.
+    Suspend,
+    /// Choose the knob after this one.
+    ChooseNext,
+    /// Choose the knob before this one.
+    ChoosePrevious,
+    /// Choose a knob by its place.
+    Choose(usize),
+    /// Turn the chosen knob by so many small steps.
+    Turn(i32),
+    /// Turn the chosen knob by so many big steps.
+    TurnFar(i32),
+    /// Put a knob at a part (0 to 1) of its slider.
+    Slide(usize, f64),
+    /// Put the chosen knob at its n-th typical value.
+    Typical(usize),
+    /// Put the chosen knob back where the scene has it.
+    Home,
+    /// Put all knobs back.
+    HomeAll,
+    /// Stop or go on stepping.
+    TogglePause,
+    /// One step (paused), or one frame forward (in the past).
+    StepForward,
+    /// One frame back.
+    StepBack,
+    /// Next map.
+    NextMap,
+    /// Previous map.
+    PreviousMap,
+    /// The contact, or the whole domain.
+    Zoom,
+    /// Read the map at a place given in parts of the picture (0 to 1 along and down).
+    Probe(f64, f64),
+    /// Keep this state to compare with.
+    Pin,
+    /// Forget the pinned state.
+    Unpin,
+    /// What the material point shows.
+    PointQuantity,
+    /// Start or stop recording.
+    Record,
+    /// Open the recording in the viewer.
+    View,
+    /// Write the scene as it now is.
+    Save,
+    /// Start, or end, the tour.
+    Tour,
+    /// Next lesson of the tour.
+    NextLesson,
+    /// Other units.
+    Units,
+    /// Other contrast.
+    Contrast,
+    /// The keys.
+    Help,
+    /// What is computed, what is left out, and why.
+    Plan,
+    /// Close what lies over the screen, forget the probe, return to the present.
+    Close,
+}
+
+/// A key with its modifiers. Upper-case letters stand for themselves: no shift beside them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Chord {
+    /// Key.
+    pub code: KeyCode,
+    /// Control and alt for characters; shift too for named keys.
+    pub modifiers: KeyModifiers,
+}
+
+/// Part of the help screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Group {
+    /// Turning knobs.
+    Knobs,
+    /// Time.
+    Time,
+    /// What is shown.
+    Show,
+    /// Outputs, and the program itself.
+    Program,
+}
+
+impl Group {
+    /// All groups, in the order of the help screen.
+    pub const ALL: [Self; 4] = [Self::Knobs, Self::Time, Self::Show, Self::Program];
+
+    /// Heading.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Knobs => "Knobs",
+            Self::Time => "Time",
+            Self::Show => "Show",
+            Self::Program => "Program",
+        }
+    }
+}
+
+/// One row of the key table: keys that belong together.
+#[derive(Debug, Clone, Copy)]
+pub struct Row {
+    /// Each key and what it asks for.
+    pub keys: &'static [(Chord, Action)],
+    /// The keys as the help screen writes them.
+    pub shown: &'static str,
+    /// What the help screen says.
+    pub help: &'static str,
+    /// Where in the help screen.
+    pub group: Group,
+}
+
+const fn key(code: KeyCode) -> Chord {
+    Chord {
+        code,
+        modifiers: KeyModifiers::NONE,
+    }
+}
+const fn ch(letter: char) -> Chord {
+    key(KeyCode::Char(letter))
+}
+const fn shift(code: KeyCode) -> Chord {
+    Chord {
+        code,
+        modifiers: KeyModifiers::SHIFT,
+    }
+}
+const fn ctrl(letter: char) -> Chord {
+    Chord {
+        code: KeyCode::Char(letter),
+        modifiers: KeyModifiers::CONTROL,
+    }
+}
+const fn row(
+    keys: &'static [(Chord, Action)],
+    shown: &'static str,
+    help: &'static str,
+    group: Group,
+) -> Row {
+    Row {
+        keys,
+        shown,
+        help,
+        group,
+    }
+}
+
+/// The key table: what the keyboard does, and what `?` shows.
+pub const KEYS: &[Row] = &[
+    row(
+        &[
+            (key(KeyCode::Up), Action::ChoosePrevious),
+            (ch('k'), Action::ChoosePrevious),
+            (key(KeyCode::Down), Action::ChooseNext),
+            (ch('j'), Action::ChooseNext),
+            (key(KeyCode::Tab), Action::ChooseNext),
+        ],
+        "↑↓ kj",
+        "choose a knob",
+        Group::Knobs,
+    ),
+    row(
+        &[
+            (key(KeyCode::Left), Action::Turn(-1)),
+            (ch('h'), Action::Turn(-1)),
+            (key(KeyCode::Right), Action::Turn(1)),
+            (ch('l'), Action::Turn(1)),
+        ],
+        "←→ hl",
+        "turn it",
+        Group::Knobs,
+    ),
+    row(
+        &[
+            (shift(KeyCode::Left), Action::TurnFar(-1)),
+            (ch('H'), Action::TurnFar(-1)),
+            (key(KeyCode::PageDown), Action::TurnFar(-1)),
+            (shift(KeyCode::Right), Action::TurnFar(1)),
+            (ch('L'), Action::TurnFar(1)),
+            (key(KeyCode::PageUp), Action::TurnFar(1)),
+        ],
+        "⇧←→ HL",
+        "by a big step",
+        Group::Knobs,
+    ),
+    row(
+        &[
+            (ch('1'), Action::Typical(0)),
+            (ch('2'), Action::Typical(1)),
+            (ch('3'), Action::Typical(2)),
+            (ch('4'), Action::Typical(3)),
+            (ch('5'), Action::Typical(4)),
+            (ch('6'), Action::Typical(5)),
+            (ch('7'), Action::Typical(6)),
+            (ch('8'), Action::Typical(7)),
+            (ch('9'), Action::Typical(8)),
+        ],
+        "1-9",
+        "to a typical value",
+        Group::Knobs,
+    ),
+    row(
+        &[
+            (ch('x'), Action::Home),
+            (key(KeyCode::Home), Action::Home),
+            (ch('X'), Action::HomeAll),
+        ],
+        "x X",
+        "the scene's value; all knobs",
+        Group::Knobs,
+    ),
+    row(
+        &[(ch(' '), Action::TogglePause)],
+        "space",
+        "pause, go on",
+        Group::Time,
+    ),
+    row(
+        &[(ch('.'), Action::StepForward), (ch(','), Action::StepBack)],
+        ". ,",
+        "one step; one frame back",
+        Group::Time,
+    ),
+    row(
+        &[(ch('t'), Action::Tour), (ch('n'), Action::NextLesson)],
+        "t n",
+        "tour on or off; next lesson",
+        Group::Time,
+    ),
+    row(
+        &[(ch('m'), Action::NextMap), (ch('M'), Action::PreviousMap)],
+        "m M",
+        "next map; map before",
+        Group::Show,
+    ),
+    row(
+        &[(ch('z'), Action::Zoom)],
+        "z",
+        "contact or whole domain",
+        Group::Show,
+    ),
+    row(
+        &[(ch('p'), Action::PointQuantity)],
+        "p",
+        "point: pressure or shear",
+        Group::Show,
+    ),
+    row(
+        &[(ch('b'), Action::Pin), (ch('B'), Action::Unpin)],
+        "b B",
+        "pin to compare; forget it",
+        Group::Show,
+    ),
+    row(&[(ch('u'), Action::Units)], "u", "other units", Group::Show),
+    row(
+        &[(ch('c'), Action::Contrast)],
+        "c",
+        "high contrast",
+        Group::Show,
+    ),
+    row(
+        &[(ch('i'), Action::Plan)],
+        "i",
+        "plan: what is left out, why",
+        Group::Show,
+    ),
+    row(
+        &[(ch('r'), Action::Record)],
+        "r",
+        "recording on or off",
+        Group::Program,
+    ),
+    row(
+        &[(ch('v'), Action::View)],
+        "v",
+        "open the recording",
+        Group::Program,
+    ),
+    row(
+        &[(ch('s'), Action::Save)],
+        "s",
+        "save the scene as it is now",
+        Group::Program,
+    ),
+    row(
+        &[(ch('?'), Action::Help), (key(KeyCode::F(1)), Action::Help)],
+        "?",
+        "these keys",
+        Group::Program,
+    ),
+    row(
+        &[(key(KeyCode::Esc), Action::Close)],
+        "Esc",
+        "close; back to the present",
+        Group::Program,
+    ),
+    row(
+        &[(ctrl('z'), Action::Suspend)],
+        "^Z",
+        "to the shell; fg returns",
+        Group::Program,
+    ),
+    row(
+        &[(ch('q'), Action::Quit), (ctrl('c'), Action::Quit)],
+        "q ^C",
+        "quit",
+        Group::Program,
+    ),
+];
+
+/// What the mouse does, for the help screen.
+pub const MOUSE: &[(&str, &str)] = &[
+    ("drag", "a slider"),
+    ("wheel", "turns the knob under it"),
+    ("click", "on the map: read it there"),
+];
+
+/// What a key event asks for.
+pub fn lookup(event: &KeyEvent) -> Option<Action> {
+    if event.kind == KeyEventKind::Release {
+        return None;
+    }
+    let chord = normal(event);
+    KEYS.iter()
+        .flat_map(|row| row.keys)
+        .find(|(own, _)| *own == chord)
+        .map(|(_, action)| *action)
+}
+
+/// Shift is part of a character already; terminals disagree on whether they name it too.
+fn normal(event: &KeyEvent) -> Chord {
+    let mut modifiers =
+        event.modifiers & (KeyModifiers::SHIFT | KeyModifiers::CONTROL | KeyModifiers::ALT);
+    let mut code = event.code;
+    if let KeyCode::Char(letter) = code {
+        modifiers -= KeyModifiers::SHIFT;
+        if modifiers.contains(KeyModifiers::CONTROL) {
+            code = KeyCode::Char(letter.to_ascii_lowercase());
+        }
+    }
+    Chord { code, modifiers }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn press(code: KeyCode, modifiers: KeyModifiers) -> Option<Action> {
+        lookup(&KeyEvent::new(code, modifiers))
+    }
+
+    #[test]
+    fn every_key_of_every_row_is_reached() {
+        for row in KEYS {
+            assert!(!row.help.is_empty() && !row.shown.is_empty());
+            for (chord, action) in row.keys {
+                assert_eq!(
+                    press(chord.code, chord.modifiers),
+                    Some(*action),
+                    "{}",
+                    row.shown
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn no_key_stands_twice() {
+        let chords: Vec<Chord> = KEYS
+            .iter()
+            .flat_map(|row| row.keys)
+            .map(|(chord, _)| *chord)
+            .collect();
+        for (i, chord) in chords.iter().enumerate() {
+            assert!(!chords[..i].contains(chord), "{chord:?} stands twice");
+        }
+    }
+
+    #[test]
+    fn terminals_that_name_shift_with_capitals_are_understood() {
+        let named = press(KeyCode::Char('H'), KeyModifiers::SHIFT);
+        assert_eq!(named, Some(Action::TurnFar(-1)));
+        let question = press(KeyCode::Char('?'), KeyModifiers::SHIFT);
+        assert_eq!(question, Some(Action::Help));
+        let control = press(KeyCode::Char('C'), KeyModifiers::CONTROL);
+        assert_eq!(control, Some(Action::Quit));
+    }
+
+    #[test]
+    fn digits_are_typical_values_and_releases_are_nothing() {
+        assert_eq!(
+            press(KeyCode::Char('3'), KeyModifiers::NONE),
+            Some(Action::Typical(2))
+        );
+        assert_eq!(press(KeyCode::Char('0'), KeyModifiers::NONE), None);
+        let mut release = KeyEvent::new(KeyCode::Char('q'), KeyModifiers::NONE);
+        release.kind = KeyEventKind::Release;
+        assert_eq!(lookup(&release), None);
+        assert_eq!(press(KeyCode::Char('q'), KeyModifiers::ALT), None);
+    }
+}

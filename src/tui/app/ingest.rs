@@ -1,0 +1,192 @@
+//! What a new frame changes: dials, ranges, traces, history, the anchor of the estimate, the tour.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::physics::estimate::{Anchor, OperatingPoint};
+use crate::sim::{Frame, Stage};
+use crate::tui::app::{App, Effect, LifeSample, Ranges};
+use crate::tui::dial::{Dial, knob_target, knob_value};
+use crate::tui::units::nice_ceiling;
+
+/// Memory that past frames may take, bytes.
+const PAST_BYTES: usize = 48 << 20;
+/// Past frames kept at most, whatever their size.
+const PAST_FRAMES: usize = 96;
+/// Points of the life's history.
+const HISTORY: usize = 1024;
+/// Settled lives kept for the curve of life against S.
+const SETTLED: usize = 48;
+/// Wall time over which the speed of the run is averaged.
+const RATE_WINDOW: Duration = Duration::from_secs(2);
+/// How long a knob that was set here is not overruled by what a frame says of its target.
+const GRACE: Duration = Duration::from_millis(1500);
+
+impl App {
+    /// Takes a newer frame.
+    pub fn take_frame(&mut self, frame: Arc<Frame>) -> Vec<Effect> {
+        if self
+            .past
+            .back()
+            .is_some_and(|last| last.stage != frame.stage)
+        {
+            // What the start-up reached is no measure of the passage.
+            self.ranges = Ranges::default();
+            self.rate.clear();
+        }
+        self.take_knobs(&frame);
+        grow(&mut self.ranges, &frame);
+        if let Some(point) = &frame.material_point {
+            self.trace.push(point, frame.a_m);
+        }
+        self.take_rate(&frame);
+        self.take_life(&frame);
+        let passages = frame.passages;
+        self.keep(frame);
+        self.refresh_estimate();
+        self.tour_on(passages)
+    }
+
+    fn take_knobs(&mut self, frame: &Frame) {
+        for (dial, set_at) in self.dials.iter_mut().zip(&self.set_at) {
+            dial.now = knob_value(&frame.metrics, dial.knob);
+            let ours = set_at.is_some_and(|at| self.now < at + GRACE);
+            match knob_target(&frame.metrics, dial.knob) {
+                // A scripted event moved it, or the run refused what was asked.
+                Some(target) if !ours => dial.target = target,
+                None if set_at.is_none() => dial.target = dial.now,
+                _ => {}
+            }
+        }
+    }
+
+    fn take_rate(&mut self, frame: &Frame) {
+        self.rate.push_back((self.now, frame.step));
+        while self.rate.len() > 2
+            && self
+                .rate
+                .get(1)
+                .is_some_and(|(at, _)| *at + RATE_WINDOW < self.now)
+        {
+            self.rate.pop_front();
+        }
+    }
+
+    fn take_life(&mut self, frame: &Frame) {
+        let metrics = &frame.metrics;
+        let Some(life) = metrics.life else { return };
+        if frame.stage == Stage::StartUp || !(life.life_relative > 0.0) {
+            return;
+        }
+        if self.history.len() == HISTORY {
+            self.history.pop_front();
+        }
+        self.history.push_back(LifeSample {
+            passages: frame.passages,
+            life_relative: life.life_relative,
+        });
+        if !life.settled || self.dials.iter().any(Dial::is_moving) {
+            return;
+        }
+        let at = OperatingPoint {
+            slide_roll: metrics.slide_roll,
+            load_n: metrics.load_n,
+            amplitude_1_m: metrics.amplitude_1_m,
+            amplitude_2_m: metrics.amplitude_2_m,
+        };
+        self.keep_settled(at, life.life_relative);
+        self.anchor = Some(Anchor {
+            at,
+            cycle_factor: life.cycle_factor,
+            peak_factor: life.peak_factor,
+            traction_factor: life.traction_factor,
+        });
+    }
+
+    /// The curve of life against S holds for one load, one roughness; another begins another.
+    fn keep_settled(&mut self, at: OperatingPoint, life_relative: f64) {
+        let close = |one: f64, other: f64| (one - other).abs() <= 1e-3 * one.abs().max(1e-12);
+        let same = self.anchor.is_none_or(|anchor| {
+            close(anchor.at.load_n, at.load_n)
+                && close(anchor.at.amplitude_1_m, at.amplitude_1_m)
+                && close(anchor.at.amplitude_2_m, at.amplitude_2_m)
+        });
+        if !same {
+            self.settled.clear();
+        }
+        self.settled
+            .retain(|(slide_roll, _)| (slide_roll - at.slide_roll).abs() > 0.01);
+        if self.settled.len() == SETTLED {
+            self.settled.remove(0);
+        }
+        self.settled.push((at.slide_roll, life_relative));
+    }
+
+    fn keep(&mut self, frame: Arc<Frame>) {
+        let fields = 5 * 4 + 1;
+        let bytes = (frame.nx * frame.ny * fields).max(1);
+        let most = (PAST_BYTES / bytes).clamp(2, PAST_FRAMES);
+        self.past.push_back(frame);
+        while self.past.len() > most {
+            self.past.pop_front();
+        }
+        // The past stays where it is while one looks at it.
+        if self.back > 0 {
+            self.back = (self.back + 1).min(self.past.len() - 1);
+        }
+    }
+
+    fn tour_on(&mut self, passages: f64) -> Vec<Effect> {
+        let Some(tour) = self.tour else {
+            return Vec::new();
+        };
+        match tour.after(passages) {
+            Some(next) => {
+                self.tour = Some(next);
+                self.play(next)
+            }
+            None => Vec::new(),
+        }
+    }
+}
+
+fn grow(ranges: &mut Ranges, frame: &Frame) {
+    let grow = |old: &mut f64, value: f64| {
+        if value.is_finite() && value > *old {
+            *old = nice_ceiling(value);
+        }
+    };
+    let greatest = |field: &[f32]| {
+        f64::from(
+            field
+                .iter()
+                .fold(0.0_f32, |most, value| most.max(value.abs())),
+        )
+    };
+    grow(&mut ranges.pressure_pa, frame.p_hertz_pa);
+    grow(&mut ranges.pressure_pa, greatest(&frame.pressure_pa));
+    grow(&mut ranges.film_m, film_inside(frame));
+    let heights = greatest(&frame.roughness_1_m) + greatest(&frame.roughness_2_m);
+    grow(&mut ranges.height_m, heights);
+    if let Some(slice) = &frame.slice {
+        grow(&mut ranges.stress_pa, greatest(&slice.effective_pa));
+    }
+    if let Some(point) = &frame.material_point {
+        grow(&mut ranges.shear_pa, point.tau_xz_pa.abs());
+    }
+}
+
+/// The greatest film on the centre line inside the contact: outside it the gap grows without end.
+fn film_inside(frame: &Frame) -> f64 {
+    let row = frame.ny / 2 * frame.nx;
+    let Some(line) = frame.film_m.get(row..row + frame.nx) else {
+        return 0.0;
+    };
+    let inside = |i: usize| (frame.x_min_m + i as f64 * frame.dx_m).abs() <= 0.9 * frame.a_m;
+    let most = line
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| inside(*i))
+        .fold(0.0_f32, |most, (_, h)| most.max(*h));
+    1.1 * f64::from(most)
+}

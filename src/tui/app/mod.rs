@@ -1,0 +1,453 @@
+//! The screen's state, and the reducer: (state, action) → state and effects. Nothing here draws,
+//! waits or reads a clock, so every screen can be made in a test.
+
+mod ingest;
+mod reduce;
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, OperatingPoint, load_factor};
+use crate::run::Command;
+use crate::scene::Scene;
+use crate::sim::{Frame, Knob, LifeEstimate};
+use crate::tui::dial::{Dial, dials};
+use crate::tui::estimate::basis;
+use crate::tui::lessons::TourState;
+use crate::tui::theme::Theme;
+use crate::tui::trace::Trace;
+use crate::tui::units::Units;
+use crate::tui::wiring::{Health, LeftOut, RunStatus};
+
+/// What a key does outside of the screen and the run, where the program offers it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ErrandKind {
+    /// Switches recording on and off.
+    Record,
+    /// Opens the viewer.
+    View,
+    /// Saves the scene.
+    Save,
+}
+
+/// What the app asks of the loop around it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Effect {
+    /// A command for the run.
+    Send(Command),
+    /// An errand.
+    Errand(ErrandKind),
+    /// To the shell.
+    Suspend,
+    /// The end.
+    Quit,
+}
+
+/// What is drawn over the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MapKind {
+    /// Pressure.
+    #[default]
+    Pressure,
+    /// Film thickness.
+    Film,
+    /// Contact spots over the pressure.
+    Contact,
+    /// Sum of both roughnesses.
+    Roughness,
+    /// Effective stress in the plane y = 0.
+    Stress,
+}
+
+impl MapKind {
+    /// All maps in the order of the key.
+    pub const ALL: [Self; 5] = [
+        Self::Pressure,
+        Self::Film,
+        Self::Contact,
+        Self::Roughness,
+        Self::Stress,
+    ];
+
+    /// Name on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pressure => "pressure",
+            Self::Film => "film",
+            Self::Contact => "contact spots",
+            Self::Roughness => "roughness",
+            Self::Stress => "stress below",
+        }
+    }
+
+    fn shifted(self, by: usize) -> Self {
+        let place = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
+        Self::ALL[(place + by) % Self::ALL.len()]
+    }
+}
+
+/// How much of the plane the map and the centre-line figure show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Zoom {
+    /// The Hertz ellipse and a little around it.
+    #[default]
+    Contact,
+    /// The whole domain.
+    Domain,
+}
+
+/// What the trace of the material point shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PointQuantity {
+    /// Pressure above it.
+    #[default]
+    Pressure,
+    /// Orthogonal shear at its depth.
+    Shear,
+}
+
+/// What lies over the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Overlay {
+    /// Nothing.
+    #[default]
+    None,
+    /// The keys.
+    Help,
+    /// The plan.
+    Plan,
+}
+
+/// Whether the run steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Pace {
+    /// It does.
+    #[default]
+    Running,
+    /// It waits.
+    Paused,
+}
+
+/// Which number leads on the life panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Leading {
+    /// The simulation's: it has settled where the knobs are.
+    Simulated,
+    /// The formula's: the simulation is on its way.
+    Formula,
+}
+
+/// A state to compare with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pinned {
+    /// Relative life (same-load reference).
+    pub life_relative: f64,
+    /// Life on the scale of the scene's load: what is compared.
+    pub life_comparable: f64,
+    /// Which number was pinned.
+    pub leading: Leading,
+    /// S.
+    pub slide_roll: f64,
+    /// Hertz pressure, Pa.
+    pub p_hertz_pa: f64,
+}
+
+/// The upper ends of the colour bars and axes; they only grow, so that frames can be compared.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ranges {
+    /// Pressure, Pa.
+    pub pressure_pa: f64,
+    /// Film, m.
+    pub film_m: f64,
+    /// Height of roughness to either side, m.
+    pub height_m: f64,
+    /// Effective stress, Pa.
+    pub stress_pa: f64,
+    /// Shear of the material point to either side, Pa.
+    pub shear_pa: f64,
+}
+
+/// One point of the life's history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LifeSample {
+    /// Passages travelled.
+    pub passages: f64,
+    /// Relative life.
+    pub life_relative: f64,
+}
+
+/// What an app is made of; plain data, so that a test can make it.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// The scene that runs.
+    pub scene: Arc<Scene>,
+    /// Load, N.
+    pub load_n: f64,
+    /// Hertz half-width along x at that load, m.
+    pub half_width_m: f64,
+    /// Hertz pressure at that load, Pa.
+    pub p_hertz_pa: f64,
+    /// The plan as text.
+    pub plan_text: String,
+    /// What it leaves out.
+    pub left_out: Vec<LeftOut>,
+    /// Errands that are offered.
+    pub errands: Vec<ErrandKind>,
+    /// Looks.
+    pub theme: Theme,
+}
+
+/// The screen's state.
+#[derive(Debug, Clone)]
+pub struct App {
+    pub(crate) setup: Setup,
+    pub(crate) theme: Theme,
+    pub(crate) units: Units,
+    pub(crate) dials: Vec<Dial>,
+    pub(crate) chosen: usize,
+    pub(crate) map: MapKind,
+    pub(crate) zoom: Zoom,
+    pub(crate) quantity: PointQuantity,
+    pub(crate) overlay: Overlay,
+    /// Rows that the plan has been moved up.
+    pub(crate) scroll: u16,
+    pub(crate) pace: Pace,
+    pub(crate) probe: Option<(f64, f64)>,
+    pub(crate) pinned: Option<Pinned>,
+    pub(crate) status: RunStatus,
+    pub(crate) ranges: Ranges,
+    pub(crate) trace: Trace,
+    pub(crate) history: VecDeque<LifeSample>,
+    /// Settled lives at other S, load and roughness as now.
+    pub(crate) settled: Vec<(f64, f64)>,
+    pub(crate) tour: Option<TourState>,
+    pub(crate) estimate: Estimate,
+    /// Whether the estimate has a simulated state to scale from.
+    pub(crate) anchor: Option<Anchor>,
+    basis: EstimateBasis,
+    past: VecDeque<Arc<Frame>>,
+    /// How many frames back from the newest the screen shows.
+    back: usize,
+    message: Option<(String, Duration)>,
+    now: Duration,
+    rate: VecDeque<(Duration, u64)>,
+    /// When each knob was last set from here.
+    set_at: Vec<Option<Duration>>,
+    /// A fault panel that was read and closed.
+    fault_read: bool,
+}
+
+impl App {
+    /// A screen before the first frame.
+    pub fn new(setup: Setup) -> Self {
+        let dials = dials(&setup.scene, setup.load_n, setup.p_hertz_pa);
+        let basis = basis(&setup);
+        let start = point_of(&dials);
+        let estimate = basis.estimate(&blank_anchor(&basis, start), &start);
+        Self {
+            theme: setup.theme,
+            units: Units::default(),
+            chosen: 0,
+            map: MapKind::default(),
+            zoom: Zoom::default(),
+            quantity: PointQuantity::default(),
+            overlay: Overlay::default(),
+            scroll: 0,
+            pace: Pace::default(),
+            probe: None,
+            pinned: None,
+            status: RunStatus::default(),
+            ranges: Ranges::default(),
+            trace: Trace::default(),
+            history: VecDeque::new(),
+            settled: Vec::new(),
+            tour: None,
+            estimate,
+            anchor: None,
+            basis,
+            past: VecDeque::new(),
+            back: 0,
+            message: None,
+            now: Duration::ZERO,
+            rate: VecDeque::new(),
+            set_at: vec![None; dials.len()],
+            fault_read: false,
+            dials,
+            setup,
+        }
+    }
+
+    /// Says how late it is, counted from the start.
+    pub fn tick(&mut self, now: Duration) {
+        self.now = now;
+        if let Some((_, until)) = &self.message
+            && *until < now
+        {
+            self.message = None;
+        }
+    }
+
+    /// Takes what the run says of itself.
+    pub fn take_status(&mut self, status: RunStatus) {
+        self.status = status;
+    }
+
+    /// Shows a line for some seconds.
+    pub fn say(&mut self, text: impl Into<String>) {
+        self.message = Some((text.into(), self.now + Duration::from_secs(5)));
+    }
+
+    /// The frame on the screen: the newest, or one of the past.
+    pub fn frame(&self) -> Option<&Arc<Frame>> {
+        let place = self.past.len().checked_sub(1 + self.back)?;
+        self.past.get(place)
+    }
+
+    /// How many frames back the screen is, and how many there are.
+    pub fn rewound(&self) -> (usize, usize) {
+        (self.back, self.past.len().saturating_sub(1))
+    }
+
+    /// Time steps per second of wall time, over the last two seconds.
+    pub fn steps_per_s(&self) -> Option<f64> {
+        let (first, last) = (self.rate.front()?, self.rate.back()?);
+        let seconds = last.0.checked_sub(first.0)?.as_secs_f64();
+        (seconds > 0.0).then(|| last.1.saturating_sub(first.1) as f64 / seconds)
+    }
+
+    /// The line that is being said.
+    pub fn message(&self) -> Option<&str> {
+        self.message.as_ref().map(|(text, _)| text.as_str())
+    }
+
+    /// The fault to show over the screen, unless it was closed.
+    pub fn fault(&self) -> Option<&str> {
+        match &self.status.health {
+            Health::Failed(reason) if !self.fault_read => Some(reason),
+            _ => None,
+        }
+    }
+
+    /// The life that the frame carries.
+    pub fn life(&self) -> Option<LifeEstimate> {
+        self.frame().and_then(|frame| frame.metrics.life)
+    }
+
+    /// Whether the simulated life holds for where the knobs are.
+    pub fn leading(&self) -> Leading {
+        let settled = self.life().is_some_and(|life| life.settled);
+        if settled && !self.dials.iter().any(Dial::is_moving) {
+            Leading::Simulated
+        } else {
+            Leading::Formula
+        }
+    }
+
+    /// The relative life that leads.
+    pub fn leading_life(&self) -> Option<f64> {
+        match self.leading() {
+            Leading::Simulated => self.life().map(|life| life.life_relative),
+            Leading::Formula => self.estimate.life_relative,
+        }
+    }
+
+    /// Relative life at a load, on the scale of the scene's own load.
+    pub fn comparable(&self, life_relative: f64, p_hertz_pa: f64) -> f64 {
+        let ratio = p_hertz_pa / self.setup.p_hertz_pa;
+        life_relative * load_factor(ratio, self.basis.stress_exponent, self.basis.weibull_slope)
+    }
+
+    /// Life now over life pinned.
+    pub fn against_pinned(&self) -> Option<f64> {
+        let pinned = self.pinned?;
+        let now = self.comparable(self.leading_life()?, self.estimate.p_hertz_pa);
+        Some(now / pinned.life_comparable)
+    }
+
+    /// Life at another S by formula, all else as the knobs are.
+    pub fn formula_at(&self, slide_roll: f64) -> Option<f64> {
+        let point = OperatingPoint {
+            slide_roll,
+            ..point_of(&self.dials)
+        };
+        self.basis.estimate(&self.anchored(), &point).life_relative
+    }
+
+    /// Whether the program offers an errand.
+    pub fn offers(&self, errand: ErrandKind) -> bool {
+        self.setup.errands.contains(&errand)
+    }
+
+    /// The scene with the knobs where they are going, as TOML.
+    ///
+    /// # Errors
+    /// When the scene cannot be written as TOML.
+    pub fn scene_toml(&self) -> Result<String, String> {
+        let mut scene = (*self.setup.scene).clone();
+        for dial in &self.dials {
+            put(&mut scene, dial);
+        }
+        toml::to_string(&scene).map_err(|error| error.to_string())
+    }
+
+    fn refresh_estimate(&mut self) {
+        self.estimate = self
+            .basis
+            .estimate(&self.anchored(), &point_of(&self.dials));
+    }
+
+    fn anchored(&self) -> Anchor {
+        self.anchor
+            .unwrap_or_else(|| blank_anchor(&self.basis, point_of(&self.dials)))
+    }
+}
+
+fn put(scene: &mut Scene, dial: &Dial) {
+    use crate::scene::Surface;
+    let amplitude = |surface: &mut Surface| {
+        if let Surface::Sinusoid { amplitude_m, .. } = surface {
+            *amplitude_m = dial.target;
+        }
+    };
+    match dial.knob {
+        Knob::SlideRoll => scene.motion.slide_roll = dial.target,
+        Knob::ForceN => {
+            scene.load.force_n = Some(dial.target);
+            scene.load.hertz_pressure_pa = None;
+        }
+        Knob::Amplitude1M => amplitude(&mut scene.body_1.surface),
+        Knob::Amplitude2M => amplitude(&mut scene.body_2.surface),
+        Knob::EntrainmentMS => scene.motion.entrainment_m_s = dial.target,
+    }
+}
+
+/// The operating point that the knobs are going to.
+fn point_of(dials: &[Dial]) -> OperatingPoint {
+    let target = |knob: Knob| {
+        dials
+            .iter()
+            .find(|dial| dial.knob == knob)
+            .map_or(0.0, |dial| dial.target)
+    };
+    OperatingPoint {
+        slide_roll: target(Knob::SlideRoll),
+        load_n: target(Knob::ForceN),
+        amplitude_1_m: target(Knob::Amplitude1M),
+        amplitude_2_m: target(Knob::Amplitude2M),
+    }
+}
+
+/// Before anything was simulated only the cycles are known: peaks and traction count as 1.
+fn blank_anchor(basis: &EstimateBasis, at: OperatingPoint) -> Anchor {
+    let (n_1, n_2) = basis.contacts(&at);
+    let worst = n_1
+        .zip(n_2)
+        .map_or(1.0, |(first, second)| first.max(second));
+    Anchor {
+        at,
+        cycle_factor: 1.0 / worst,
+        peak_factor: 1.0,
+        traction_factor: 1.0,
+    }
+}

@@ -1,0 +1,261 @@
+//! What an action does.
+
+use crate::run::Command;
+use crate::tui::action::Action;
+use crate::tui::app::{App, Effect, ErrandKind, Overlay, Pace, Pinned, PointQuantity, Zoom};
+use crate::tui::dial::Life;
+use crate::tui::lessons::TourState;
+
+impl App {
+    /// Does what an action asks, and says what the loop has to do about it.
+    pub fn apply(&mut self, action: Action) -> Vec<Effect> {
+        match action {
+            Action::Quit => vec![Effect::Quit],
+            Action::Suspend => vec![Effect::Suspend],
+            Action::ChooseNext | Action::ChoosePrevious if self.overlay == Overlay::Plan => {
+                self.scroll_plan(action);
+                Vec::new()
+            }
+            Action::ChooseNext => self.choose(self.chosen + 1),
+            Action::ChoosePrevious => self.choose(self.chosen + self.dials.len() - 1),
+            Action::Choose(place) => self.choose(place),
+            Action::Turn(steps) => self.turn(steps),
+            Action::TurnFar(steps) => self.turn(steps * self.dials[self.chosen].far),
+            Action::Slide(place, fraction) => self.slide(place, fraction),
+            Action::Typical(n) => self.typical(n),
+            Action::Home => self.set(self.chosen, self.dials[self.chosen].home),
+            Action::HomeAll => (0..self.dials.len())
+                .flat_map(|place| self.set(place, self.dials[place].home))
+                .collect(),
+            Action::TogglePause => self.toggle_pause(),
+            Action::StepForward => self.step_forward(),
+            Action::StepBack => self.step_back(),
+            Action::Record => self.errand(ErrandKind::Record),
+            Action::View => self.errand(ErrandKind::View),
+            Action::Save => self.errand(ErrandKind::Save),
+            Action::Tour => self.toggle_tour(),
+            Action::NextLesson => self.next_lesson(),
+            shown => {
+                self.show(shown);
+                Vec::new()
+            }
+        }
+    }
+
+    /// Actions that change only what is shown.
+    fn show(&mut self, action: Action) {
+        match action {
+            Action::NextMap => self.map = self.map.shifted(1),
+            Action::PreviousMap => self.map = self.map.shifted(super::MapKind::ALL.len() - 1),
+            Action::Zoom => {
+                self.zoom = match self.zoom {
+                    Zoom::Contact => Zoom::Domain,
+                    Zoom::Domain => Zoom::Contact,
+                }
+            }
+            Action::Probe(x, y) => self.probe = Some((x, y)),
+            Action::Pin => self.pin(),
+            Action::Unpin => self.pinned = None,
+            Action::PointQuantity => {
+                self.quantity = match self.quantity {
+                    PointQuantity::Pressure => PointQuantity::Shear,
+                    PointQuantity::Shear => PointQuantity::Pressure,
+                }
+            }
+            Action::Units => self.units = self.units.next(),
+            Action::Contrast => self.theme.toggle_contrast(),
+            Action::Help => self.toggle(Overlay::Help),
+            Action::Plan => self.toggle(Overlay::Plan),
+            Action::Close => self.close(),
+            _ => {}
+        }
+    }
+
+    fn scroll_plan(&mut self, action: Action) {
+        let last = self.setup.plan_text.lines().count() + self.setup.left_out.len();
+        self.scroll = if action == Action::ChooseNext {
+            (self.scroll + 1).min(last as u16)
+        } else {
+            self.scroll.saturating_sub(1)
+        };
+    }
+
+    fn choose(&mut self, place: usize) -> Vec<Effect> {
+        self.chosen = place % self.dials.len();
+        Vec::new()
+    }
+
+    fn turn(&mut self, steps: i32) -> Vec<Effect> {
+        let value = self.dials[self.chosen].turned(steps);
+        self.set(self.chosen, value)
+    }
+
+    fn slide(&mut self, place: usize, fraction: f64) -> Vec<Effect> {
+        if place >= self.dials.len() {
+            return Vec::new();
+        }
+        self.chosen = place;
+        let value = self.dials[place].at_fraction(fraction);
+        self.set(place, value)
+    }
+
+    fn typical(&mut self, n: usize) -> Vec<Effect> {
+        match self.dials[self.chosen].typical.get(n).copied() {
+            Some(value) => self.set(self.chosen, value),
+            None => Vec::new(),
+        }
+    }
+
+    /// Moves a knob's target; the estimate follows at once, the run when it gets there.
+    pub(super) fn set(&mut self, place: usize, value: f64) -> Vec<Effect> {
+        let dial = &mut self.dials[place];
+        if let Life::Dead(reason) = dial.life {
+            let line = format!(
+                "{}: the surface is {reason}, there is nothing to turn",
+                dial.label
+            );
+            self.say(line);
+            return Vec::new();
+        }
+        if dial.target == value {
+            return Vec::new();
+        }
+        dial.target = value;
+        let command = Command::Set(dial.knob, value);
+        self.set_at[place] = Some(self.now);
+        self.back = 0;
+        self.refresh_estimate();
+        vec![Effect::Send(command)]
+    }
+
+    fn toggle_pause(&mut self) -> Vec<Effect> {
+        self.pace = match self.pace {
+            Pace::Running => Pace::Paused,
+            Pace::Paused => Pace::Running,
+        };
+        self.back = 0;
+        vec![Effect::Send(Command::Pause)]
+    }
+
+    fn step_forward(&mut self) -> Vec<Effect> {
+        if self.back > 0 {
+            self.back -= 1;
+            return Vec::new();
+        }
+        let mut effects = self.paused_first();
+        effects.push(Effect::Send(Command::StepOnce));
+        effects
+    }
+
+    fn step_back(&mut self) -> Vec<Effect> {
+        let effects = self.paused_first();
+        self.back = (self.back + 1).min(self.past.len().saturating_sub(1));
+        effects
+    }
+
+    fn paused_first(&mut self) -> Vec<Effect> {
+        match self.pace {
+            Pace::Paused => Vec::new(),
+            Pace::Running => {
+                self.pace = Pace::Paused;
+                vec![Effect::Send(Command::Pause)]
+            }
+        }
+    }
+
+    fn errand(&mut self, errand: ErrandKind) -> Vec<Effect> {
+        if self.offers(errand) {
+            return vec![Effect::Errand(errand)];
+        }
+        self.say(match errand {
+            ErrandKind::Record => "this run has no recorder to switch",
+            ErrandKind::View => {
+                "no viewer is at hand; `asperity view FILE.rrd` says how to get one"
+            }
+            ErrandKind::Save => "this scene cannot be saved from here",
+        });
+        Vec::new()
+    }
+
+    fn pin(&mut self) {
+        let Some(life_relative) = self.leading_life() else {
+            self.say("nothing to pin yet: there is no life estimate");
+            return;
+        };
+        let p_hertz_pa = self.estimate.p_hertz_pa;
+        self.pinned = Some(Pinned {
+            life_relative,
+            life_comparable: self.comparable(life_relative, p_hertz_pa),
+            leading: self.leading(),
+            slide_roll: self.dials[0].target,
+            p_hertz_pa,
+        });
+    }
+
+    fn toggle(&mut self, overlay: Overlay) {
+        self.scroll = 0;
+        self.overlay = if self.overlay == overlay {
+            Overlay::None
+        } else {
+            overlay
+        };
+    }
+
+    fn close(&mut self) {
+        if self.fault().is_some() {
+            self.fault_read = true;
+        } else if self.overlay == Overlay::None {
+            self.probe = None;
+            self.back = 0;
+        } else {
+            self.overlay = Overlay::None;
+        }
+    }
+
+    fn toggle_tour(&mut self) -> Vec<Effect> {
+        if self.tour.take().is_some() {
+            return self.apply(Action::HomeAll);
+        }
+        self.overlay = Overlay::None;
+        self.begin_lesson(0)
+    }
+
+    fn next_lesson(&mut self) -> Vec<Effect> {
+        match self.tour {
+            Some(tour) => self.begin_lesson(tour.lesson + 1),
+            None => Vec::new(),
+        }
+    }
+
+    fn begin_lesson(&mut self, lesson: usize) -> Vec<Effect> {
+        let passages = self.frame().map_or(0.0, |frame| frame.passages);
+        self.tour = TourState::begin(lesson, passages);
+        match self.tour {
+            Some(tour) => {
+                let mut effects = self.apply(Action::HomeAll);
+                effects.extend(self.play(tour));
+                effects
+            }
+            None => {
+                self.say("that was the last lesson");
+                self.apply(Action::HomeAll)
+            }
+        }
+    }
+
+    /// Sets what a beat of a lesson sets.
+    pub(super) fn play(&mut self, tour: TourState) -> Vec<Effect> {
+        let beat = tour.beat();
+        if let Some(map) = beat.map {
+            self.map = map;
+        }
+        let mut effects = Vec::new();
+        for (knob, setting) in beat.sets {
+            if let Some(place) = self.dials.iter().position(|dial| dial.knob == *knob) {
+                let value = setting.value(&self.dials[place]);
+                effects.extend(self.set(place, value));
+            }
+        }
+        effects
+    }
+}

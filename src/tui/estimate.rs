@@ -1,0 +1,71 @@
+//! From the scene to what the closed-form estimate needs.
+
+use crate::physics::estimate::EstimateBasis;
+use crate::scene::{Life, Surface};
+use crate::tui::app::Setup;
+
+/// The fixed part of the estimate for a scene.
+pub fn basis(setup: &Setup) -> EstimateBasis {
+    let life = setup.scene.life.clone().unwrap_or_else(Life::default);
+    EstimateBasis {
+        crests_1_per_m: crests_per_m(&setup.scene.body_1.surface),
+        crests_2_per_m: crests_per_m(&setup.scene.body_2.surface),
+        load_n: setup.load_n,
+        half_width_m: setup.half_width_m,
+        p_hertz_pa: setup.p_hertz_pa,
+        stress_exponent: life.stress_exponent,
+        weibull_slope: life.weibull_slope,
+    }
+}
+
+/// Crests that a streamline along x meets per metre: `|cos θ|/Wx`, or those of the other wave
+/// turned into x where that is denser.
+fn crests_per_m(surface: &Surface) -> f64 {
+    match surface {
+        Surface::Smooth {} => 0.0,
+        Surface::Sinusoid {
+            wavelength_x_m,
+            wavelength_y_m,
+            angle_deg,
+            ..
+        } => {
+            let (sine, cosine) = angle_deg.to_radians().sin_cos();
+            // A wave turned by a right angle has no crests along x, not 1e-17 of them.
+            let along = |part: f64, wavelength: f64| {
+                if part.abs() < 1e-12 {
+                    0.0
+                } else {
+                    part.abs() / wavelength
+                }
+            };
+            along(cosine, *wavelength_x_m).max(along(sine, *wavelength_y_m))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn wave(wavelength_x_m: f64, wavelength_y_m: f64, angle_deg: f64) -> Surface {
+        Surface::Sinusoid {
+            amplitude_m: 1e-7,
+            wavelength_x_m,
+            wavelength_y_m,
+            angle_deg,
+            phase_deg: 0.0,
+        }
+    }
+
+    #[test]
+    fn crests_by_lay() {
+        let inf = f64::INFINITY;
+        assert_eq!(crests_per_m(&Surface::Smooth {}), 0.0);
+        assert_relative_eq!(crests_per_m(&wave(1e-4, inf, 0.0)), 1e4);
+        assert_eq!(crests_per_m(&wave(inf, 1e-4, 0.0)), 0.0);
+        assert_eq!(crests_per_m(&wave(1e-4, inf, 90.0)), 0.0);
+        assert_relative_eq!(crests_per_m(&wave(inf, 1e-4, 90.0)), 1e4);
+        assert_relative_eq!(crests_per_m(&wave(1e-4, inf, 60.0)), 5e3, epsilon = 1e-8);
+    }
+}

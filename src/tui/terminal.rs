@@ -1,0 +1,182 @@
+//! The terminal itself: entered, left, and left again whatever happens.
+
+use std::cell::Cell;
+use std::io::{self, Write, stdout};
+use std::panic;
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use crossterm::cursor::Show;
+use crossterm::event::{DisableMouseCapture, EnableMouseCapture, Event};
+use crossterm::terminal::{
+    EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+};
+use crossterm::{event, execute};
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+
+/// The terminal while the explorer has it; dropped, it is as it was.
+pub(super) struct Stage {
+    /// What is drawn on.
+    pub(super) terminal: Terminal<CrosstermBackend<io::Stdout>>,
+}
+
+impl Stage {
+    /// Takes the terminal.
+    ///
+    /// # Errors
+    /// When it cannot be switched.
+    pub(super) fn enter() -> io::Result<Self> {
+        take()?;
+        match Terminal::new(CrosstermBackend::new(stdout())) {
+            Ok(terminal) => Ok(Self { terminal }),
+            Err(error) => {
+                give_back();
+                Err(error)
+            }
+        }
+    }
+
+    /// Hands the terminal to the shell and stops this process and its group until `fg`.
+    ///
+    /// # Errors
+    /// When the terminal cannot be taken again.
+    pub(super) fn suspend(&mut self) -> io::Result<()> {
+        give_back();
+        // The whole group (0): a shell that started us through another program (`cargo run`) gets
+        // its prompt back. It returns when the shell continues the group.
+        let stopped = process::Command::new("kill").args(["-TSTP", "0"]).status();
+        take()?;
+        self.terminal.clear()?;
+        stopped.map(|_| ())
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        give_back();
+    }
+}
+
+fn take() -> io::Result<()> {
+    enable_raw_mode()?;
+    let entered = execute!(stdout(), EnterAlternateScreen, EnableMouseCapture);
+    if entered.is_err() {
+        give_back();
+    }
+    entered
+}
+
+/// Errors are of no use here: either the terminal is gone, or there is nothing more to try.
+fn give_back() {
+    let _ = execute!(stdout(), DisableMouseCapture, LeaveAlternateScreen, Show);
+    let _ = disable_raw_mode();
+    let _ = stdout().flush();
+}
+
+thread_local! {
+    /// Whether this thread draws: its panic ends the screen.
+    static DRAWS: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What panics of other threads said: shown on the screen while it is there.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Panics {
+    said: Arc<Mutex<Vec<String>>>,
+}
+
+impl Panics {
+    /// Watches panics from now on: one of this thread gives the terminal back before it is
+    /// reported as before; one of another thread is kept, as its text would tear the screen.
+    pub(super) fn watch() -> Self {
+        let panics = Self::default();
+        DRAWS.with(|draws| draws.set(true));
+        let kept = panics.clone();
+        let before = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            if DRAWS.with(Cell::get) {
+                give_back();
+                before(info);
+            } else if Arc::strong_count(&kept.said) > 1 {
+                kept.lock().push(info.to_string());
+            } else {
+                // The screen is gone, and the hook holds the last handle.
+                before(info);
+            }
+        }));
+        panics
+    }
+
+    /// The first of them.
+    pub(super) fn first(&self) -> Option<String> {
+        self.lock().first().cloned()
+    }
+
+    /// Says, on a screen that is no longer there, what was kept.
+    pub(super) fn report(&self) {
+        let mut errors = io::stderr().lock();
+        for text in self.lock().drain(..) {
+            let _ = writeln!(errors, "{text}");
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Vec<String>> {
+        self.said.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Panics {
+    fn drop(&mut self) {
+        DRAWS.with(|draws| draws.set(false));
+    }
+}
+
+/// Keys, mouse and sizes from a thread of their own: reading a terminal that has vanished may never
+/// return, and then it is this thread that hangs, not the screen.
+pub(super) struct Input {
+    /// What came.
+    pub(super) events: Receiver<Event>,
+    ended: Arc<AtomicBool>,
+}
+
+impl Input {
+    /// Starts to listen.
+    ///
+    /// # Errors
+    /// When no thread can be started.
+    pub(super) fn listen() -> io::Result<Self> {
+        let (sender, events) = channel();
+        let ended = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&ended);
+        thread::Builder::new()
+            .name("keys".to_owned())
+            .spawn(move || forward(&sender, &flag))?;
+        Ok(Self { events, ended })
+    }
+}
+
+impl Drop for Input {
+    fn drop(&mut self) {
+        self.ended.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Ends (and with it the channel) when nobody listens any more or the terminal fails.
+fn forward(sender: &Sender<Event>, ended: &AtomicBool) {
+    while !ended.load(Ordering::Relaxed) {
+        match event::poll(Duration::from_millis(50)) {
+            Ok(false) => {}
+            Ok(true) => {
+                let Ok(event) = event::read() else { return };
+                if sender.send(event).is_err() {
+                    return;
+                }
+            }
+            Err(_) => return,
+        }
+    }
+}

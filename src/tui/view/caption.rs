@@ -1,0 +1,83 @@
+//! Under the top line: what a lesson, or the scene's script, says now.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
+
+use crate::tui::app::App;
+use crate::tui::lessons::LESSONS;
+use crate::tui::theme::Role;
+use crate::tui::view::{ascii_text, put, put_right};
+
+/// Words to show.
+pub(super) struct Caption<'a> {
+    title: String,
+    text: &'a str,
+    hint: &'static str,
+}
+
+/// What is to be said, if anything.
+pub(super) fn of(app: &App) -> Option<Caption<'_>> {
+    if let Some(tour) = app.tour {
+        return Some(Caption {
+            title: format!(
+                "lesson {} of {}: {} ({}/{})",
+                tour.lesson + 1,
+                LESSONS.len(),
+                tour.lesson().title,
+                tour.beat + 1,
+                tour.lesson().beats.len()
+            ),
+            text: tour.beat().caption,
+            hint: "n next  t ends ",
+        });
+    }
+    scripted(app).map(|text| Caption {
+        title: "the scene says".to_owned(),
+        text,
+        hint: "",
+    })
+}
+
+/// The caption of the last scripted event, while it is fresh (half a passage).
+fn scripted(app: &App) -> Option<&str> {
+    let frame = app.frame()?;
+    let fresh_s = 2.0 * frame.a_m / frame.metrics.entrainment_m_s.abs().max(1e-9);
+    app.setup
+        .scene
+        .events
+        .iter()
+        .filter(|event| !event.caption.is_empty())
+        .rfind(|event| (event.at_s..event.at_s + fresh_s).contains(&frame.time_s))
+        .map(|event| event.caption.as_str())
+}
+
+pub(super) fn render(app: &App, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
+    let theme = &app.theme;
+    for row in 0..area.height {
+        put(
+            area,
+            row,
+            &Line::styled(theme.pick("▌", "|"), theme.style(Role::Key)),
+            buffer,
+        );
+    }
+    let text = Rect {
+        x: area.x + 2,
+        width: area.width.saturating_sub(4),
+        ..area
+    };
+    let title = Span::styled(ascii_text(theme, &caption.title), theme.style(Role::Key));
+    put(text, 0, &Line::from(title), buffer);
+    let hint = Line::styled(caption.hint, theme.style(Role::Dim));
+    put_right(text, 0, &hint, buffer);
+    let below = Rect {
+        y: text.y + 1,
+        height: text.height.saturating_sub(1),
+        ..text
+    };
+    Paragraph::new(ascii_text(theme, caption.text))
+        .wrap(Wrap { trim: true })
+        .render(below, buffer);
+}

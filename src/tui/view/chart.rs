@@ -1,0 +1,195 @@
+//! Curves in a rectangle of cells: two by four Braille dots each, or one character without them.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+
+/// Bit of a dot in a Braille cell, `[row][column]`.
+const BITS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Cell {
+    dots: u8,
+    style: Style,
+    letter: char,
+}
+
+/// Curves drawn over each other: a cell takes the colour of the last one that touched it.
+#[derive(Debug)]
+pub(super) struct Chart {
+    area: Rect,
+    x: [f64; 2],
+    y: [f64; 2],
+    cells: Vec<Cell>,
+}
+
+/// How a curve looks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pen {
+    /// Colour and weight.
+    pub(super) style: Style,
+    /// Character where there is no Braille.
+    pub(super) letter: char,
+}
+
+impl Chart {
+    /// An empty chart with its ranges.
+    pub(super) fn new(area: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
+        let cells = vec![Cell::default(); usize::from(area.width) * usize::from(area.height)];
+        Self { area, x, y, cells }
+    }
+
+    /// A curve through points; one that is not finite breaks it, what lies outside is cut off.
+    pub(super) fn line(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: Pen) {
+        let mut last: Option<(f64, f64)> = None;
+        for (x, y) in points {
+            let here = self.dot(x, y);
+            match (last, here) {
+                (Some(from), Some(to)) => self.segment(from, to, pen),
+                (None, Some(to)) => self.set(to, pen),
+                _ => {}
+            }
+            last = here;
+        }
+    }
+
+    /// Single dots.
+    pub(super) fn scatter(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: Pen) {
+        for (x, y) in points {
+            if let Some(place) = self.dot(x, y) {
+                self.set(place, pen);
+            }
+        }
+    }
+
+    /// A vertical line of every other dot.
+    pub(super) fn upright(&mut self, x: f64, pen: Pen) {
+        let Some((column, _)) = self.dot(x, self.y[0]) else {
+            return;
+        };
+        for row in (0..self.rows()).step_by(2) {
+            self.set((column, row as f64), pen);
+        }
+    }
+
+    /// Draws it; cells that no curve touched stay as they are.
+    pub(super) fn render(&self, ascii: bool, buffer: &mut Buffer) {
+        for (place, cell) in self.cells.iter().enumerate() {
+            if cell.dots == 0 {
+                continue;
+            }
+            let x = self.area.x + (place % usize::from(self.area.width)) as u16;
+            let y = self.area.y + (place / usize::from(self.area.width)) as u16;
+            let letter = if ascii {
+                cell.letter
+            } else {
+                char::from_u32(0x2800 + u32::from(cell.dots)).unwrap_or('*')
+            };
+            if let Some(target) = buffer.cell_mut((x, y)) {
+                target.set_char(letter).set_style(cell.style);
+            }
+        }
+    }
+
+    fn columns(&self) -> usize {
+        usize::from(self.area.width) * 2
+    }
+
+    fn rows(&self) -> usize {
+        usize::from(self.area.height) * 4
+    }
+
+    /// Place in dots; far outside values are kept near, so that a segment to them stays short.
+    fn dot(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+        let (columns, rows) = (self.columns() as f64, self.rows() as f64);
+        let column = (x - self.x[0]) / (self.x[1] - self.x[0]) * (columns - 1.0);
+        let row = (1.0 - (y - self.y[0]) / (self.y[1] - self.y[0])) * (rows - 1.0);
+        (column.is_finite() && row.is_finite()).then(|| {
+            (
+                column.clamp(-columns, 2.0 * columns),
+                row.clamp(-rows, 2.0 * rows),
+            )
+        })
+    }
+
+    fn segment(&mut self, from: (f64, f64), to: (f64, f64), pen: Pen) {
+        let length = (to.0 - from.0).abs().max((to.1 - from.1).abs());
+        let steps = length.ceil().max(1.0);
+        for step in 0..=steps as usize {
+            let part = step as f64 / steps;
+            let place = (
+                from.0 + (to.0 - from.0) * part,
+                from.1 + (to.1 - from.1) * part,
+            );
+            self.set(place, pen);
+        }
+    }
+
+    fn set(&mut self, (column, row): (f64, f64), pen: Pen) {
+        let (column, row) = (column.round(), row.round());
+        let outside = column < 0.0
+            || row < 0.0
+            || column >= self.columns() as f64
+            || row >= self.rows() as f64;
+        if outside {
+            return;
+        }
+        let (column, row) = (column as usize, row as usize);
+        let place = row / 4 * usize::from(self.area.width) + column / 2;
+        if let Some(cell) = self.cells.get_mut(place) {
+            cell.dots |= BITS[row % 4][column % 2];
+            cell.style = pen.style;
+            cell.letter = pen.letter;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(chart: &Chart, ascii: bool) -> Vec<String> {
+        let mut buffer = Buffer::empty(chart.area);
+        chart.render(ascii, &mut buffer);
+        (0..chart.area.height)
+            .map(|y| {
+                (0..chart.area.width)
+                    .map(|x| buffer[(x, y)].symbol().to_owned())
+                    .collect()
+            })
+            .collect()
+    }
+
+    fn pen() -> Pen {
+        Pen {
+            style: Style::new(),
+            letter: '*',
+        }
+    }
+
+    #[test]
+    fn corners_are_the_outermost_dots() {
+        let mut chart = Chart::new(Rect::new(0, 0, 2, 2), [0.0, 1.0], [0.0, 1.0]);
+        chart.scatter([(0.0, 0.0), (1.0, 1.0)], pen());
+        assert_eq!(drawn(&chart, false), [" ⠈", "⡀ "]);
+        assert_eq!(drawn(&chart, true), [" *", "* "]);
+    }
+
+    #[test]
+    fn what_is_outside_or_no_number_draws_nothing() {
+        let mut chart = Chart::new(Rect::new(0, 0, 3, 1), [0.0, 1.0], [0.0, 1.0]);
+        chart.line([(f64::NAN, 0.0), (0.5, f64::INFINITY), (5.0, 7.0)], pen());
+        assert_eq!(drawn(&chart, true), ["   "]);
+        // A curve that leaves is drawn up to the edge.
+        chart.line([(0.0, 0.0), (0.0, 1e30)], pen());
+        assert_eq!(drawn(&chart, true), ["*  "]);
+    }
+
+    #[test]
+    fn an_empty_area_or_range_is_no_fault() {
+        let mut chart = Chart::new(Rect::new(0, 0, 0, 0), [0.0, 0.0], [1.0, 1.0]);
+        chart.line([(0.0, 1.0), (2.0, 3.0)], pen());
+        chart.upright(0.0, pen());
+        assert!(drawn(&chart, false).is_empty());
+    }
+}

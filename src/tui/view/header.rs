@@ -1,0 +1,86 @@
+//! The top line: what runs, and the numbers that must be readable without help.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::sim::Stage;
+use crate::tui::app::{App, Pace};
+use crate::tui::theme::Role;
+use crate::tui::units::{sig, sig_or_dash};
+use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::wiring::Health;
+
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    let theme = &app.theme;
+    let numbers = numbers(app);
+    put_right(area, 0, &numbers, buffer);
+    let room = area.width.saturating_sub(numbers.width() as u16 + 1);
+    let (mark, word, role) = state(app);
+    let left = Line::from(vec![
+        Span::styled(" asperity ", theme.style(Role::Title)),
+        Span::styled(format!("{mark}{word} "), theme.style(role)),
+        Span::styled(
+            ascii_text(theme, &app.setup.scene.title),
+            theme.style(Role::Dim),
+        ),
+    ]);
+    put(
+        Rect {
+            width: room,
+            ..area
+        },
+        0,
+        &left,
+        buffer,
+    );
+}
+
+/// What the run does, as a shape, a word and a colour.
+fn state(app: &App) -> (&'static str, String, Role) {
+    let theme = &app.theme;
+    let (back, _) = app.rewound();
+    if back > 0 {
+        return (theme.pick("◀ ", "< "), format!("{back} back"), Role::Warn);
+    }
+    match (&app.status.health, app.pace) {
+        (Health::Failed(_), _) => (theme.pick("✖ ", "! "), "failed".into(), Role::Bad),
+        (Health::Finished, _) => (theme.pick("■ ", "# "), "done".into(), Role::Good),
+        (Health::Running, Pace::Paused) => (theme.pick("‖ ", "= "), "paused".into(), Role::Warn),
+        (Health::Running, Pace::Running) => match app.frame().map(|frame| frame.stage) {
+            Some(Stage::Passage) => (theme.pick("● ", "* "), "live".into(), Role::Good),
+            _ => (theme.pick("○ ", "o "), "starting".into(), Role::Warn),
+        },
+    }
+}
+
+fn numbers(app: &App) -> Line<'static> {
+    let theme = &app.theme;
+    let Some(frame) = app.frame() else {
+        return Line::default();
+    };
+    let metrics = &frame.metrics;
+    let pressure = app.units.pressure();
+    let n = match (metrics.n_body_1, metrics.n_body_2) {
+        (Some(first), Some(second)) => sig(first.max(second), 3),
+        _ => theme.pick("∞", "inf").to_owned(),
+    };
+    let pairs = [
+        ("S", sig(metrics.slide_roll, 2), Role::Strong),
+        ("p_h", pressure.show(frame.p_hertz_pa, 3), Role::Strong),
+        ("λ", sig_or_dash(metrics.lambda_ratio, 2), Role::Strong),
+        ("n", n, Role::Strong),
+    ];
+    let mut spans = Vec::new();
+    for (name, value, role) in pairs {
+        spans.push(Span::styled(
+            format!("{} ", ascii_text(theme, name)),
+            theme.style(Role::Dim),
+        ));
+        spans.push(Span::styled(
+            format!("{}  ", ascii_text(theme, &value)),
+            theme.style(role),
+        ));
+    }
+    Line::from(spans)
+}

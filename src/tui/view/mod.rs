@@ -1,0 +1,348 @@
+//! The picture: where each panel is, and the drawing of all of them.
+
+mod caption;
+mod centre_line;
+mod chart;
+mod digits;
+mod header;
+mod knobs;
+mod life;
+mod life_curve;
+mod map;
+mod overlay;
+mod point;
+mod status;
+
+use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
+use ratatui::Frame;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Margin, Position, Rect};
+use ratatui::symbols;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
+
+use crate::tui::action::Action;
+use crate::tui::app::{App, Overlay};
+use crate::tui::theme::{Role, Theme};
+
+/// Least size of the screen, columns and rows.
+pub const LEAST: (u16, u16) = (60, 20);
+
+/// How much room there is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Density {
+    /// Panels have a rule above them.
+    Compact,
+    /// Panels have a frame.
+    Full,
+}
+
+/// Whether words take a few rows under the top line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Banner {
+    /// They do not.
+    None,
+    /// A lesson or a script says something.
+    Caption,
+}
+
+/// Where the panels are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Areas {
+    /// How much room.
+    pub density: Density,
+    /// Top line.
+    pub header: Rect,
+    /// Below it a caption, where one is shown (else no rows).
+    pub caption: Rect,
+    /// Left.
+    pub knobs: Rect,
+    /// Centre, above.
+    pub map: Rect,
+    /// Centre, below.
+    pub centre_line: Rect,
+    /// Right.
+    pub life: Rect,
+    /// Below all three.
+    pub point: Rect,
+    /// Last lines.
+    pub status: Rect,
+}
+
+impl Areas {
+    /// The panels on a screen; `None` where it is too small.
+    pub fn of(screen: Rect, banner: Banner) -> Option<Self> {
+        if screen.width < LEAST.0 || screen.height < LEAST.1 {
+            return None;
+        }
+        let density = if screen.width >= 110 && screen.height >= 32 {
+            Density::Full
+        } else {
+            Density::Compact
+        };
+        let (left, right) = side_widths(screen.width, density);
+        let (point_rows, status_rows) = match density {
+            Density::Compact => (if screen.height >= 26 { 6 } else { 5 }, 2),
+            Density::Full => ((screen.height / 5).clamp(8, 12), 3),
+        };
+        let caption_rows = match banner {
+            Banner::None => 0,
+            // Title and text, which is 180 letters at most.
+            Banner::Caption => 1 + 190_u16.div_ceil(screen.width - 4),
+        };
+        let body_rows = screen.height - 1 - caption_rows - point_rows - status_rows;
+        let gap = if density == Density::Compact { 1 } else { 0 };
+        let middle = screen.width - left - right - 2 * gap;
+        let map_rows = (body_rows * 57).div_ceil(100);
+        let top = screen.y + 1 + caption_rows;
+        let centre = screen.x + left + gap;
+        let below = top + body_rows;
+        Some(Self {
+            density,
+            header: Rect::new(screen.x, screen.y, screen.width, 1),
+            caption: Rect::new(screen.x, screen.y + 1, screen.width, caption_rows),
+            knobs: Rect::new(screen.x, top, left, body_rows),
+            map: Rect::new(centre, top, middle, map_rows),
+            centre_line: Rect::new(centre, top + map_rows, middle, body_rows - map_rows),
+            life: Rect::new(centre + middle + gap, top, right, body_rows),
+            point: Rect::new(screen.x, below, screen.width, point_rows),
+            status: Rect::new(screen.x, below + point_rows, screen.width, status_rows),
+        })
+    }
+}
+
+fn side_widths(width: u16, density: Density) -> (u16, u16) {
+    match density {
+        Density::Compact => ((width / 4).clamp(17, 26), (width * 27 / 100).clamp(19, 28)),
+        Density::Full => ((width / 5).clamp(28, 38), (width / 4).clamp(32, 46)),
+    }
+}
+
+/// Draws the whole screen.
+pub fn draw(app: &App, frame: &mut Frame<'_>) {
+    let screen = frame.area();
+    render(app, screen, frame.buffer_mut());
+}
+
+/// Draws the whole screen into a buffer.
+pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
+    let caption = caption::of(app);
+    let Some(areas) = Areas::of(screen, banner(caption.as_ref())) else {
+        too_small(app, screen, buffer);
+        return;
+    };
+    header::render(app, areas.header, buffer);
+    knobs::render(app, &areas, buffer);
+    map::render(app, &areas, buffer);
+    centre_line::render(app, &areas, buffer);
+    life::render(app, &areas, buffer);
+    point::render(app, &areas, buffer);
+    status::render(app, &areas, buffer);
+    if let Some(caption) = caption {
+        caption::render(app, &caption, areas.caption, buffer);
+    }
+    let body = Rect {
+        height: screen.height - areas.status.height - 1,
+        y: screen.y + 1,
+        ..screen
+    };
+    match (app.fault(), app.overlay) {
+        (Some(reason), _) => overlay::fault(app, reason, body, buffer),
+        (None, Overlay::Help) => overlay::help(app, body, buffer),
+        (None, Overlay::Plan) => overlay::plan(app, body, buffer),
+        (None, Overlay::None) => {}
+    }
+}
+
+fn banner(caption: Option<&caption::Caption<'_>>) -> Banner {
+    caption.map_or(Banner::None, |_| Banner::Caption)
+}
+
+/// What a mouse event asks for on a screen of that size.
+pub fn pointed(app: &App, screen: Rect, event: &MouseEvent) -> Option<Action> {
+    let areas = Areas::of(screen, banner(caption::of(app).as_ref()))?;
+    let at = Position::new(event.column, event.row);
+    if app.overlay != Overlay::None {
+        let closes = matches!(event.kind, MouseEventKind::Down(_));
+        return closes.then_some(Action::Close);
+    }
+    match event.kind {
+        MouseEventKind::Down(MouseButton::Left) => knobs::pressed(app, &areas, at)
+            .or_else(|| map::pressed(app, &areas, at))
+            .or_else(|| areas.point.contains(at).then_some(Action::PointQuantity)),
+        MouseEventKind::Drag(MouseButton::Left) => {
+            knobs::dragged(app, &areas, at).or_else(|| map::pressed(app, &areas, at))
+        }
+        MouseEventKind::Down(MouseButton::Right) => Some(Action::Close),
+        MouseEventKind::ScrollUp => wheel(app, &areas, at, 1),
+        MouseEventKind::ScrollDown => wheel(app, &areas, at, -1),
+        _ => None,
+    }
+}
+
+/// The wheel turns the knob under the mouse (choosing it first), and changes the map.
+fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
+    if areas.map.contains(at) {
+        return Some(if by > 0 {
+            Action::NextMap
+        } else {
+            Action::PreviousMap
+        });
+    }
+    let place = knobs::under(app, areas, at)?;
+    Some(if place == app.chosen {
+        Action::Turn(by)
+    } else {
+        Action::Choose(place)
+    })
+}
+
+fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
+    let text = format!(
+        "{} x {} is too small: {} x {} shows the explorer. q quits.",
+        screen.width, screen.height, LEAST.0, LEAST.1
+    );
+    Paragraph::new(text)
+        .style(app.theme.style(Role::Warn))
+        .wrap(Wrap { trim: true })
+        .render(screen, buffer);
+}
+
+/// Draws a panel's frame and gives the room inside.
+fn panel(theme: &Theme, areas: &Areas, area: Rect, title: Line<'_>, buffer: &mut Buffer) -> Rect {
+    let borders = match areas.density {
+        Density::Compact => Borders::TOP,
+        Density::Full => Borders::ALL,
+    };
+    let mut block = Block::new()
+        .borders(borders)
+        .border_style(theme.style(Role::Border))
+        .title_top(title);
+    block = if theme.is_ascii() {
+        block.border_set(ASCII_BORDER)
+    } else {
+        block.border_type(BorderType::Rounded)
+    };
+    block.render(area, buffer);
+    inside(areas, area)
+}
+
+/// The room inside a panel's frame.
+fn inside(areas: &Areas, area: Rect) -> Rect {
+    match areas.density {
+        Density::Compact => Rect {
+            y: area.y + 1,
+            height: area.height.saturating_sub(1),
+            ..area
+        },
+        Density::Full => area.inner(Margin::new(1, 1)),
+    }
+}
+
+const ASCII_BORDER: symbols::border::Set<'static> = symbols::border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
+
+/// A panel's title: its name, with the key that changes it in the key's colour.
+fn title<'a>(theme: &Theme, key: &'a str, name: &'a str) -> Line<'a> {
+    let mut spans = vec![Span::raw(" ")];
+    if !key.is_empty() {
+        spans.push(Span::styled(key, theme.style(Role::Key)));
+        spans.push(Span::raw(" "));
+    }
+    spans.push(Span::styled(name, theme.style(Role::Title)));
+    spans.push(Span::raw(" "));
+    Line::from(spans)
+}
+
+/// Writes a line at a row of an area, if the row is there.
+fn put(area: Rect, row: u16, line: &Line<'_>, buffer: &mut Buffer) {
+    if row < area.height {
+        buffer.set_line(area.x, area.y + row, line, area.width);
+    }
+}
+
+/// Writes text against the right edge of a row.
+fn put_right(area: Rect, row: u16, line: &Line<'_>, buffer: &mut Buffer) {
+    let width = (line.width() as u16).min(area.width);
+    if row < area.height {
+        buffer.set_line(area.right() - width, area.y + row, line, width);
+    }
+}
+
+/// What only Unicode terminals show, in letters for those that do not.
+fn ascii_text(theme: &Theme, text: &str) -> String {
+    if !theme.is_ascii() {
+        return text.to_owned();
+    }
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            'λ' => plain.push_str("lambda"),
+            'µ' | 'μ' => plain.push('u'),
+            'σ' => plain.push_str("sigma"),
+            'τ' => plain.push_str("tau"),
+            '₁' => plain.push('1'),
+            '₂' => plain.push('2'),
+            '×' => plain.push('x'),
+            '→' => plain.push_str("->"),
+            '–' | '−' => plain.push('-'),
+            '≈' => plain.push('~'),
+            '±' => plain.push_str("+-"),
+            '·' => plain.push('.'),
+            '…' => plain.push_str("..."),
+            other if other.is_ascii() => plain.push(other),
+            _ => plain.push('?'),
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_fill_the_screen_and_never_overlap() {
+        for width in 60..=300 {
+            for height in 20..=100 {
+                let screen = Rect::new(0, 0, width, height);
+                panels_at(screen, Banner::None);
+                panels_at(screen, Banner::Caption);
+            }
+        }
+        assert_eq!(Areas::of(Rect::new(0, 0, 59, 20), Banner::None), None);
+        assert_eq!(Areas::of(Rect::new(0, 0, 60, 19), Banner::None), None);
+    }
+
+    fn panels_at(screen: Rect, banner: Banner) {
+        let Some(areas) = Areas::of(screen, banner) else {
+            panic!("{screen} is large enough")
+        };
+        let all = [
+            areas.header,
+            areas.knobs,
+            areas.map,
+            areas.centre_line,
+            areas.life,
+            areas.point,
+            areas.status,
+        ];
+        for (i, one) in all.iter().enumerate() {
+            assert!(one.width > 0 && one.height > 0, "{screen}: {i}");
+            assert_eq!(one.intersection(screen), *one);
+            assert!(one.intersection(areas.caption).is_empty(), "{screen}: {i}");
+            for other in &all[..i] {
+                assert!(one.intersection(*other).is_empty(), "{screen}: {i}");
+            }
+        }
+        assert_eq!(areas.status.bottom(), screen.height);
+    }
+}

@@ -1,0 +1,196 @@
+//! What lies over the screen: keys, plan, a fault.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, BorderType, Borders, Clear, Paragraph, Widget, Wrap};
+
+use crate::tui::action::{Action, Group, KEYS, MOUSE};
+use crate::tui::app::{App, ErrandKind};
+use crate::tui::theme::Role;
+use crate::tui::view::knobs::SYMBOLS;
+use crate::tui::view::{ASCII_BORDER, ascii_text, put};
+
+/// Draws a box of a wanted size in the middle and gives the room inside.
+fn boxed(
+    app: &App,
+    within: Rect,
+    (width, height): (u16, u16),
+    title: &str,
+    role: Role,
+    buffer: &mut Buffer,
+) -> Rect {
+    let theme = &app.theme;
+    let (width, height) = (width.min(within.width), height.min(within.height));
+    let area = Rect {
+        x: within.x + (within.width - width) / 2,
+        y: within.y + (within.height - height) / 2,
+        width,
+        height,
+    };
+    Clear.render(area, buffer);
+    let block = Block::new()
+        .borders(Borders::ALL)
+        .border_style(theme.style(role))
+        .title_top(Line::styled(format!(" {title} "), theme.style(Role::Title)));
+    let block = if theme.is_ascii() {
+        block.border_set(ASCII_BORDER)
+    } else {
+        block.border_type(BorderType::Rounded)
+    };
+    let inner = block.inner(area);
+    block.render(area, buffer);
+    Rect {
+        x: inner.x + 1,
+        width: inner.width.saturating_sub(2),
+        ..inner
+    }
+}
+
+/// The key table, in as many columns as fit; headings go where rows are short.
+pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
+    let columns = (within.width / 37).clamp(1, 2);
+    let room = usize::from(columns * within.height.saturating_sub(2));
+    let mut lines = help_lines(app);
+    if lines.len() > room {
+        lines.retain(|(heading, _)| *heading != Heading::Yes);
+    }
+    let rows = (lines.len() as u16).div_ceil(columns);
+    let size = (columns * 40 + 4, rows + 2);
+    let inner = boxed(app, within, size, "keys (? closes)", Role::Key, buffer);
+    let each = inner.width / columns;
+    for (place, (_, line)) in lines.iter().enumerate() {
+        let place = place as u16;
+        let (column, row) = (place / rows.max(1), place % rows.max(1));
+        let cell = Rect {
+            x: inner.x + column * each,
+            width: each.saturating_sub(1),
+            ..inner
+        };
+        put(cell, row, line, buffer);
+    }
+}
+
+/// Whether a line of the help screen only names what follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Heading {
+    Yes,
+    No,
+}
+
+fn help_lines(app: &App) -> Vec<(Heading, Line<'static>)> {
+    let theme = &app.theme;
+    let heading = |name: &'static str| {
+        let line = Line::styled(name, theme.style(Role::Title));
+        (Heading::Yes, line)
+    };
+    let row = |keys: &str, help: &str, role: Role| {
+        let line = Line::from(vec![
+            Span::styled(format!("{:>7} ", ascii_keys(app, keys)), theme.style(role)),
+            Span::raw(ascii_text(theme, help)),
+        ]);
+        (Heading::No, line)
+    };
+    let mut lines = Vec::new();
+    for group in Group::ALL {
+        lines.push(heading(group.name()));
+        let rows = KEYS.iter().filter(|row| row.group == group);
+        let rows = rows.filter(|row| row.keys.iter().any(|(_, action)| offered(app, *action)));
+        lines.extend(rows.map(|known| row(known.shown, known.help, Role::Key)));
+    }
+    lines.push(heading("Mouse"));
+    lines.extend(MOUSE.iter().map(|(what, help)| row(what, help, Role::Key)));
+    lines.push(heading("Letters"));
+    lines.extend(
+        SYMBOLS
+            .iter()
+            .map(|(name, meaning)| row(name, meaning, Role::Strong)),
+    );
+    lines
+}
+
+/// A key that does nothing here is not listed.
+fn offered(app: &App, action: Action) -> bool {
+    match action {
+        Action::Record => app.offers(ErrandKind::Record),
+        Action::View => app.offers(ErrandKind::View),
+        Action::Save => app.offers(ErrandKind::Save),
+        _ => true,
+    }
+}
+
+fn ascii_keys(app: &App, keys: &str) -> String {
+    if !app.theme.is_ascii() {
+        return keys.to_owned();
+    }
+    let plain = keys
+        .replace("↑↓", "up dn")
+        .replace("⇧←→ ", "")
+        .replace("←→", "lt rt");
+    ascii_text(&app.theme, &plain)
+}
+
+/// What is computed, what is left out, and why.
+pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
+    let theme = &app.theme;
+    let mut lines = Vec::new();
+    if !app.setup.left_out.is_empty() {
+        lines.push(Line::styled("Left out", theme.style(Role::Warn)));
+        for left in &app.setup.left_out {
+            lines.push(Line::from(vec![
+                Span::styled(
+                    format!("  {}: ", ascii_text(theme, &left.stage)),
+                    theme.style(Role::Strong),
+                ),
+                Span::raw(ascii_text(theme, &left.reason)),
+            ]));
+        }
+        lines.push(Line::default());
+    }
+    lines.push(Line::styled("The model itself", theme.style(Role::Warn)));
+    lines.push(Line::raw(
+        "  no wear, isothermal, elastic, initiation only; no absolute life without a calibration point",
+    ));
+    lines.push(Line::default());
+    lines.extend(
+        app.setup
+            .plan_text
+            .lines()
+            .map(|line| Line::raw(ascii_text(theme, line))),
+    );
+    let tall = lines.len() as u16 + 6;
+    let inner = boxed(
+        app,
+        within,
+        (100, tall),
+        "plan (i closes)",
+        Role::Key,
+        buffer,
+    );
+    Paragraph::new(lines)
+        .wrap(Wrap { trim: false })
+        .render(inner, buffer);
+}
+
+/// An engine that failed.
+pub(super) fn fault(app: &App, reason: &str, within: Rect, buffer: &mut Buffer) {
+    let theme = &app.theme;
+    let wide = 76.min(within.width);
+    let rows = reason.chars().count() as u16 / wide.saturating_sub(6).max(1) + 1;
+    let size = (wide, rows + 6);
+    let inner = boxed(app, within, size, "the run failed", Role::Bad, buffer);
+    let text = vec![
+        Line::styled(reason.to_owned(), theme.style(Role::Bad)),
+        Line::default(),
+        Line::raw("What was recorded until then is kept. The last frame stays on the screen."),
+        Line::from(vec![
+            Span::styled("Esc", theme.style(Role::Key)),
+            Span::raw(" looks at it, "),
+            Span::styled("q", theme.style(Role::Key)),
+            Span::raw(" quits"),
+        ]),
+    ];
+    Paragraph::new(text)
+        .wrap(Wrap { trim: true })
+        .render(inner, buffer);
+}

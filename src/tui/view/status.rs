@@ -1,0 +1,199 @@
+//! Last lines: where the run is, how well it converges, what is left out, what is recorded.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::sim::{Frame, Metrics, Stage};
+use crate::tui::app::{App, ErrandKind};
+use crate::tui::theme::Role;
+use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
+use crate::tui::view::{Areas, Density, ascii_text, put, put_right};
+use crate::tui::wiring::RecorderActivity;
+
+/// Words and their roles, in the order in which they are dropped from the right.
+type Words = Vec<(String, Role)>;
+
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
+    let area = areas.status;
+    let mut row = 0;
+    if let Some(frame) = app.frame() {
+        let mut words = progress(app, frame);
+        if areas.density == Density::Full {
+            write(app, area, row, &words, buffer);
+            row += 1;
+            words = quality(app, frame);
+        } else {
+            words.extend(quality(app, frame));
+        }
+        write(app, area, row, &words, buffer);
+        row += 1;
+    }
+    let last = area.height - 1;
+    if row <= last {
+        last_line(app, area, last, buffer);
+    }
+}
+
+fn write(app: &App, area: Rect, row: u16, words: &Words, buffer: &mut Buffer) {
+    let theme = &app.theme;
+    let mut spans = vec![Span::raw(" ")];
+    let mut used = 1;
+    for (text, role) in words {
+        let text = ascii_text(theme, text);
+        let span = Span::styled(text, theme.style(*role));
+        if used + span.width() > usize::from(area.width) {
+            break;
+        }
+        used += span.width() + 2;
+        spans.push(span);
+        spans.push(Span::raw("  "));
+    }
+    put(area, row, &Line::from(spans), buffer);
+}
+
+fn progress(app: &App, frame: &Frame) -> Words {
+    let stage = match frame.stage {
+        Stage::StartUp => ("start-up".to_owned(), Role::Warn),
+        Stage::Passage => (format!("passage {:.2}", frame.passages), Role::Text),
+    };
+    let rate = sig_or_dash(app.steps_per_s(), 2);
+    vec![
+        stage,
+        (format!("step {}", frame.step), Role::Text),
+        (format!("{rate} steps/s"), Role::Text),
+        (format!("t {}", seconds(frame.time_s)), Role::Text),
+    ]
+}
+
+fn quality(app: &App, frame: &Frame) -> Words {
+    let metrics = &frame.metrics;
+    let residual = if metrics.converged {
+        (format!("residual {:.0e}", metrics.residual), Role::Text)
+    } else {
+        (
+            format!(
+                " NOT CONVERGED residual {:.1e} after {} retries ",
+                metrics.residual, metrics.retries
+            ),
+            Role::Bad,
+        )
+    };
+    let (regime, role) = regime(metrics);
+    let lambda = sig_or_dash(metrics.lambda_ratio, 2);
+    let mut words = vec![
+        residual,
+        (format!("{regime} λ {lambda}"), role),
+        (
+            format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
+            Role::Text,
+        ),
+        (format!("load err {:.0e}", metrics.load_error), Role::Dim),
+        (format!("mass err {:.0e}", metrics.mass_error), Role::Dim),
+        (
+            format!("µ {}", sig(metrics.friction_coefficient, 2)),
+            Role::Text,
+        ),
+        (
+            format!("p max {}", app.units.pressure().show(metrics.p_max_pa, 3)),
+            Role::Pressure,
+        ),
+        (
+            format!("h min {}", app.units.film().show(metrics.h_min_m, 2)),
+            Role::Film,
+        ),
+    ];
+    if !metrics.converged {
+        // A failure stands first.
+        words.truncate(4);
+    }
+    words
+}
+
+/// Who carries the load: the film, both, or the asperities.
+fn regime(metrics: &Metrics) -> (&'static str, Role) {
+    if metrics.contact_ratio <= 0.0 {
+        ("full film", Role::Good)
+    } else if metrics.contact_load_ratio < 0.9 {
+        ("mixed", Role::Warn)
+    } else {
+        ("boundary", Role::Bad)
+    }
+}
+
+fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
+    let theme = &app.theme;
+    let recorder = recorder(app);
+    let room = Rect {
+        width: area.width.saturating_sub(recorder.width() as u16 + 1),
+        ..area
+    };
+    put_right(area, row, &recorder, buffer);
+    if let Some(message) = app.message() {
+        let line = Line::styled(format!(" {message}"), theme.style(Role::Warn));
+        put(room, row, &line, buffer);
+        return;
+    }
+    let mut spans = vec![Span::raw(" ")];
+    for (key, word) in hints(app) {
+        spans.push(Span::styled(key, theme.style(Role::Key)));
+        spans.push(Span::styled(format!(" {word}  "), theme.style(Role::Dim)));
+    }
+    let missing: Vec<&str> = app
+        .setup
+        .left_out
+        .iter()
+        .map(|left| left.stage.as_str())
+        .collect();
+    if !missing.is_empty() {
+        let text = format!("left out: {}", missing.join(", "));
+        spans.push(Span::styled("i ", theme.style(Role::Key)));
+        spans.push(Span::styled(
+            ascii_text(theme, &text),
+            theme.style(Role::Dim),
+        ));
+    }
+    put(room, row, &Line::from(spans), buffer);
+}
+
+fn hints(app: &App) -> Vec<(&'static str, &'static str)> {
+    let mut hints = vec![
+        ("?", "keys"),
+        ("space", "pause"),
+        ("b", "pin"),
+        ("t", "tour"),
+    ];
+    if app.offers(ErrandKind::Record) {
+        hints.push(("r", "record"));
+    }
+    hints.push(("q", "quit"));
+    hints
+}
+
+fn recorder(app: &App) -> Line<'static> {
+    let theme = &app.theme;
+    let dim = theme.style(Role::Dim);
+    let Some(recorder) = &app.status.recorder else {
+        return Line::styled("not recording ", dim);
+    };
+    let (word, role) = match recorder.activity {
+        RecorderActivity::Recording => (theme.pick("● rec ", "* rec "), Role::Pressure),
+        RecorderActivity::Paused => (theme.pick("‖ rec paused ", "= rec paused "), Role::Warn),
+        RecorderActivity::Stopped => (theme.pick("■ rec stopped ", "# rec stopped "), Role::Bad),
+    };
+    let skipped = match recorder.skipped {
+        0 => String::new(),
+        skipped => format!("{skipped} skipped "),
+    };
+    Line::from(vec![
+        Span::styled(word, theme.style(role)),
+        Span::styled(
+            format!(
+                "{} {} frames {skipped}",
+                bytes(recorder.bytes),
+                recorder.frames
+            ),
+            dim,
+        ),
+    ])
+}

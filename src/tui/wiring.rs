@@ -1,0 +1,119 @@
+//! What the screen needs from the run: frames, a way to command, and a few words of state.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc::Sender;
+
+use thiserror::Error;
+
+use crate::observe::Latest;
+use crate::run::Command;
+use crate::scene::Scene;
+
+/// A stage that the plan leaves out, and why.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Which stage, in a word or two ("cavitation").
+    pub stage: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// How the run is.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Health {
+    /// It steps, or waits for a command.
+    #[default]
+    Running,
+    /// It ended of itself: the scene's length is done.
+    Finished,
+    /// It failed; what went wrong, in words.
+    Failed(String),
+}
+
+/// How the recording is.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct RecorderState {
+    /// Which file.
+    pub output: String,
+    /// Whether it takes frames now.
+    pub activity: RecorderActivity,
+    /// Frames written.
+    pub frames: u64,
+    /// Frames skipped because it could not keep up.
+    pub skipped: u64,
+    /// Bytes written, where known.
+    pub bytes: u64,
+}
+
+/// Whether a recorder takes frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RecorderActivity {
+    /// It does.
+    #[default]
+    Recording,
+    /// It was told not to.
+    Paused,
+    /// It stopped: its budget is used up, or its output failed.
+    Stopped,
+}
+
+/// What the screen asks the run about before each drawing.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct RunStatus {
+    /// How the run is.
+    pub health: Health,
+    /// How the recording is; `None`: there is none.
+    pub recorder: Option<RecorderState>,
+}
+
+/// Something that a key does outside of the screen; the answer is one line for the status bar.
+pub type Errand = Box<dyn FnMut() -> Result<String, String>>;
+
+/// Writes a scene (its TOML text) and says where.
+pub type SaveScene = Box<dyn FnMut(&str) -> Result<PathBuf, String>>;
+
+/// What the program itself fills in. An errand that is `None` has no key and no row in the help.
+pub struct Wiring {
+    /// The scene that runs.
+    pub scene: Arc<Scene>,
+    /// The load, N (the scene may give it as a Hertz pressure).
+    pub load_n: f64,
+    /// Hertz half-width along x at that load, m.
+    pub half_width_m: f64,
+    /// Maximum Hertz pressure at that load, Pa.
+    pub p_hertz_pa: f64,
+    /// The plan as text.
+    pub plan_text: String,
+    /// What the plan leaves out.
+    pub left_out: Vec<LeftOut>,
+    /// The newest frame.
+    pub frames: Latest,
+    /// Where commands go. A run that has ended and hears nothing is no error.
+    pub commands: Sender<Command>,
+    /// Asked before each drawing; must not block.
+    pub status: Box<dyn FnMut() -> RunStatus>,
+    /// Raised when the process is asked to end (SIGTERM, SIGHUP): the screen closes.
+    pub interrupt: Arc<AtomicBool>,
+    /// Switches recording on and off.
+    pub toggle_recording: Option<Errand>,
+    /// Opens the recording in the viewer.
+    pub open_viewer: Option<Errand>,
+    /// Saves the scene as it now is.
+    pub save_scene: Option<SaveScene>,
+}
+
+/// Why the screen ended otherwise than by `q`.
+#[derive(Debug, Error)]
+pub enum TuiError {
+    /// The terminal cannot place a cursor.
+    #[error("the terminal {term:?} cannot show the explorer; `asperity run` needs no screen")]
+    NoScreen {
+        /// `TERM`.
+        term: String,
+    },
+    /// The terminal failed or went away.
+    #[error("the terminal is gone or failed: {0}")]
+    Terminal(#[from] std::io::Error),
+}
