@@ -1,3 +1,9 @@
-//! The binary.
+//! The binary: reads the command line, runs, says what happened.
 
-fn main() {}
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::main()
+}

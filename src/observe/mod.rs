@@ -10,6 +10,8 @@
 mod latest;
 mod pool;
 mod queue;
+#[cfg(feature = "rerun")]
+pub mod rerun;
 mod table;
 
 use std::path::Path;

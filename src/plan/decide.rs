@@ -11,14 +11,15 @@ use crate::scene::{Rheology, Scene};
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     let point = scene.operating_point()?;
     let central_m = film_regression::nijenbanning_central_m(&point);
+    let hamrock_dowson_central_m = film_regression::hamrock_dowson_central_m(&point);
     let rq_m = scene.composite_rq_m();
     Some(FilmPlan {
         groups: point.groups(),
         central_m,
-        hamrock_dowson_central_m: film_regression::hamrock_dowson_central_m(&point),
+        hamrock_dowson_central_m,
         hamrock_dowson_minimum_m: film_regression::hamrock_dowson_minimum_m(&point),
         central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
-        lambda_ratio: (rq_m > 0.0).then(|| central_m / rq_m),
+        lambda_ratio: (rq_m > 0.0).then(|| hamrock_dowson_central_m / rq_m),
     })
 }
 

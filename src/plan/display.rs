@@ -44,7 +44,7 @@ impl Plan {
         let hertz = &self.hertz;
         writeln!(
             f,
-            "Contact     {}: a {:.1} um, b {:.1} um; Hertz pressure {:.3} GPa; load {:.4} N; approach {:.2} um",
+            "Contact     {}: a {:.1} um, b {:.1} um; Hertz pressure {:.3} GPa; load {} N; approach {:.2} um",
             if (hertz.ellipticity() - 1.0).abs() < 1e-9 {
                 "circular"
             } else {
@@ -53,14 +53,16 @@ impl Plan {
             hertz.a_m * 1e6,
             hertz.b_m * 1e6,
             hertz.p_max_pa * 1e-9,
-            self.force_n,
+            significant(self.force_n),
             hertz.approach_m * 1e6
         )?;
         let [u_1, u_2] = self.speeds_m_s;
         writeln!(
             f,
-            "Motion      S = (U2 - U1)/U = {}; U1 {u_1} m/s, U2 {u_2} m/s",
-            self.slide_roll
+            "Motion      S = (U2 - U1)/U = {}; U1 {} m/s, U2 {} m/s",
+            self.slide_roll,
+            significant(u_1),
+            significant(u_2)
         )?;
         if let Some(film) = &self.film {
             writeln!(
@@ -77,7 +79,7 @@ impl Plan {
             if let Some(ratio) = film.lambda_ratio {
                 writeln!(
                     f,
-                    "Lambda      {ratio:.2} = central film/composite root-mean-square roughness"
+                    "Lambda      {ratio:.2} = central film (Hamrock-Dowson)/composite root-mean-square roughness"
                 )?;
             }
         }
@@ -146,7 +148,7 @@ impl Plan {
         }
         if let Some(record) = self.record {
             lines.push(format!(
-                "recording of every {} ({} frames, about {})",
+                "recording: scalars every step, fields every {} ({} frames, about {})",
                 if record.every_steps == 1 {
                     "step".to_owned()
                 } else {
@@ -174,6 +176,12 @@ fn wave_text(wave: &WavePlan) -> String {
         along(wave.nodes[0]),
         along(wave.nodes[1])
     )
+}
+
+/// Four significant digits without an exponent.
+fn significant(value: f64) -> String {
+    let rounded = format!("{value:.3e}").parse::<f64>();
+    rounded.map_or_else(|_| value.to_string(), |rounded| rounded.to_string())
 }
 
 fn size(bytes: u64) -> String {

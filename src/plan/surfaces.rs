@@ -16,6 +16,23 @@ pub struct WavePlan {
     pub crests_per_step: f64,
 }
 
+impl WavePlan {
+    /// Widest gap between the phases in which `n` looks at a fixed place, `every` steps apart, meet the wave, in
+    /// waves; 0 for a wave that does not pass.
+    pub(super) fn widest_gap(&self, every: u64, n: u64) -> f64 {
+        if self.crests_per_step == 0.0 || n == 0 {
+            return 0.0;
+        }
+        let mut phases: Vec<f64> = (0..n)
+            .map(|look| (look as f64 * every as f64 * self.crests_per_step).fract())
+            .collect();
+        phases.sort_by(f64::total_cmp);
+        let around = 1.0 - phases[phases.len() - 1] + phases[0];
+        let gaps = phases.windows(2).map(|pair| pair[1] - pair[0]);
+        gaps.fold(around, f64::max)
+    }
+}
+
 /// Fewest nodes of a wave: below it the sampled wave is not the one that was asked for.
 const NODES_MIN: f64 = 4.0;
 /// Nodes of a wave below which its deformation is inaccurate.

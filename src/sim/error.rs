@@ -52,6 +52,9 @@ pub enum SimError {
         /// What is allowed.
         allowed: String,
     },
+    /// The stress engine refused the plan.
+    #[error("{0}")]
+    Stress(String),
     /// The smooth start-up failed.
     #[error("the start-up failed: {0}")]
     StartUp(#[from] StepError),

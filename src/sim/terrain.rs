@@ -40,7 +40,11 @@ impl Terrain {
     pub fn new(grid: &Grid, surfaces: [&Surface; 2], a_m: f64) -> Self {
         let waves = surfaces.map(|surface| Waves::new(grid, surface, a_m));
         let heights = [0, 1].map(|body| {
-            let n = if waves[body as usize].is_some() { grid.len() } else { 0 };
+            let n = if waves[body as usize].is_some() {
+                grid.len()
+            } else {
+                0
+            };
             vec![0.0; n]
         });
         Self { waves, heights }
@@ -112,7 +116,8 @@ impl Waves {
         }
         for (j, row) in out.chunks_exact_mut(grid.nx).enumerate() {
             let ((c1, s1), (c2, s2)) = (self.across[0][j], self.across[1][j]);
-            for ((z, &(a1, b1)), &(a2, b2)) in row.iter_mut().zip(&self.along[0]).zip(&self.along[1])
+            for ((z, &(a1, b1)), &(a2, b2)) in
+                row.iter_mut().zip(&self.along[0]).zip(&self.along[1])
             {
                 *z = a1 * c1 - b1 * s1 + a2 * c2 - b2 * s2;
             }

@@ -17,7 +17,7 @@ use super::precondition::Preconditioner;
 use crate::math::grid::Grid;
 
 /// Most iterations of one linear solve.
-pub const MAX_ITERATIONS: usize = 200;
+pub const MAX_ITERATIONS: usize = 60;
 
 /// Result of one linear solve.
 #[derive(Debug, Clone, Copy)]

@@ -20,6 +20,8 @@ use crate::math::grid::Grid;
 
 /// Largest change of pressure (in p_h) of one iteration at one node.
 const STEP_LIMIT: f64 = 2.0;
+/// Reduction asked of the linear solve: tighter costs more than the Newton iterations it saves.
+const FORCING: f64 = 0.1;
 /// Most halvings of the line search.
 const MAX_HALVINGS: u32 = 4;
 
@@ -179,7 +181,7 @@ impl Newton {
             }
             report.iterations += 1;
             let h0_step = self.linear_step(problem, iterate, now.load, &mut report);
-            now = self.line_search(problem, iterate, h0_step, now.merit, &mut report);
+            now = self.line_search(problem, iterate, h0_step, &mut report);
         }
     }
 
@@ -261,8 +263,8 @@ impl Newton {
         let grid = problem.grid;
         let (p, f, d) = (
             &*iterate.p,
-            self.reynolds.residual.clone(),
-            self.reynolds.diagonal.clone(),
+            &self.reynolds.residual,
+            &self.reynolds.diagonal,
         );
         self.active.fill(false);
         let mut any_fixed = false;
@@ -275,10 +277,6 @@ impl Newton {
                     any_fixed = true;
                 }
             }
-        }
-        let theta = envf("THETA", 1.0);
-        for n in 0..grid.len() {
-            self.reynolds.row_scale[n] = d[n].powf(theta) * self.elastic.k00.powf(1.0 - theta);
         }
         self.reynolds.linearise(
             grid,
@@ -329,17 +327,11 @@ impl Newton {
             &mut self.precondition,
             &self.rhs,
             missing,
-            envf("FORCING", FORCING),
+            FORCING,
             super::krylov::MAX_ITERATIONS,
             &mut self.v,
         );
         report.linear_iterations += linear.iterations as u32;
-        if std::env::var("DBG").is_ok() {
-            eprintln!(
-                "lin {linear:?} missing {missing:.3e} fixed {any_fixed} active {}",
-                self.active.iter().filter(|a| **a).count()
-            );
-        }
         for (v, &fixed) in self.v.iter_mut().zip(&self.fixed) {
             *v += fixed;
         }
@@ -352,14 +344,11 @@ impl Newton {
         problem: &Problem,
         iterate: &mut Iterate,
         h0_step: f64,
-        old_merit: f64,
         report: &mut NewtonReport,
     ) -> Evaluation {
         self.old_p.copy_from_slice(iterate.p);
         self.reference.copy_from_slice(&self.reynolds.diagonal);
-        let base = self
-            .judge_with_reference(problem, iterate)
-            .min(old_merit.max(0.0));
+        let base = self.judge(problem, iterate).merit;
         let old_h0 = *iterate.h0;
         let mut t = 1.0;
         for halving in 0..=MAX_HALVINGS {
@@ -379,12 +368,6 @@ impl Newton {
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
             let new = self.evaluate(problem, iterate, report);
-            if std::env::var("DBG").is_ok() {
-                eprintln!(
-                    "  t {t} merit {base:.3e} -> {:.3e} mass {:.2e} h0 {old_h0:.4} + {h0_step:.4}",
-                    new.merit, new.mass_error
-                );
-            }
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
                 return new;
             }
@@ -392,20 +375,4 @@ impl Newton {
         }
         unreachable!("the last halving returns")
     }
-
-    fn judge_with_reference(&self, problem: &Problem, iterate: &Iterate) -> f64 {
-        let _ = self;
-        self.judge(problem, iterate).merit
-    }
-}
-
-/// Reduction asked of the linear solve.
-const FORCING: f64 = 0.1;
-
-/// debug
-pub fn envf(name: &str, default: f64) -> f64 {
-    std::env::var(name)
-        .ok()
-        .and_then(|v| v.parse().ok())
-        .unwrap_or(default)
 }

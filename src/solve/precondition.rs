@@ -98,7 +98,7 @@ impl Preconditioner {
     ) {
         let (nx, n_all) = (grid.nx, grid.len());
         for n in 0..n_all {
-            self.extra[n] = (super::newton::envf("IDLE", IDLE) * k00 / diagonal[n]) as f32;
+            self.extra[n] = (IDLE * k00 / diagonal[n]) as f32;
             self.scale[n] = if active[n] { diagonal[n] as f32 } else { 0.0 };
         }
         self.set_weights(conductance, active);
@@ -137,14 +137,12 @@ impl Preconditioner {
             };
             let b = (position as usize).min(BINS - 2);
             let upper = (position - b as f64).clamp(0.0, 1.0) as f32;
+            // Beyond the last bin flow rules and the sweeps have solved it: what they leave must not
+            // leak into the contact through the transform.
             let fade = (last / conductance[n]).min(1.0);
-            let (fin, fout) = (
-                fade.powf(super::newton::envf("FIN", 1.0)) as f32,
-                fade.powf(super::newton::envf("FOUT", 1.0)) as f32,
-            );
-            self.scale[n] *= fin;
-            self.weights[b * n_all + n] = (1.0 - upper) * fout;
-            self.weights[(b + 1) * n_all + n] = upper * fout;
+            self.scale[n] *= fade as f32;
+            self.weights[b * n_all + n] = 1.0 - upper;
+            self.weights[(b + 1) * n_all + n] = upper;
         }
     }
 
@@ -153,12 +151,8 @@ impl Preconditioner {
         for line in &mut self.lines {
             line.fill(0.0);
         }
-        if super::newton::envf("NOLINE", 0.0) == 0.0 {
-            for _ in 0..super::newton::envf("SWEEPS", 1.0) as usize {
-                for parity in [0, 1, 0] {
-                    self.sweep(grid, r, parity);
-                }
-            }
+        for parity in [0, 1, 0] {
+            self.sweep(grid, r, parity);
         }
         let nx = grid.nx;
         for (j, row) in self.z1.chunks_exact_mut(nx).enumerate() {
@@ -169,11 +163,7 @@ impl Preconditioner {
         for ((rest, &r), &scale) in self.rest.iter_mut().zip(r).zip(&self.scale) {
             *rest = (r - *rest) * scale;
         }
-        if super::newton::envf("NOSYM", 0.0) > 0.0 {
-            z.fill(0.0);
-        } else {
-            self.filter.apply_weighted(&self.rest, &self.weights, z);
-        }
+        self.filter.apply_weighted(&self.rest, &self.weights, z);
         for (z, &z1) in z.iter_mut().zip(&self.z1) {
             *z += z1;
         }
@@ -199,7 +189,6 @@ impl Preconditioner {
                     return;
                 }
                 let (south, north) = (grid.row_below(j) / 2 * nx, j.div_ceil(2) * nx);
-                let north = if parity == 1 { half * nx + nx } else { north };
                 solve_line(
                     factor,
                     &r[j * nx..(j + 1) * nx],

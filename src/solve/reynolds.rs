@@ -76,7 +76,8 @@ pub struct Reynolds {
     pub diagonal: Vec<f64>,
     /// Mean conductance of a node's faces.
     pub conductance: Vec<f64>,
-    /// Scale of the linear rows.
+    /// Scale of the linear rows, √(D K00): between pressure and film units, so that the linear solve
+    /// serves the inlet (where D is large) and the contact alike.
     pub row_scale: Vec<f64>,
 }
 
@@ -131,12 +132,14 @@ impl Reynolds {
             .par_chunks_mut(nx)
             .zip(self.diagonal.par_chunks_mut(nx))
             .zip(self.conductance.par_chunks_mut(nx))
+            .zip(self.row_scale.par_chunks_mut(nx))
             .enumerate()
             .with_min_len(ROWS)
-            .for_each(|(j, ((f, d), t))| {
+            .for_each(|(j, (((f, d), t), scale))| {
                 f.fill(0.0);
                 d.fill(1.0);
                 t.fill(0.0);
+                scale.fill(1.0);
                 if !interior.contains(&j) {
                     return;
                 }
@@ -150,12 +153,13 @@ impl Reynolds {
                         + wy * (no * (p[north + i] - p[n]) + so * (p[south + i] - p[n]));
                     f[i] = nodes[n].rho * h[n] - c_star[n] - s[n] * flow;
                     d[i] = nodes[n].rho * k00 + s[n] * (wx * (e + w) + wy * (no + so));
+                    scale[i] = (d[i] * k00).sqrt();
                     t[i] = 0.25 * (e + w + no + so);
                 }
             });
     }
 
-    /// The derivative of F, rows divided by D; rows where `active` is false are zero.
+    /// The derivative of F, rows divided by `row_scale`; rows where `active` is false are zero.
     pub fn linearise(
         &self,
         grid: &Grid,
@@ -170,7 +174,7 @@ impl Reynolds {
         let nodes = &self.nodes;
         let (wx, wy) = (1.0 / (grid.dx * grid.dx), 1.0 / (grid.dy * grid.dy));
         let interior = grid.interior_rows();
-        let diagonal = &self.row_scale;
+        let row_scale = &self.row_scale;
         jacobian
             .rows
             .par_chunks_mut(nx)
@@ -188,7 +192,7 @@ impl Reynolds {
                         continue;
                     }
                     let around = [(n - 1, wx), (n + 1, wx), (south + i, wy), (north + i, wy)];
-                    let scale = 1.0 / diagonal[n];
+                    let scale = 1.0 / row_scale[n];
                     let mut a_p = [0.0_f64; 5];
                     let mut a_h = [0.0_f64; 5];
                     a_p[0] = nodes[n].rho_p * h[n];

@@ -1,0 +1,167 @@
+//! The command line's words.
+
+use std::path::PathBuf;
+
+use asperity::scene::presets;
+use clap::{Args, Parser, Subcommand};
+
+const ABOUT: &str =
+    "Explorer of rolling-sliding contact fatigue: rough lubricated contacts, stress, life";
+
+const LONG_ABOUT: &str = "\
+Explorer of rolling-sliding contact fatigue.
+
+Two rough bodies roll and slide on each other with oil between them. asperity marches pressure and film through
+time as the roughness of both bodies moves through the contact, computes traction and subsurface stress, counts
+stress cycles and gives a fatigue life relative to the smooth, frictionless contact in pure rolling.
+
+S = (U2 - U1)/U is the slide-to-roll ratio, U = (U1 + U2)/2 the entrainment speed; S > 0: body 1 is the slower.
+All numbers are in SI units, which are part of the keys' names.";
+
+const EXAMPLES: &str = "\
+Without a command: on a terminal the explorer on the default scene, recording to ./recordings/; otherwise one
+headless passage of it, written to ./asperity.rrd (replaced each time), with the summary on stdout.
+
+Examples:
+  asperity                                                 the explorer
+  asperity run                                             one headless run of the default scene
+  asperity run mtm_ball_on_disc --set motion.slide_roll=1  another scene, sliding at S = 1
+  asperity run --no-record --summary -                     results as JSON on stdout
+  asperity check twin_disc --set grid.nodes=257            what would be computed, and what it costs
+  asperity scenes                                          the scenes that come with the program
+  asperity scenes demonstration > mine.toml                a copy to edit, every key explained
+  asperity view demonstration.rrd                          the recording in the Rerun viewer
+
+Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not converge (they are named);
+3 it stalled; 4 an output failed.";
+
+/// The whole command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "asperity",
+    version,
+    about = ABOUT,
+    long_about = LONG_ABOUT,
+    after_long_help = EXAMPLES,
+    max_term_width = 110
+)]
+pub(crate) struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Open the explorer: the contact live, with knobs
+    Explore(RunArgs),
+    /// Run a scene without a screen
+    #[command(after_long_help = "\
+Examples:
+  asperity run --out passage.rrd --table passage.csv
+  asperity run --set load.hertz_pressure_pa=1.2e9 --set body_1.surface.kind=smooth
+  asperity run --set lubricant=none --passages 1 --no-record --summary dry.json")]
+    Run(RunArgs),
+    /// Print the plan: what is computed, what is left out and why, memory, estimated time
+    Check(SceneArgs),
+    /// List the scenes that come with the program, or print one as TOML with every key explained
+    Scenes {
+        /// Preset to print
+        name: Option<String>,
+    },
+    /// Open a recording in the Rerun viewer, or say how to get the viewer
+    View {
+        /// Recording, as written by run and explore
+        #[arg(value_name = "FILE.rrd")]
+        file: PathBuf,
+    },
+}
+
+/// Which scene.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArgs {
+    /// Preset (see `asperity scenes`) or TOML file
+    #[arg(default_value = presets::DEFAULT)]
+    pub(crate) scene: String,
+    /// Set a key of the scene, such as motion.slide_roll=0.5; none takes out a key or table. Repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) settings: Vec<String>,
+    /// Length of the run after the start-up, in lengths of 4 a at U (sets time.passages)
+    #[arg(long, value_name = "N")]
+    pub(crate) passages: Option<f64>,
+}
+
+/// How to run it and what to write.
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// Recording to write [default: ./SCENE.rrd, or ./recordings/ in the explorer]
+    #[arg(long, value_name = "FILE.rrd", conflicts_with = "no_record")]
+    pub(crate) out: Option<PathBuf>,
+    /// Table to write: every scalar of every step, as CSV
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) table: Option<PathBuf>,
+    /// Summary to write as JSON; - writes it to stdout in place of the text
+    #[arg(long, value_name = "FILE.json|-")]
+    pub(crate) summary: Option<PathBuf>,
+    /// Worker threads [default: all cores]; results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+    /// Write no recording
+    #[arg(long)]
+    pub(crate) no_record: bool,
+    /// Replace output files that exist
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+impl RunArgs {
+    /// What a bare `asperity` means on a terminal.
+    pub(crate) fn bare() -> Self {
+        Self {
+            scene: SceneArgs {
+                scene: presets::DEFAULT.to_owned(),
+                settings: Vec::new(),
+                passages: None,
+            },
+            out: None,
+            table: None,
+            summary: None,
+            threads: None,
+            no_record: false,
+            force: false,
+        }
+    }
+
+    /// What a bare `asperity` means elsewhere: one passage to a file that belongs to it.
+    pub(crate) fn bare_headless() -> Self {
+        let mut args = Self::bare();
+        args.scene.passages = Some(1.0);
+        if cfg!(feature = "rerun") {
+            args.out = Some(PathBuf::from("asperity.rrd"));
+        }
+        args.force = true;
+        args
+    }
+
+    /// Worker threads.
+    pub(crate) fn threads(&self) -> usize {
+        self.threads.map_or_else(
+            || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+            usize::from,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory as _;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,161 @@
+//! `asperity explore`: the session behind the live screen, and what the screen's keys do outside of it.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use asperity::observe::Overwrite;
+use asperity::run::{Activity, Ending, Request, Session, Status, Switch};
+use asperity::tui::{
+    Health, LeftOut, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
+};
+use miette::miette;
+
+use super::args::RunArgs;
+use super::failure::Failure;
+use super::outputs::{Outputs, Pace};
+use super::run::conclude;
+use super::scenes::{self, Prepared};
+use super::view;
+
+/// Opens the explorer and runs until the user quits.
+pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
+    let prepared = scenes::prepare(args)?;
+    let path = match &args.out {
+        Some(path) => path.clone(),
+        None => free_name(&prepared)?,
+    };
+    let mut outputs = Outputs::open(args, &prepared, &path, Pace::Live)?;
+    let recording = outputs.recording.clone();
+    let session = Session::start(Request {
+        name: prepared.name.clone(),
+        scene: prepared.scene.clone(),
+        plan: prepared.plan.clone(),
+        threads: args.threads(),
+        watchers: outputs.take_watchers(),
+        ending: Ending::OnStop,
+    })?;
+    let interrupt = Arc::new(AtomicBool::new(false));
+    let raised = Arc::clone(&interrupt);
+    ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))
+        .map_err(|error| Failure::stalled(miette!("signals cannot be watched: {error}")))?;
+    let shown = asperity::tui::explore(wiring(&prepared, &session, recording, interrupt));
+    session.send(asperity::run::Command::Stop);
+    let outcome = session.join()?;
+    let code = conclude(&prepared.scene, &outcome, outputs)?;
+    match shown {
+        Ok(()) => Ok(code),
+        Err(error @ TuiError::NoScreen { .. }) => Err(Failure::input(miette!("{error}"))),
+        Err(error) => Err(Failure::output(miette!("{error}"))),
+    }
+}
+
+fn wiring(
+    prepared: &Prepared,
+    session: &Session,
+    recording: Option<(PathBuf, Switch)>,
+    interrupt: Arc<AtomicBool>,
+) -> Wiring {
+    let plan = &prepared.plan;
+    let status = session.status_reader();
+    let recorded = recording.as_ref().map(|(path, _)| path.clone());
+    let shown = recorded.clone();
+    let name = prepared.name.clone();
+    Wiring {
+        scene: prepared.scene.clone(),
+        load_n: plan.force_n,
+        half_width_m: plan.hertz.a_m,
+        p_hertz_pa: plan.hertz.p_max_pa,
+        plan_text: plan.to_string(),
+        left_out: plan
+            .left_out
+            .iter()
+            .map(|item| LeftOut {
+                stage: item.stage.to_owned(),
+                reason: item.why.clone(),
+            })
+            .collect(),
+        frames: session.latest(),
+        commands: session.commands(),
+        status: Box::new(move || run_status(&status(), recorded.as_deref())),
+        interrupt,
+        toggle_recording: recording.map(|(_, switch)| {
+            Box::new(move || {
+                Ok(if switch.toggle() {
+                    "recording".to_owned()
+                } else {
+                    "recording paused".to_owned()
+                })
+            }) as _
+        }),
+        open_viewer: shown.map(|path| Box::new(move || open_viewer(&path)) as _),
+        save_scene: Some(Box::new(move |toml| save(&name, toml))),
+    }
+}
+
+fn run_status(status: &Status, recorded: Option<&Path>) -> RunStatus {
+    let name = recorded.map(|path| path.display().to_string());
+    let recorder = status
+        .outputs
+        .iter()
+        .find(|output| Some(&output.output) == name.as_ref())
+        .map(|output| RecorderState {
+            output: output.output.clone(),
+            activity: match output.activity {
+                Activity::On => RecorderActivity::Recording,
+                Activity::Off => RecorderActivity::Paused,
+                Activity::Failed => RecorderActivity::Stopped,
+            },
+            frames: output.frames,
+            skipped: 0,
+            bytes: std::fs::metadata(&output.output).map_or(0, |file| file.len()),
+        });
+    RunStatus {
+        health: match &status.failure {
+            Some(failure) => Health::Failed(failure.clone()),
+            None => Health::Running,
+        },
+        recorder,
+    }
+}
+
+fn open_viewer(path: &Path) -> Result<String, String> {
+    let mut command = view::command(path).map_err(|failure| failure.to_string())?;
+    command
+        .spawn()
+        .map(|_| format!("the viewer opens {}", path.display()))
+        .map_err(|error| format!("the viewer could not be started: {error}"))
+}
+
+/// Saves a scene beside the working directory's others, never over one.
+fn save(name: &str, toml: &str) -> Result<PathBuf, String> {
+    let path = numbered(Path::new("."), name, "toml").ok_or("no free file name")?;
+    Overwrite::Refuse
+        .create(&path)
+        .map_err(|error| error.to_string())
+        .and_then(|mut file| {
+            std::io::Write::write_all(&mut file, toml.as_bytes()).map_err(|error| error.to_string())
+        })?;
+    Ok(path)
+}
+
+/// A name in ./recordings/ that is not taken.
+fn free_name(prepared: &Prepared) -> Result<PathBuf, Failure> {
+    let folder = Path::new("recordings");
+    if prepared.plan.record.is_some() {
+        std::fs::create_dir_all(folder).map_err(|error| {
+            Failure::output(miette!(
+                help = "--out FILE.rrd records elsewhere, --no-record not at all",
+                "the folder ./recordings cannot be made: {error}"
+            ))
+        })?;
+    }
+    numbered(folder, &prepared.name, "rrd")
+        .ok_or_else(|| Failure::output(miette!("no free file name in ./recordings")))
+}
+
+fn numbered(folder: &Path, name: &str, extension: &str) -> Option<PathBuf> {
+    (1..100_000)
+        .map(|number| folder.join(format!("{name}-{number:03}.{extension}")))
+        .find(|path| !path.exists())
+}

@@ -1,0 +1,83 @@
+//! The command line. Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not
+//! converge; 3 it stalled; 4 an output failed.
+
+mod args;
+#[cfg(feature = "tui")]
+mod explore;
+mod failure;
+mod outputs;
+mod report;
+mod run;
+mod scenes;
+mod view;
+
+use std::io::IsTerminal as _;
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use args::{Cli, Command, RunArgs};
+use failure::Failure;
+
+/// Reads the command line and does what it says.
+pub(crate) fn main() -> ExitCode {
+    failure::install();
+    start_tracing();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version come this way too, with exit code 0; a closed pipe is no error.
+            let _ = error.print();
+            return ExitCode::from(u8::from(error.exit_code() != 0));
+        }
+    };
+    match dispatch(cli.command) {
+        Ok(code) => ExitCode::from(code),
+        Err(failure) => failure.report(),
+    }
+}
+
+fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
+    match command {
+        None => bare(),
+        Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Explore(args)) => explore(&args),
+        Some(Command::Check(args)) => scenes::check(&args),
+        Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+        Some(Command::View { file }) => view::view(&file),
+    }
+}
+
+/// Without a word: the explorer on a terminal, one recorded passage elsewhere.
+fn bare() -> Result<u8, Failure> {
+    let on_a_terminal = std::io::stdout().is_terminal() && std::io::stdin().is_terminal();
+    if on_a_terminal && cfg!(feature = "tui") {
+        explore(&RunArgs::bare())
+    } else {
+        run::run(&RunArgs::bare_headless())
+    }
+}
+
+#[cfg(feature = "tui")]
+fn explore(args: &RunArgs) -> Result<u8, Failure> {
+    explore::explore(args)
+}
+
+#[cfg(not(feature = "tui"))]
+fn explore(_args: &RunArgs) -> Result<u8, Failure> {
+    Err(Failure::input(miette::miette!(
+        help = "asperity run computes the same without a screen; a build with the default features has one",
+        "this program was built without the feature tui, so it has no explorer"
+    )))
+}
+
+/// Messages for developers, off unless `ASPERITY_LOG` asks for them (such as `ASPERITY_LOG=debug`).
+fn start_tracing() {
+    use tracing_subscriber::EnvFilter;
+    if std::env::var_os("ASPERITY_LOG").is_some() {
+        tracing_subscriber::fmt()
+            .with_env_filter(EnvFilter::from_env("ASPERITY_LOG"))
+            .with_writer(std::io::stderr)
+            .init();
+    }
+}

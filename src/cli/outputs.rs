@@ -1,0 +1,170 @@
+//! The files that a run writes, opened before it starts so that a bad path costs nothing.
+
+use std::fs::File;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use asperity::observe::{ObserveError, Overwrite, Table};
+use asperity::run::{Switch, Watcher};
+use asperity::sim::Summary;
+
+use super::args::RunArgs;
+use super::scenes::{Prepared, print};
+
+/// Who waits when the recorder is slower than the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pace {
+    /// The run: the file is complete.
+    Headless,
+    /// Nobody: frames are skipped and counted.
+    #[cfg_attr(not(feature = "tui"), expect(dead_code, reason = "the explorer's"))]
+    Live,
+}
+
+/// The outputs of one run.
+pub(crate) struct Outputs {
+    /// For the session.
+    pub(crate) watchers: Vec<Watcher>,
+    /// The recording and its switch.
+    #[cfg_attr(not(feature = "tui"), expect(dead_code, reason = "the explorer's"))]
+    pub(crate) recording: Option<(PathBuf, Switch)>,
+    summary: SummaryTo,
+}
+
+enum SummaryTo {
+    People,
+    Stdout,
+    File { path: PathBuf, file: File },
+}
+
+impl Outputs {
+    /// Opens everything. `recording` is where the recording goes, if the plan has one.
+    pub(crate) fn open(
+        args: &RunArgs,
+        prepared: &Prepared,
+        recording: &Path,
+        pace: Pace,
+    ) -> Result<Self, ObserveError> {
+        let overwrite = if args.force {
+            Overwrite::Replace
+        } else {
+            Overwrite::Refuse
+        };
+        let mut outputs = Self {
+            watchers: Vec::new(),
+            recording: None,
+            summary: SummaryTo::open(args.summary.as_deref(), overwrite)?,
+        };
+        outputs.open_recording(prepared, recording, overwrite, pace)?;
+        if let Some(path) = &args.table {
+            let table = Table::create(path, overwrite)?;
+            let name = path.display().to_string();
+            outputs
+                .watchers
+                .push(Watcher::new(name, Box::new(table), 1));
+        }
+        Ok(outputs)
+    }
+
+    #[cfg(feature = "rerun")]
+    fn open_recording(
+        &mut self,
+        prepared: &Prepared,
+        path: &Path,
+        overwrite: Overwrite,
+        pace: Pace,
+    ) -> Result<(), ObserveError> {
+        use asperity::observe::rerun::Recorder;
+        use asperity::observe::{Queue, WhenFull};
+        /// Frames that may wait: some MB, a few hundredths of a second.
+        const WAITING: usize = 8;
+        let Some(record) = &prepared.scene.record else {
+            return Ok(());
+        };
+        let recorder = Recorder::create(path, overwrite, record)?;
+        let when_full = match pace {
+            Pace::Headless => WhenFull::Wait,
+            Pace::Live => WhenFull::Skip,
+        };
+        let queue = Queue::spawn("record", WAITING, when_full, Box::new(recorder))?;
+        let name = path.display().to_string();
+        // Every step goes to it: it thins fields itself, by what the file has grown to.
+        let watcher = Watcher::new(name, Box::new(queue), 1);
+        self.recording = Some((path.to_owned(), watcher.switch()));
+        self.watchers.push(watcher);
+        Ok(())
+    }
+
+    #[cfg(not(feature = "rerun"))]
+    #[expect(
+        clippy::unused_self,
+        clippy::unnecessary_wraps,
+        reason = "same form as with the feature rerun"
+    )]
+    fn open_recording(
+        &mut self,
+        _prepared: &Prepared,
+        _path: &Path,
+        _overwrite: Overwrite,
+        _pace: Pace,
+    ) -> Result<(), ObserveError> {
+        Ok(())
+    }
+
+    /// Writes the summary where it was asked for. `people` is the text for a reader.
+    pub(crate) fn write_summary(
+        self,
+        summary: Option<&Summary>,
+        people: &str,
+    ) -> Result<(), ObserveError> {
+        self.summary.write(summary, people)
+    }
+
+    /// Splits the watchers, which go to the session, from the rest.
+    pub(crate) fn take_watchers(&mut self) -> Vec<Watcher> {
+        std::mem::take(&mut self.watchers)
+    }
+}
+
+impl SummaryTo {
+    fn open(path: Option<&Path>, overwrite: Overwrite) -> Result<Self, ObserveError> {
+        match path {
+            None => Ok(Self::People),
+            Some(path) if path.as_os_str() == "-" => Ok(Self::Stdout),
+            Some(path) => Ok(Self::File {
+                path: path.to_owned(),
+                file: overwrite.create(path)?,
+            }),
+        }
+    }
+
+    fn write(self, summary: Option<&Summary>, people: &str) -> Result<(), ObserveError> {
+        let json = |summary: &Summary| {
+            serde_json::to_string_pretty(summary)
+                .map(|text| text + "\n")
+                .map_err(|error| ObserveError::new("summary", error.to_string()))
+        };
+        match self {
+            Self::People => print(people),
+            Self::Stdout => {
+                if let Some(summary) = summary {
+                    print(&json(summary)?);
+                }
+            }
+            Self::File { path, mut file } => {
+                print(people);
+                if let Some(summary) = summary {
+                    file.write_all(json(summary)?.as_bytes())
+                        .and_then(|()| file.sync_all())
+                        .map_err(|error| {
+                            ObserveError::new(
+                                path.display().to_string(),
+                                format!("the summary could not be written: {error}"),
+                            )
+                        })?;
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,170 @@
+//! The summary for people: what came out, with units, and what to mistrust.
+
+use std::fmt::Write as _;
+
+use asperity::run::{End, Outcome};
+use asperity::scene::Scene;
+use asperity::sim::Summary;
+
+/// The outcome as text.
+pub(crate) fn text(scene: &Scene, outcome: &Outcome) -> String {
+    let mut text = String::new();
+    if !scene.title.is_empty() {
+        text.push_str(&scene.title);
+        text.push_str("\n\n");
+    }
+    if let Some(summary) = &outcome.summary {
+        line(&mut text, "run", &run_line(outcome));
+        push_results(&mut text, summary);
+    }
+    for report in &outcome.reports {
+        let skipped = if report.skipped > 0 {
+            format!(", {} skipped", report.skipped)
+        } else {
+            String::new()
+        };
+        let size = if report.bytes > 0 {
+            format!(", {:.1} MB", report.bytes as f64 * 1e-6)
+        } else {
+            String::new()
+        };
+        let what = format!(
+            "{} ({} frames{skipped}{size})",
+            report.output, report.frames
+        );
+        line(&mut text, "written", &what);
+    }
+    text
+}
+
+fn run_line(outcome: &Outcome) -> String {
+    let how = match (&outcome.end, outcome.n_unconverged) {
+        (End::Stalled(_), _) => "stalled".to_owned(),
+        (End::Stopped, 0) => "stopped by the user, converged".to_owned(),
+        (_, 0) => "converged".to_owned(),
+        (_, n) => format!("{n} steps did not converge"),
+    };
+    format!("{how}; {} steps in {:.1} s", outcome.steps, outcome.wall_s)
+}
+
+fn push_results(text: &mut String, s: &Summary) {
+    let contact = format!(
+        "a {:.1} um, Hertz pressure {:.3} GPa, load {:.1} N",
+        s.a_m * 1e6,
+        s.p_hertz_pa * 1e-9,
+        s.load_n
+    );
+    line(text, "contact", &contact);
+    let pressure = format!(
+        "greatest {:.3} GPa = {:.2} of Hertz",
+        s.p_max_pa * 1e-9,
+        s.p_max_pa / s.p_hertz_pa
+    );
+    line(text, "pressure", &pressure);
+    let film = format!(
+        "central {:.1} nm, least {:.1} nm; {:.2} % of the Hertz ellipse touches",
+        s.h_central_m * 1e9,
+        s.h_min_m * 1e9,
+        s.contact_ratio * 100.0
+    );
+    line(text, "film", &film);
+    line(
+        text,
+        "friction",
+        &format!("coefficient {:.4}", s.friction_coefficient),
+    );
+    if s.n_body_1.is_some() || s.n_body_2.is_some() {
+        let cycles = format!(
+            "a passage of body 1: {}; of body 2: {}",
+            cycles(s.n_body_1, s.n_counted_body_1),
+            cycles(s.n_body_2, s.n_counted_body_2)
+        );
+        line(text, "cycles", &cycles);
+    }
+    if let (Some(stress), Some(depth), Some(x)) = (
+        s.sigma_eff_max_pa,
+        s.sigma_eff_max_depth_m,
+        s.sigma_eff_max_x_m,
+    ) {
+        let stress = format!(
+            "greatest effective {:.3} GPa, {:.1} um deep at x = {:.1} um",
+            stress * 1e-9,
+            depth * 1e6,
+            x * 1e6
+        );
+        line(text, "stress", &stress);
+    }
+    push_life(text, s);
+    let errors = format!("load {:.1e}, mass {:.1e}", s.load_error, s.mass_error);
+    line(text, "errors", &errors);
+}
+
+fn push_life(text: &mut String, s: &Summary) {
+    let Some(life) = s.life_relative else {
+        return;
+    };
+    let band = match (s.life_relative_low, s.life_relative_high) {
+        (Some(low), Some(high)) => format!(" ({low:.3} to {high:.3})"),
+        _ => String::new(),
+    };
+    let factors = match (s.cycle_factor, s.peak_factor, s.traction_factor) {
+        (Some(cycles), Some(peaks), Some(traction)) => {
+            format!(" = cycles {cycles:.3} x peaks {peaks:.3} x traction {traction:.3}")
+        }
+        _ => String::new(),
+    };
+    line(text, "relative life", &format!("{life:.4}{band}{factors}"));
+    line(
+        text,
+        "",
+        "against the smooth, frictionless contact at S = 0 of the same load and geometry;",
+    );
+    line(
+        text,
+        "",
+        "no wear, isothermal, elastic, initiation only; c and e are assumptions",
+    );
+}
+
+fn cycles(formula: Option<f64>, counted: Option<f64>) -> String {
+    let formula = formula.map_or_else(|| "never ends".to_owned(), |n| format!("{n:.2}"));
+    match counted {
+        Some(counted) => format!("{formula} (counted {counted:.2})"),
+        None => formula,
+    }
+}
+
+fn line(text: &mut String, name: &str, what: &str) {
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{name:<14} {what}");
+}
+
+/// What went wrong, for stderr; empty when nothing did.
+pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {
+    const NAMED: usize = 5;
+    let mut list = Vec::new();
+    match &outcome.end {
+        End::Stalled(error) => list.push(format!("stalled: {error}")),
+        End::NotStarted(error) => list.push(error.to_string()),
+        End::Stopped | End::Done | End::OutputFailed => {}
+    }
+    if outcome.summary.is_none() {
+        list.push("it ended before the passage began, so there are no results".to_owned());
+    }
+    for step in outcome.unconverged.iter().take(NAMED) {
+        list.push(format!(
+            "step {} at t = {:.4e} s did not converge: residual {:.2e}",
+            step.step, step.time_s, step.residual
+        ));
+    }
+    if outcome.n_unconverged > NAMED as u64 {
+        list.push(format!(
+            "and {} more steps did not converge",
+            outcome.n_unconverged - NAMED as u64
+        ));
+    }
+    for error in &outcome.output_errors {
+        list.push(format!("output failed: {error}"));
+    }
+    list
+}

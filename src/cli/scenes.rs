@@ -1,0 +1,91 @@
+//! `asperity scenes` and `asperity check`, and how the other commands get their scene.
+
+use std::io::Write as _;
+use std::sync::Arc;
+
+use asperity::plan::Plan;
+use asperity::scene::{Override, Record, Scene, SceneError, presets};
+
+use super::args::{RunArgs, SceneArgs};
+use super::failure::Failure;
+
+/// A scene and its plan.
+pub(crate) struct Prepared {
+    /// Name for files and the summary.
+    pub(crate) name: String,
+    pub(crate) scene: Arc<Scene>,
+    pub(crate) plan: Plan,
+}
+
+/// Reads the scene with what was set on the command line.
+fn load(args: &SceneArgs) -> Result<Scene, SceneError> {
+    let mut overrides = args
+        .settings
+        .iter()
+        .map(|text| text.parse())
+        .collect::<Result<Vec<Override>, _>>()?;
+    if let Some(passages) = args.passages {
+        overrides.push(Override::number("time.passages", passages)?);
+    }
+    Scene::load_with(&args.scene, &overrides)
+}
+
+/// The scene to run, with a recording only if there will be one, and its plan.
+pub(crate) fn prepare(args: &RunArgs) -> Result<Prepared, Failure> {
+    let mut scene = load(&args.scene)?;
+    if args.no_record || !cfg!(feature = "rerun") {
+        scene.record = None;
+    } else if args.out.is_some() && scene.record.is_none() {
+        scene.record = Some(Record::default());
+    }
+    let plan = Plan::new(&scene)?;
+    let name = std::path::Path::new(&args.scene.scene)
+        .file_stem()
+        .map_or_else(
+            || "scene".to_owned(),
+            |stem| stem.to_string_lossy().into_owned(),
+        );
+    Ok(Prepared {
+        name,
+        scene: Arc::new(scene),
+        plan,
+    })
+}
+
+/// Prints the plan.
+pub(crate) fn check(args: &SceneArgs) -> Result<u8, Failure> {
+    let plan = Plan::new(&load(args)?)?;
+    print(&plan.to_string());
+    Ok(0)
+}
+
+/// Lists the presets, or prints one.
+pub(crate) fn scenes(name: Option<&str>) -> Result<u8, Failure> {
+    if let Some(name) = name {
+        print(&Scene::load(name)?.to_toml());
+        return Ok(0);
+    }
+    let width = presets::all().iter().map(|preset| preset.name.len()).max();
+    let mut text = String::new();
+    for preset in presets::all() {
+        let scene = Scene::load(preset.name)?;
+        let line = format!(
+            "{:width$}  {}\n",
+            preset.name,
+            scene.title,
+            width = width.unwrap_or(0)
+        );
+        text.push_str(&line);
+    }
+    text.push_str(
+        "\nasperity scenes NAME prints one as TOML, every key explained: a copy to edit.\n",
+    );
+    print(&text);
+    Ok(0)
+}
+
+/// Writes to stdout; a reader that has gone away (`| head`) is no error.
+pub(crate) fn print(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}

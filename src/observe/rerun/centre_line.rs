@@ -1,0 +1,119 @@
+//! The classic figure of lubrication: pressure and film along y = 0, Hertz's pressure behind them.
+
+use rerun::{LineStrips2D, Radius};
+
+use super::colour::{GREY, ORANGE, SKY, faded};
+use super::geometry::{Geometry, MM, divisions, ticks};
+use super::maps::GPA;
+use super::plot::{PlotBox, points, ticks_at};
+use super::stream::Stream;
+use crate::observe::ObserveError;
+use crate::sim::Frame;
+
+pub(super) const CENTRE_LINE: &str = "centre_line_y0";
+const UM: f64 = 1e6;
+
+/// The figure.
+pub(super) struct CentreLine {
+    geometry: Geometry,
+    plot: PlotBox,
+    pressure_top_pa: f64,
+    film_top_m: f64,
+    hertz: Option<[f64; 2]>,
+}
+
+impl CentreLine {
+    /// Sets up the axes for the ranges of the maps.
+    pub(super) fn new(
+        stream: &Stream,
+        geometry: Geometry,
+        pressure_top_pa: f64,
+        film_top_m: f64,
+    ) -> Result<Self, ObserveError> {
+        let x = [geometry.x_min, geometry.x_max()];
+        let height = 0.72 * (x[1] - x[0]);
+        let up = |top: f64| move |value: f64| -height * value / top;
+        let (p_top, h_top) = (pressure_top_pa * GPA.1, film_top_m * UM);
+        let plot = PlotBox {
+            x,
+            y: [-height, 0.0],
+            x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
+            left_ticks: ticks_at(&divisions(p_top), up(p_top)),
+            right_ticks: ticks_at(&divisions(h_top), up(h_top)),
+            x_title: "x, mm   (grey: Hertz)".into(),
+            titles: vec![(0.1, "p, GPa".into(), ORANGE), (0.9, "h, µm".into(), SKY)],
+            left_colour: Some(ORANGE),
+            right_colour: Some(SKY),
+        };
+        plot.log(stream, &format!("{CENTRE_LINE}/axes"))?;
+        Ok(Self {
+            geometry,
+            plot,
+            pressure_top_pa,
+            film_top_m,
+            hertz: None,
+        })
+    }
+
+    pub(super) fn plot(&self) -> &PlotBox {
+        &self.plot
+    }
+
+    /// Logs one frame's curves; returns the bytes.
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+        let g = self.geometry;
+        let row = g.centre_row() * g.nx..(g.centre_row() + 1) * g.nx;
+        self.log_hertz(stream, frame)?;
+        let pressure = self.curves(&frame.pressure_pa[row.clone()], self.pressure_top_pa);
+        stream.log(
+            &format!("{CENTRE_LINE}/pressure_GPa"),
+            &line(&pressure, ORANGE, 1.5),
+        )?;
+        let film = self.curves(&frame.film_m[row], self.film_top_m);
+        stream.log(&format!("{CENTRE_LINE}/film_um"), &line(&film, SKY, 1.5))?;
+        Ok(16 * g.nx as u64)
+    }
+
+    /// Hertz's ellipse, logged when the load has changed.
+    fn log_hertz(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        let now = [frame.a_m, frame.p_hertz_pa];
+        if self.hertz == Some(now) {
+            return Ok(());
+        }
+        self.hertz = Some(now);
+        let a = frame.a_m * MM;
+        let strip: Vec<[f64; 2]> = (0..=128)
+            .map(|k| -1.0 + f64::from(k) / 64.0)
+            .map(|t| [t * a, frame.p_hertz_pa * (1.0 - t * t).max(0.0).sqrt()])
+            .map(|[x, p]| [x, self.plot.y[0] * p / self.pressure_top_pa])
+            .collect();
+        let hertz = line(&[points(&strip)], GREY, 1.0);
+        stream.log(&format!("{CENTRE_LINE}/hertz_pressure_GPa"), &hertz)
+    }
+
+    /// The parts of a curve that lie inside the axes; what is above them is left out, not bent.
+    fn curves(&self, values: &[f32], top: f64) -> Vec<Vec<[f32; 2]>> {
+        let height = self.plot.y[0];
+        let mut parts = Vec::new();
+        let mut part: Vec<[f32; 2]> = Vec::new();
+        for (i, &value) in values.iter().enumerate() {
+            let share = f64::from(value) / top;
+            if share <= 1.0 {
+                part.push([self.geometry.x(i) as f32, (height * share) as f32]);
+            } else if !part.is_empty() {
+                parts.push(std::mem::take(&mut part));
+            }
+        }
+        parts.push(part);
+        parts.retain(|part| part.len() > 1);
+        parts
+    }
+}
+
+/// Lines of one colour, so many points wide.
+pub(super) fn line(strips: &[Vec<[f32; 2]>], colour: [u8; 3], radius: f32) -> LineStrips2D {
+    LineStrips2D::new(strips.iter().cloned())
+        .with_colors([faded(colour, 255)])
+        .with_radii([Radius::new_ui_points(radius)])
+        .with_draw_order(12.0)
+}

@@ -1,0 +1,126 @@
+//! The kymograph: pressure along y = 0 from left to right, time downwards. Roughness of body 1 and
+//! of body 2 draw stripes of different slopes (their speeds); where they cross, peaks flash.
+//!
+//! The picture grows with the run and is written anew a few times while it does (its last state at
+//! the end), so its cost stays a small part of the file.
+
+use rerun::components::Colormap;
+
+use super::colour::WHITE;
+use super::geometry::{Geometry, number, ticks};
+use super::maps::GPA;
+use super::plot::{PlotBox, ticks_at};
+use super::raster::{Pixels, Raster, Scale, Sign};
+use super::stream::Stream;
+use crate::observe::ObserveError;
+use crate::sim::Frame;
+
+pub(super) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
+/// Most rows of the picture; longer runs keep every 2nd, 3rd, … step.
+const ROWS: usize = 512;
+
+/// The kymograph of the pressure.
+pub(super) struct Kymograph {
+    geometry: Geometry,
+    raster: Raster,
+    plot: PlotBox,
+    values: Vec<f32>,
+    rows: usize,
+    rows_logged: usize,
+    expected_rows: usize,
+    every: u64,
+    first_step: Option<u64>,
+}
+
+impl Kymograph {
+    /// Sets up the picture for so many steps.
+    pub(super) fn new(
+        stream: &Stream,
+        geometry: Geometry,
+        pressure_top_pa: f64,
+        expected_steps: f64,
+        step_s: f64,
+    ) -> Result<Self, ObserveError> {
+        let steps = expected_steps.clamp(1.0, 1e6).ceil() as usize;
+        let every = steps.div_ceil(ROWS).max(1);
+        let rows = steps.div_ceil(every).max(2);
+        let scale = Scale::up_to(
+            pressure_top_pa * 0.999,
+            GPA,
+            Sign::Positive,
+            Colormap::Inferno,
+            8.0,
+        );
+        let x = [geometry.x_min, geometry.x_max()];
+        let height = 0.9 * (x[1] - x[0]);
+        let row_height = height / rows as f64;
+        let span_ms = step_s * 1e3 * (rows * every) as f64;
+        let plot = PlotBox {
+            x,
+            y: [0.0, height],
+            x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
+            left_ticks: ticks_at(&ticks(0.0, span_ms, 5), |t| height * t / span_ms),
+            x_title: format!(
+                "x, mm   (a = {} mm)",
+                number((geometry.a * 1e4).round() / 1e4)
+            ),
+            titles: vec![(0.1, "time, ms".into(), WHITE)],
+            ..PlotBox::default()
+        };
+        let pixels = Pixels {
+            columns: geometry.nx,
+            rows,
+            first: [geometry.x_min, 0.5 * row_height],
+            size: [geometry.dx, row_height],
+        };
+        Ok(Self {
+            geometry,
+            raster: Raster::new(stream, PRESSURE, scale, pixels, &plot, "p, GPa")?,
+            plot,
+            values: vec![0.0; geometry.nx * rows],
+            rows: 0,
+            rows_logged: 0,
+            expected_rows: rows,
+            every: every as u64,
+            first_step: None,
+        })
+    }
+
+    pub(super) fn plot(&self) -> &PlotBox {
+        &self.plot
+    }
+
+    /// Takes up a step. Rows of steps that were not handed to the recording repeat the next one
+    /// that was.
+    pub(super) fn follow(&mut self, frame: &Frame) {
+        let first = *self.first_step.get_or_insert(frame.step);
+        let row = frame.step.saturating_sub(first) / self.every;
+        let rows = usize::try_from(row).map_or(usize::MAX, |row| row.saturating_add(1));
+        if rows > self.expected_rows || rows <= self.rows {
+            return;
+        }
+        let nx = self.geometry.nx;
+        let from = self.geometry.centre_row() * nx;
+        let pressures = &frame.pressure_pa[from..from + nx];
+        for row in self.values[self.rows * nx..rows * nx].chunks_exact_mut(nx) {
+            row.copy_from_slice(pressures);
+        }
+        self.rows = rows;
+    }
+
+    /// Logs the picture when an eighth has been added; returns the bytes.
+    pub(super) fn log_if_due(&mut self, stream: &Stream) -> Result<u64, ObserveError> {
+        let due = self.rows >= self.rows_logged + self.expected_rows.div_ceil(8)
+            || (self.rows == self.expected_rows && self.rows > self.rows_logged);
+        if due { self.log(stream) } else { Ok(0) }
+    }
+
+    /// Logs the picture as it is now; returns the bytes.
+    pub(super) fn log(&mut self, stream: &Stream) -> Result<u64, ObserveError> {
+        if self.rows == self.rows_logged {
+            return Ok(0);
+        }
+        self.rows_logged = self.rows;
+        self.raster.log(stream, self.values.iter().copied())
+    }
+}

@@ -1,0 +1,409 @@
+//! The layout in the file: tabs, views, cameras, ranges.
+//!
+//! The library writes containers and views but no properties of views (camera, bounds, background).
+//! So the layout is first sent into memory, the properties are logged after it under
+//! `view/<id>/<Property>`, and the lot is sent to the recording. That path is a convention of the
+//! viewer and not of its interface: `tests/screenshots` shows whether it still holds.
+
+use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
+use rerun::blueprint::components::{
+    BackgroundKind, Corner2D, Enabled, LoopMode, PanelState, PlayState, VisualBounds2D as Bounds,
+};
+use rerun::blueprint::{
+    Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Grid, Horizontal,
+    SelectionPanel, Spatial2DView, Spatial3DView, Tabs, TextDocumentView, TextLogView, TimePanel,
+    TimeSeriesView, Vertical,
+};
+use rerun::datatypes::{Range1D, Range2D};
+use rerun::external::re_sdk_types::blueprint::archetypes::{
+    Background, EyeControls3D, LineGrid3D, PlotLegend, TextDocumentFormat, VisualBounds2D,
+};
+use rerun::{AsComponents, Color, RecordingStream, RecordingStreamBuilder};
+
+use super::centre_line::CENTRE_LINE;
+use super::colour::BACKGROUND;
+use super::interferogram::INTERFEROGRAM;
+use super::kymograph;
+use super::maps;
+use super::plot::{Margin, PlotBox};
+use super::slice;
+use super::space::SPACE;
+use super::stream::{APPLICATION, STEP, Stream};
+use super::text;
+use super::trace::TRACE;
+use crate::observe::ObserveError;
+
+/// What the first frame tells the layout.
+pub(super) struct Shown {
+    pub(super) map: PlotBox,
+    pub(super) interferogram: PlotBox,
+    pub(super) centre_line: PlotBox,
+    pub(super) slice: Option<PlotBox>,
+    pub(super) trace: Option<PlotBox>,
+    pub(super) kymograph: PlotBox,
+    /// Target and position of the camera.
+    pub(super) camera: Option<[[f64; 3]; 2]>,
+    pub(super) rough: [bool; 2],
+    pub(super) life: bool,
+}
+
+/// A property of a view and the path it goes to.
+struct Property {
+    path: String,
+    value: Box<dyn AsComponents>,
+}
+
+/// Views under construction, with their properties.
+#[derive(Default)]
+struct Views {
+    properties: Vec<Property>,
+}
+
+impl Views {
+    /// Notes a property of a view that has just been made.
+    fn set(&mut self, view: &ContainerLike, name: &str, value: impl AsComponents + 'static) {
+        if let ContainerLike::View(view) = view {
+            self.properties.push(Property {
+                path: format!("{}/{name}", view.blueprint_path()),
+                value: Box::new(value),
+            });
+        }
+    }
+
+    /// A view of a plot: its own entity, what is drawn over it, and bounds with room for the axes.
+    fn plot(
+        &mut self,
+        name: &str,
+        contents: &[&str],
+        plot: &PlotBox,
+        right: Margin,
+    ) -> ContainerLike {
+        let contents = contents.iter().map(|entity| format!("/{entity}/**"));
+        let view = Spatial2DView::new(name)
+            .with_origin("/")
+            .with_contents(contents)
+            .into();
+        let [x, y] = plot.bounds(right);
+        let range = Range2D {
+            x_range: Range1D(x),
+            y_range: Range1D(y),
+        };
+        self.set(&view, "VisualBounds2D", VisualBounds2D::new(Bounds(range)));
+        view
+    }
+
+    fn map(&mut self, name: &str, entity: &str, over: &[&str], plot: &PlotBox) -> ContainerLike {
+        let mut contents = vec![entity, maps::HERTZ];
+        contents.extend_from_slice(over);
+        self.plot(name, &contents, plot, Margin::Legend)
+    }
+
+    fn space(&mut self, name: &str, [target, eye]: [[f64; 3]; 2]) -> ContainerLike {
+        let view = Spatial3DView::new(name)
+            .with_origin(format!("/{SPACE}"))
+            .into();
+        let controls = EyeControls3D::new()
+            .with_position(eye.map(|v| v as f32))
+            .with_look_target(target.map(|v| v as f32))
+            .with_eye_up([0.0_f32, 0.0, 1.0]);
+        self.set(&view, "EyeControls3D", controls);
+        let background =
+            Background::new(BackgroundKind::SolidColor).with_color(Color::from(BACKGROUND));
+        self.set(&view, "Background", background);
+        self.set(&view, "LineGrid3D", LineGrid3D::new().with_visible(false));
+        view
+    }
+
+    fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
+        let contents = entities.iter().map(|entity| format!("/{entity}/**"));
+        let view = TimeSeriesView::new(name)
+            .with_origin("/")
+            .with_contents(contents)
+            .into();
+        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
+        self.set(&view, "PlotLegend", legend);
+        view
+    }
+
+    fn document(&mut self, name: &str, entity: &str) -> ContainerLike {
+        let view = TextDocumentView::new(name)
+            .with_origin(format!("/{entity}"))
+            .into();
+        let format = TextDocumentFormat::new().with_monospace(Enabled::from(true));
+        self.set(&view, "TextDocumentFormat", format);
+        view
+    }
+}
+
+/// Sends the layout to a recording.
+pub(super) fn send(stream: &Stream, shown: &Shown) -> Result<(), ObserveError> {
+    let mut views = Views::default();
+    let tabs = tabs(&mut views, shown);
+    let time = TimePanel::new()
+        .with_state(PanelState::Collapsed)
+        .with_timeline(STEP)
+        .with_play_state(PlayState::Following)
+        .with_loop_mode(LoopMode::All)
+        .with_fps(15.0);
+    let blueprint = Blueprint::new(Tabs::new(tabs))
+        .with_auto_layout(false)
+        .with_auto_views(false)
+        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
+        .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
+        .with_time_panel(time);
+    send_with(stream.recording(), &blueprint, &views.properties).map_err(|error| {
+        ObserveError::new(
+            stream.output(),
+            format!("its layout could not be made: {error}"),
+        )
+    })
+}
+
+fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
+    let mut tabs = vec![contact_tab(views, shown), maps_tab(views, shown)];
+    if shown.trace.is_some() {
+        tabs.push(point_tab(views, shown));
+    }
+    if shown.life {
+        tabs.push(life_tab(views));
+    }
+    tabs.push(convergence_tab(views));
+    tabs.push(scene_tab(views));
+    tabs
+}
+
+fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+    let mut upper = Vec::new();
+    let mut shares = Vec::new();
+    if let Some(camera) = shown.camera {
+        upper.push(views.space("Contact cut open at y = 0", camera));
+        shares.push(1.25);
+    }
+    upper.push(views.map("Pressure", maps::PRESSURE, &[], &shown.map));
+    upper.push(views.map(
+        "Film (cyan: contact, dark: above the range)",
+        maps::FILM,
+        &[maps::CONTACT],
+        &shown.map,
+    ));
+    shares.extend([1.0, 1.0]);
+    let mut lower = vec![views.document("Now", text::NOW)];
+    let mut lower_shares = vec![0.75];
+    if let Some(plot) = &shown.slice {
+        let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT];
+        lower.push(views.plot(
+            "Effective stress below body 1",
+            &contents,
+            plot,
+            Margin::Legend,
+        ));
+        lower_shares.push(1.0);
+    }
+    lower.push(views.plot(
+        "Centre line: pressure and film",
+        &[CENTRE_LINE],
+        &shown.centre_line,
+        Margin::Ticks,
+    ));
+    lower_shares.push(1.0);
+    let last = if shown.life {
+        let view = views.series(
+            "Relative life, log10 (grey: band)",
+            &["life/log10_relative"],
+        );
+        // The title says it, and the curves need the room.
+        views.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+        view
+    } else {
+        views.series("Pressure", &["series/pressure_GPa"])
+    };
+    lower.push(last);
+    lower_shares.push(0.7);
+    Vertical::new([
+        Horizontal::new(upper).with_column_shares(shares).into(),
+        Horizontal::new(lower)
+            .with_column_shares(lower_shares)
+            .into(),
+    ])
+    .with_row_shares(vec![1.1, 1.0])
+    .with_name("Contact")
+    .into()
+}
+
+fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+    let map = &shown.map;
+    let mut all = vec![
+        views.map(
+            "Film as an interferogram",
+            INTERFEROGRAM,
+            &[],
+            &shown.interferogram,
+        ),
+        views.map("Shear traction on body 1", maps::TRACTION, &[], map),
+    ];
+    for (rough, name, entity) in [
+        (shown.rough[0], "Roughness of body 1", maps::ROUGHNESS_1),
+        (shown.rough[1], "Roughness of body 2", maps::ROUGHNESS_2),
+    ] {
+        if rough {
+            all.push(views.map(name, entity, &[], map));
+        }
+    }
+    if let Some(plot) = &shown.slice {
+        all.push(views.plot(
+            "Orthogonal shear stress",
+            &[slice::TAU_XZ],
+            plot,
+            Margin::Legend,
+        ));
+    }
+    all.push(views.plot(
+        "Pressure along y = 0 against time",
+        &[kymograph::PRESSURE],
+        &shown.kymograph,
+        Margin::Legend,
+    ));
+    Grid::new(all).with_grid_columns(3).with_name("Maps").into()
+}
+
+fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+    let mut upper = Vec::new();
+    if let Some(plot) = &shown.trace {
+        upper.push(views.plot(
+            "What the followed point has felt",
+            &[TRACE],
+            plot,
+            Margin::Plain,
+        ));
+    }
+    if let Some(plot) = &shown.slice {
+        let contents = [slice::EFFECTIVE, slice::POINT];
+        upper.push(views.plot("Where it is", &contents, plot, Margin::Legend));
+    }
+    let lower = vec![
+        views.series(
+            "Stress at the point against time, GPa",
+            &["material_point/stress_GPa"],
+        ),
+        views.series("Cycles in this crossing", &["material_point/cycles"]),
+        views.series("Where it is, mm", &["material_point/position_mm"]),
+    ];
+    let shares = if upper.len() > 1 {
+        vec![1.6, 1.0]
+    } else {
+        vec![1.0]
+    };
+    Vertical::new([
+        Horizontal::new(upper).with_column_shares(shares).into(),
+        Horizontal::new(lower).into(),
+    ])
+    .with_row_shares(vec![1.3, 1.0])
+    .with_name("Material point")
+    .into()
+}
+
+fn life_tab(views: &mut Views) -> ContainerLike {
+    let left = Vertical::new([
+        views.series(
+            "Relative life, log10 (grey: band)",
+            &["life/log10_relative"],
+        ),
+        views.series("Its factors, log10 (they add up)", &["life/log10_factors"]),
+    ]);
+    let middle = Vertical::new([
+        views.series(
+            "Contacts per loading cycle, n",
+            &["life/contacts_per_cycle"],
+        ),
+        views.series("Greatest effective stress, GPa", &["series/stress_GPa"]),
+    ]);
+    let right = Vertical::new([
+        views.document("Now", text::NOW),
+        views.series("Slide-to-roll ratio and speed", &["series/motion"]),
+    ]);
+    Horizontal::new([left.into(), middle.into(), right.into()])
+        .with_column_shares(vec![1.2, 1.0, 0.8])
+        .with_name("Life")
+        .into()
+}
+
+fn convergence_tab(views: &mut Views) -> ContainerLike {
+    Grid::new([
+        views.series("Errors, log10", &["convergence/log10_errors"]),
+        views.series("Iterations", &["convergence/iterations"]),
+        views.series("Pressure, GPa", &["series/pressure_GPa"]),
+        views.series("Film, µm", &["series/film_um"]),
+        views.series("Contact, %", &["series/contact_percent"]),
+        views.series("Friction coefficient", &["series/friction"]),
+        views.series("Load, N", &["series/load_N"]),
+        views.series("λ ratio", &["series/lambda_ratio"]),
+        TextLogView::new("Log").with_origin("/log").into(),
+    ])
+    .with_grid_columns(3)
+    .with_name("Convergence")
+    .into()
+}
+
+fn scene_tab(views: &mut Views) -> ContainerLike {
+    Horizontal::new([
+        views.document("About", text::ABOUT),
+        views.document("Scene (TOML)", text::SCENE_TOML),
+        Vertical::new([
+            views.document("Plan", text::PLAN),
+            views.document("Notes on the data", text::NOTES),
+        ])
+        .into(),
+    ])
+    .with_name("Scene")
+    .into()
+}
+
+/// Sends a layout and the properties of its views.
+fn send_with(
+    recording: &RecordingStream,
+    blueprint: &Blueprint,
+    properties: &[Property],
+) -> Result<(), Box<dyn std::error::Error>> {
+    let (draft, storage) = RecordingStreamBuilder::new(APPLICATION)
+        .enabled(true)
+        .memory()?;
+    let not_yet = BlueprintActivation {
+        make_active: false,
+        make_default: false,
+    };
+    blueprint.send(&draft, not_yet)?;
+    draft.flush_blocking()?;
+    let mut messages: Vec<LogMsg> = storage
+        .take()
+        .into_iter()
+        .filter(|message| message.store_id().is_blueprint())
+        .filter(|message| !matches!(message, LogMsg::BlueprintActivationCommand(_)))
+        .collect();
+    let id: StoreId = messages
+        .first()
+        .map(|message| message.store_id().clone())
+        .ok_or("the layout is empty")?;
+
+    let (extra, storage) = RecordingStreamBuilder::from_store_id(&id)
+        .enabled(true)
+        .send_properties(false)
+        .memory()?;
+    extra.set_time_sequence("blueprint", 0);
+    for Property { path, value } in properties {
+        extra.log(path.as_str(), value.as_ref())?;
+    }
+    extra.flush_blocking()?;
+    messages.extend(
+        storage
+            .take()
+            .into_iter()
+            .filter(|message| matches!(message, LogMsg::ArrowMsg(..))),
+    );
+    let activation = BlueprintActivationCommand {
+        blueprint_id: id,
+        make_active: true,
+        make_default: true,
+    };
+    recording.send_blueprint(messages, activation);
+    Ok(())
+}

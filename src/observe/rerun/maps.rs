@@ -1,0 +1,221 @@
+//! Maps of the contact plane seen from above: x to the right (rolling direction), y up, mm.
+
+use rerun::components::{Colormap, ImageBuffer, ImageFormat};
+use rerun::{AnnotationContext, ChannelDatatype, Rgba32, SegmentationImage};
+
+use super::colour::WHITE;
+use super::geometry::{Geometry, ticks};
+use super::interferogram::Interferogram;
+use super::plot::{PlotBox, log_ellipse, ticks_at};
+use super::raster::{Pixels, Raster, Scale, Sign};
+use super::stream::Stream;
+use crate::observe::ObserveError;
+use crate::sim::Frame;
+
+/// Entities of the maps, each with its unit.
+pub(super) const PRESSURE: &str = "maps/pressure_GPa";
+pub(super) const FILM: &str = "maps/film_um";
+pub(super) const TRACTION: &str = "maps/traction_on_body_1_MPa";
+pub(super) const ROUGHNESS_1: &str = "maps/roughness_body_1_um";
+pub(super) const ROUGHNESS_2: &str = "maps/roughness_body_2_um";
+/// Drawn over pressure and film.
+pub(super) const CONTACT: &str = "maps/contact_spots";
+/// Hertz's contact, drawn over every map.
+pub(super) const HERTZ: &str = "maps/hertz_contact";
+
+/// GPa, MPa, um from SI.
+pub(super) const GPA: (&str, f64) = ("GPa", 1e-9);
+const MPA: (&str, f64) = ("MPa", 1e-6);
+const UM: (&str, f64) = ("µm", 1e6);
+
+/// Classes of the picture over the film map.
+const CLASS_FILM: u8 = 0;
+const CLASS_CONTACT: u8 = 1;
+const CLASS_THICK: u8 = 2;
+
+/// The maps that change.
+pub(super) struct Maps {
+    geometry: Geometry,
+    pressure: Raster,
+    film: Raster,
+    traction: Raster,
+    roughness: [Option<Raster>; 2],
+    interferogram: Interferogram,
+    scales: Vec<(&'static str, Scale)>,
+}
+
+impl Maps {
+    /// Sets up the maps from the first frame, which fixes the ranges.
+    pub(super) fn new(
+        stream: &Stream,
+        geometry: Geometry,
+        first: &Frame,
+    ) -> Result<Self, ObserveError> {
+        let metrics = &first.metrics;
+        let pressure_top = (1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa);
+        // The film range starts from what the middle of the contact is like; the bath around the
+        // contact is ten to a hundred times thicker and shows as the top colour.
+        let film_top = 2.5 * metrics.h_central_m.max(metrics.h_mean_m).max(1e-9);
+        let traction_top = greatest(&first.traction_pa).max(0.01 * first.p_hertz_pa);
+        let rough = [&first.roughness_1_m, &first.roughness_2_m].map(|field| greatest(field));
+
+        let up_to = Scale::up_to;
+        let inferno = up_to(pressure_top, GPA, Sign::Positive, Colormap::Inferno, 8.0);
+        let viridis = up_to(film_top, UM, Sign::Positive, Colormap::Viridis, 16.0);
+        let signed = up_to(traction_top, MPA, Sign::Both, Colormap::CyanToYellow, 4.0);
+        let rough_top = up_to(
+            rough[0].max(rough[1]),
+            UM,
+            Sign::Both,
+            Colormap::CyanToYellow,
+            4.0,
+        );
+        let scales = vec![
+            (PRESSURE, inferno.clone()),
+            (FILM, viridis.clone()),
+            (TRACTION, signed.clone()),
+            (ROUGHNESS_1, rough_top.clone()),
+        ];
+        let map = |entity, scale: Scale, title: &str| {
+            let title = format!("{title}, {}", scale.unit);
+            let (pixels, plot) = (pixels(geometry), plot_box(geometry));
+            Raster::new(stream, entity, scale, pixels, &plot, &title)
+        };
+        let smooth = |k: usize| rough[k] == 0.0;
+        let rough_map = |k: usize, entity| {
+            (!smooth(k))
+                .then(|| map(entity, rough_top.clone(), "height"))
+                .transpose()
+        };
+        let maps = Self {
+            geometry,
+            pressure: map(PRESSURE, inferno, "p")?,
+            film: map(FILM, viridis, "h")?,
+            traction: map(TRACTION, signed, "shear")?,
+            roughness: [rough_map(0, ROUGHNESS_1)?, rough_map(1, ROUGHNESS_2)?],
+            interferogram: Interferogram::new(stream, geometry)?,
+            scales,
+        };
+        log_contact_style(stream, geometry)?;
+        log_ellipse(stream, HERTZ, [geometry.a, geometry.b])?;
+        Ok(maps)
+    }
+
+    /// Scales of the images, for the notes in the recording.
+    pub(super) fn scales(&self) -> &[(&'static str, Scale)] {
+        &self.scales
+    }
+
+    /// Upper end of the pressure's colour range, Pa.
+    pub(super) fn pressure_top_pa(&self) -> f64 {
+        self.scales[0].1.top / GPA.1
+    }
+
+    /// Upper end of the film's colour range, m.
+    pub(super) fn film_top_m(&self) -> f64 {
+        self.scales[1].1.top / UM.1
+    }
+
+    pub(super) fn interferogram(&self) -> &Interferogram {
+        &self.interferogram
+    }
+
+    /// Which bodies are rough.
+    pub(super) fn rough(&self) -> [bool; 2] {
+        [self.roughness[0].is_some(), self.roughness[1].is_some()]
+    }
+
+    /// Logs one frame's maps; returns the bytes.
+    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+        let g = self.geometry;
+        let mut bytes = self.pressure.log(stream, top_down(g, &frame.pressure_pa))?;
+        bytes += self.film.log(stream, top_down(g, &frame.film_m))?;
+        bytes += self.traction.log(stream, top_down(g, &frame.traction_pa))?;
+        let fields = [&frame.roughness_1_m, &frame.roughness_2_m];
+        for (raster, field) in self.roughness.iter().zip(fields) {
+            if let Some(raster) = raster {
+                bytes += raster.log(stream, top_down(g, field))?;
+            }
+        }
+        let top = self.film_top_m() as f32;
+        let film = top_down(g, &frame.film_m);
+        let spots: Vec<u8> = top_down(g, &frame.contact)
+            .zip(film)
+            .map(|(touches, film)| match (touches, film > top) {
+                (0, false) => CLASS_FILM,
+                (0, true) => CLASS_THICK,
+                _ => CLASS_CONTACT,
+            })
+            .collect();
+        bytes += spots.len() as u64;
+        stream.log(CONTACT, &classes(spots))?;
+        Ok(bytes + self.interferogram.log(stream, frame)?)
+    }
+}
+
+fn greatest(field: &[f32]) -> f64 {
+    field.iter().fold(0.0_f32, |top, v| top.max(v.abs())).into()
+}
+
+pub(super) fn classes(bytes: Vec<u8>) -> SegmentationImage {
+    SegmentationImage::update_fields().with_buffer(ImageBuffer::from(bytes))
+}
+
+/// A field's values from the upper row (greatest y) down.
+fn top_down<T: Copy>(g: Geometry, field: &[T]) -> impl ExactSizeIterator<Item = T> {
+    (0..g.nx * g.ny).map(move |at| field[(g.ny - 1 - at / g.nx) * g.nx + at % g.nx])
+}
+
+fn pixels(g: Geometry) -> Pixels {
+    Pixels {
+        columns: g.nx,
+        rows: g.ny,
+        first: [g.x_min, -g.y_max()],
+        size: [g.dx, g.dy],
+    }
+}
+
+/// The axes of every map.
+pub(super) fn plot_box(g: Geometry) -> PlotBox {
+    let x = [g.x_min - 0.5 * g.dx, g.x_max() + 0.5 * g.dx];
+    let y = [-g.y_max() - 0.5 * g.dy, -g.y_min + 0.5 * g.dy];
+    PlotBox {
+        x,
+        y,
+        x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
+        left_ticks: ticks_at(&ticks(-y[1], -y[0], 5), |y| -y),
+        x_title: "x, mm  (rolling direction →)".into(),
+        titles: vec![(0.1, "y, mm".into(), WHITE)],
+        ..PlotBox::default()
+    }
+}
+
+fn log_contact_style(stream: &Stream, g: Geometry) -> Result<(), ObserveError> {
+    let pixels = pixels(g);
+    let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
+    let image = SegmentationImage::update_fields()
+        .with_format(format)
+        .with_opacity(1.0)
+        .with_draw_order(5.0);
+    stream.log_static(CONTACT, &image)?;
+    stream.log_static(CONTACT, &pixels.transform())?;
+    let context = AnnotationContext::new([
+        (
+            CLASS_FILM.into(),
+            "film",
+            Rgba32::from_unmultiplied_rgba(0, 0, 0, 0),
+        ),
+        (
+            CLASS_CONTACT.into(),
+            "contact",
+            Rgba32::from_rgb(90, 255, 250),
+        ),
+        // The bath around the contact would drown the film in the top colour.
+        (
+            CLASS_THICK.into(),
+            "film above the colour range",
+            Rgba32::from_rgb(30, 33, 40),
+        ),
+    ]);
+    stream.log_static(CONTACT, &context)
+}

@@ -1,0 +1,152 @@
+//! Sheets of triangles over a window of the frame's grid: the parts of the 3-D view.
+
+use rerun::Mesh3D;
+
+use super::colour::hillshade;
+use super::geometry::Geometry;
+
+/// Most columns and rows of a sheet: more than a screen shows, few enough to keep files small.
+const MOST_COLUMNS: usize = 96;
+const MOST_ROWS: usize = 24;
+
+/// Every so-many-th node of a window of the grid: from the plane y = 0 backwards (the front half is
+/// cut away), around the contact in x.
+#[derive(Debug, Clone)]
+pub(super) struct Window {
+    nodes: Vec<usize>,
+    xy: Vec<[f32; 2]>,
+    columns: usize,
+    rows: usize,
+    spacing: [f32; 2],
+}
+
+impl Window {
+    /// The window |x| ≤ `reach_x`, 0 ≤ y ≤ `reach_y`; `None` if it holds no whole cell.
+    pub(super) fn new(g: Geometry, reach_x: f64, reach_y: f64) -> Option<Self> {
+        let inside_x: Vec<usize> = (0..g.nx).filter(|&i| g.x(i).abs() <= reach_x).collect();
+        let inside_y: Vec<usize> = (g.centre_row()..g.ny)
+            .filter(|&j| g.y(j) <= reach_y)
+            .collect();
+        let step_i = inside_x.len().div_ceil(MOST_COLUMNS).max(1);
+        let step_j = inside_y.len().div_ceil(MOST_ROWS).max(1);
+        let columns: Vec<usize> = inside_x.into_iter().step_by(step_i).collect();
+        let rows: Vec<usize> = inside_y.into_iter().step_by(step_j).collect();
+        if columns.len() < 2 || rows.len() < 2 {
+            return None;
+        }
+        let mut nodes = Vec::with_capacity(columns.len() * rows.len());
+        let mut xy = Vec::with_capacity(nodes.capacity());
+        for &j in &rows {
+            for &i in &columns {
+                nodes.push(j * g.nx + i);
+                xy.push([g.x(i) as f32, g.y(j) as f32]);
+            }
+        }
+        Some(Self {
+            nodes,
+            xy,
+            columns: columns.len(),
+            rows: rows.len(),
+            spacing: [(g.dx * step_i as f64) as f32, (g.dy * step_j as f64) as f32],
+        })
+    }
+
+    /// Nodes of the frame's grid, row by row.
+    pub(super) fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
+    /// x and y of the nodes.
+    pub(super) fn xy(&self) -> &[[f32; 2]] {
+        &self.xy
+    }
+
+    /// The sheet's triangles.
+    pub(super) fn triangles(&self) -> Vec<[u32; 3]> {
+        triangles(self.columns, self.rows)
+    }
+
+    /// How bright each node of a sheet with these heights is lit.
+    pub(super) fn shades(&self, heights: &[f32]) -> Vec<f32> {
+        let slope = |low: usize, high: usize, nodes: usize, spacing: f32| {
+            (heights[high] - heights[low]) / (spacing * nodes.max(1) as f32)
+        };
+        (0..heights.len())
+            .map(|at| {
+                let (i, j) = (at % self.columns, at / self.columns);
+                let left = at - usize::from(i > 0);
+                let right = at + usize::from(i + 1 < self.columns);
+                let front = at - self.columns * usize::from(j > 0);
+                let back = at + self.columns * usize::from(j + 1 < self.rows);
+                hillshade(
+                    slope(left, right, right - left, self.spacing[0]),
+                    slope(front, back, (back - front) / self.columns, self.spacing[1]),
+                )
+            })
+            .collect()
+    }
+
+    /// Positions and colours of a sheet with these heights.
+    pub(super) fn sheet(&self, heights: &[f32], colours: &[[u8; 3]]) -> Mesh3D {
+        let positions = self.xy.iter().zip(heights).map(|(&[x, y], &z)| [x, y, z]);
+        Mesh3D::update_fields()
+            .with_vertex_positions(positions)
+            .with_vertex_colors(colours.iter().copied())
+    }
+}
+
+/// Two triangles for each cell of a sheet of `columns` by `rows` nodes.
+pub(super) fn triangles(columns: usize, rows: usize) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::with_capacity(2 * (columns - 1) * (rows - 1));
+    for j in 0..rows - 1 {
+        for i in 0..columns - 1 {
+            let corner = (j * columns + i) as u32;
+            let (right, up) = (corner + 1, corner + columns as u32);
+            triangles.push([corner, right, up + 1]);
+            triangles.push([corner, up + 1, up]);
+        }
+    }
+    triangles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_half_is_cut_away_and_sheets_stay_small() {
+        for n in [33, 129, 257, 513] {
+            let step = 4.0 / (n - 1) as f64;
+            let g = Geometry {
+                nx: n,
+                ny: n,
+                x_min: -2.5,
+                dx: step,
+                y_min: -2.0,
+                dy: step,
+                a: 1.0,
+                b: 1.0,
+            };
+            let window = Window::new(g, 1.4, 1.2).expect("a window");
+            assert!(window.columns <= MOST_COLUMNS && window.rows <= MOST_ROWS);
+            assert!(
+                window
+                    .xy()
+                    .iter()
+                    .all(|&[x, y]| x.abs() <= 1.401 && (0.0..=1.201).contains(&y))
+            );
+            assert!(window.xy()[0][1].abs() < 1e-6, "starts at the cut");
+            assert_eq!(window.nodes().len(), window.columns * window.rows);
+            let most = window.triangles().into_iter().flatten().max();
+            assert_eq!(most, Some((window.nodes().len() - 1) as u32));
+            // A plane that rises with x is lit evenly, and less than the flat.
+            let flat = window.shades(&vec![0.0; window.nodes().len()]);
+            let plane: Vec<f32> = window.xy().iter().map(|[x, _]| 0.5 * x).collect();
+            let lit = window.shades(&plane);
+            assert!(
+                lit.iter()
+                    .all(|shade| (shade - lit[0]).abs() < 1e-4 && *shade < flat[0])
+            );
+        }
+    }
+}

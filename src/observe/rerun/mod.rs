@@ -1,0 +1,30 @@
+//! The recording: everything a run hands out, as a Rerun file that opens laid out.
+//!
+//! Fields are quantised to 16 bits with fixed colour ranges ([`raster`]), the 3-D view is cut open
+//! at y = 0 ([`space`]), scalars are recorded in every step and fields as often as the budget allows
+//! ([`cadence`]). The file holds the scene as TOML, the plan and the log of commands, so that it
+//! tells how to repeat itself. It is readable up to the last second if the process is killed.
+//!
+//! Logging may block on the disk: run the recorder behind a [`Queue`](crate::observe::Queue), which
+//! also keeps all its calls on one thread, as the library's timelines want it.
+
+mod cadence;
+mod centre_line;
+mod colour;
+mod geometry;
+mod interferogram;
+mod kymograph;
+mod layout;
+mod maps;
+mod mesh;
+mod plot;
+mod raster;
+mod recorder;
+mod series;
+mod slice;
+mod space;
+mod stream;
+mod text;
+mod trace;
+
+pub use recorder::Recorder;

@@ -1,0 +1,188 @@
+//! Axes, ticks, titles and colour legends of the two-dimensional views.
+//!
+//! The viewer draws none of these, so they are lines and labels in the same view. The vertical axis
+//! of a view points down.
+
+use rerun::{Color, LineStrips2D, Points2D, Radius};
+
+use super::colour::{GREY, WHITE, faded};
+use super::geometry::number;
+use super::stream::Stream;
+use crate::observe::ObserveError;
+
+/// A tick: where, in units of the view, and its text.
+pub(super) type Tick = (f64, String);
+
+/// The frame of a plot.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PlotBox {
+    /// Left and right edge.
+    pub(super) x: [f64; 2],
+    /// Upper and lower edge (y points down).
+    pub(super) y: [f64; 2],
+    pub(super) x_ticks: Vec<Tick>,
+    pub(super) left_ticks: Vec<Tick>,
+    pub(super) right_ticks: Vec<Tick>,
+    /// Below the horizontal ticks.
+    pub(super) x_title: String,
+    /// Above the frame, each centred at a share of its width.
+    pub(super) titles: Vec<(f64, String, [u8; 3])>,
+    pub(super) left_colour: Option<[u8; 3]>,
+    pub(super) right_colour: Option<[u8; 3]>,
+}
+
+impl PlotBox {
+    fn width(&self) -> f64 {
+        self.x[1] - self.x[0]
+    }
+
+    fn height(&self) -> f64 {
+        self.y[1] - self.y[0]
+    }
+
+    /// What the view must show: the frame with its ticks and, on request, a legend at the right.
+    pub(super) fn bounds(&self, right: Margin) -> [[f64; 2]; 2] {
+        let (w, h) = (self.width(), self.height());
+        let right = match right {
+            Margin::Plain => 0.05,
+            Margin::Ticks => 0.15,
+            Margin::Legend => 0.24,
+        };
+        [
+            [self.x[0] - 0.14 * w, self.x[1] + right * w],
+            [self.y[0] - 0.11 * h, self.y[1] + 0.19 * h],
+        ]
+    }
+
+    /// Draws the frame once for the whole recording.
+    pub(super) fn log(&self, stream: &Stream, entity: &str) -> Result<(), ObserveError> {
+        let (w, h) = (self.width(), self.height());
+        let [left, right] = self.x;
+        let [top, bottom] = self.y;
+        let mut strips = vec![vec![
+            [left, top],
+            [right, top],
+            [right, bottom],
+            [left, bottom],
+            [left, top],
+        ]];
+        let tick = 0.015 * w.min(h).abs();
+        strips.extend(
+            self.x_ticks
+                .iter()
+                .map(|(x, _)| vec![[*x, bottom], [*x, bottom + tick]]),
+        );
+        strips.extend(
+            self.left_ticks
+                .iter()
+                .map(|(y, _)| vec![[left - tick, *y], [left, *y]]),
+        );
+        strips.extend(
+            self.right_ticks
+                .iter()
+                .map(|(y, _)| vec![[right, *y], [right + tick, *y]]),
+        );
+        let lines = LineStrips2D::new(strips.iter().map(|strip| points(strip)))
+            .with_colors([Color::from(GREY)])
+            .with_radii([Radius::new_ui_points(0.75)])
+            .with_draw_order(20.0);
+        stream.log_static(&format!("{entity}/frame"), &lines)?;
+
+        let left_colour = self.left_colour.unwrap_or(WHITE);
+        let right_colour = self.right_colour.unwrap_or(WHITE);
+        let mut labels = Labels::default();
+        for (x, text) in &self.x_ticks {
+            labels.add([*x, bottom + 0.02 * h], text, WHITE);
+        }
+        for (y, text) in &self.left_ticks {
+            labels.add([left - 0.07 * w, y - 0.022 * h], text, left_colour);
+        }
+        for (y, text) in &self.right_ticks {
+            labels.add([right + 0.07 * w, y - 0.022 * h], text, right_colour);
+        }
+        labels.add(
+            [0.5 * (left + right), bottom + 0.1 * h],
+            &self.x_title,
+            WHITE,
+        );
+        for (share, title, colour) in &self.titles {
+            labels.add([left + share * w, top - 0.085 * h], title, *colour);
+        }
+        labels.log(stream, &format!("{entity}/labels"))
+    }
+}
+
+/// What is drawn at the right of a plot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Margin {
+    /// Nothing.
+    Plain,
+    /// Ticks.
+    Ticks,
+    /// A colour legend.
+    Legend,
+}
+
+/// Texts at places.
+#[derive(Debug, Default)]
+pub(super) struct Labels {
+    at: Vec<[f32; 2]>,
+    texts: Vec<String>,
+    colours: Vec<Color>,
+}
+
+impl Labels {
+    /// A text whose upper edge is centred at a place; nothing for an empty text.
+    pub(super) fn add(&mut self, at: [f64; 2], text: &str, colour: [u8; 3]) {
+        if !text.is_empty() {
+            self.at.push([at[0] as f32, at[1] as f32]);
+            self.texts.push(text.to_owned());
+            self.colours.push(Color::from(colour));
+        }
+    }
+
+    pub(super) fn log(&self, stream: &Stream, entity: &str) -> Result<(), ObserveError> {
+        let labels = Points2D::new(self.at.iter().copied())
+            .with_radii([Radius::new_scene_units(0.0)])
+            .with_colors(self.colours.iter().copied())
+            .with_labels(self.texts.iter().map(String::as_str))
+            .with_show_labels(true)
+            .with_draw_order(30.0);
+        stream.log_static(entity, &labels)
+    }
+}
+
+/// An ellipse: where Hertz's contact is.
+pub(super) fn log_ellipse(
+    stream: &Stream,
+    entity: &str,
+    [a, b]: [f64; 2],
+) -> Result<(), ObserveError> {
+    let strip: Vec<[f64; 2]> = (0..=96)
+        .map(|k| {
+            let angle = std::f64::consts::TAU * f64::from(k) / 96.0;
+            [a * angle.cos(), b * angle.sin()]
+        })
+        .collect();
+    let line = LineStrips2D::new([points(&strip)])
+        .with_colors([faded(WHITE, 150)])
+        .with_radii([Radius::new_ui_points(0.75)])
+        .with_draw_order(15.0);
+    stream.log_static(entity, &line)
+}
+
+/// The viewer's single-precision points.
+pub(super) fn points(strip: &[[f64; 2]]) -> Vec<[f32; 2]> {
+    strip
+        .iter()
+        .map(|at| at.map(|value| value as f32))
+        .collect()
+}
+
+/// Ticks at round values; `place` says where in the view a value lies.
+pub(super) fn ticks_at(values: &[f64], place: impl Fn(f64) -> f64) -> Vec<Tick> {
+    values
+        .iter()
+        .map(|&value| (place(value), number(value)))
+        .collect()
+}

@@ -1,0 +1,489 @@
+//! The 3-D view: the contact cut open along y = 0.
+//!
+//! From above: body 2's roughness (seen through), the film as a height field coloured by pressure,
+//! body 1's roughness, and below it the stress in the cut plane with its depth to scale. Lengths are
+//! mm; heights of film and roughness are multiplied by one factor, which the label states. The three
+//! sheets are drawn apart: the gap between them is none of the model's.
+
+use rerun::{AlbedoFactor, Arrows3D, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
+
+use super::colour::{GREEN, GREY, ORANGE, Ramp, SKY, WHITE, faded};
+use super::geometry::{Geometry, MM, divisions, number, ticks};
+use super::maps::GPA;
+use super::mesh::{Window, triangles};
+use super::slice::Rows;
+use super::stream::Stream;
+use crate::observe::ObserveError;
+use crate::sim::{Frame, Metrics};
+
+pub(super) const SPACE: &str = "contact_3d";
+
+/// Ranges that the 3-D view shares with the maps.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tops {
+    pub(super) pressure_pa: f64,
+    pub(super) effective_pa: Option<f64>,
+    /// Which bodies are rough.
+    pub(super) rough: [bool; 2],
+}
+
+/// The 3-D view.
+pub(super) struct Space {
+    geometry: Geometry,
+    window: Window,
+    slice: Option<SliceSheet>,
+    tops: Tops,
+    exaggeration: f64,
+    levels: Levels,
+    speeds: Option<[f64; 3]>,
+    /// Scratch: heights, shades and colours of a sheet.
+    heights: Vec<f32>,
+    colours: Vec<[u8; 3]>,
+}
+
+/// Where the sheets' zero heights are drawn, mm.
+#[derive(Debug, Clone, Copy)]
+struct Levels {
+    body_2: f64,
+    body_1: f64,
+    slice: f64,
+    /// The film is cut off at this height.
+    film_cap: f64,
+}
+
+/// The cut plane's nodes.
+struct SliceSheet {
+    rows: Rows,
+    columns: Vec<usize>,
+}
+
+impl Space {
+    /// Sets up the view from the first frame; `None` for grids too coarse to show.
+    pub(super) fn new(
+        stream: &Stream,
+        geometry: Geometry,
+        first: &Frame,
+        tops: Tops,
+    ) -> Result<Option<Self>, ObserveError> {
+        let Some(window) = Window::new(geometry, 1.45 * geometry.a, 1.25 * geometry.b) else {
+            return Ok(None);
+        };
+        let a = geometry.a;
+        let levels = Levels {
+            body_2: 0.95 * a,
+            body_1: -0.32 * a,
+            slice: -0.5 * a,
+            film_cap: 0.6 * a,
+        };
+        let slice = first
+            .slice
+            .as_ref()
+            .and_then(|slice| SliceSheet::new(geometry, slice));
+        let mut space = Self {
+            geometry,
+            window,
+            slice,
+            tops,
+            exaggeration: exaggeration(geometry, first),
+            levels,
+            speeds: None,
+            heights: Vec::new(),
+            colours: Vec::new(),
+        };
+        space.log_static(stream)?;
+        Ok(Some(space))
+    }
+
+    /// Words about the heights.
+    pub(super) fn note(&self) -> String {
+        format!(
+            "In the 3-D view heights of film and roughness are drawn {} times too high against \
+             lengths and depths, the film is cut off at {:.2} µm, and the bodies are drawn apart. \
+             The film is grey-blue where it carries less than 6 % of the colour range.",
+            number(self.exaggeration),
+            1e3 * self.levels.film_cap / self.exaggeration
+        )
+    }
+
+    /// A point to look at and one to look from.
+    pub(super) fn camera(&self) -> [[f64; 3]; 2] {
+        let a = self.geometry.a;
+        let target = [0.16 * a, 0.2 * a, -0.5 * a];
+        [target, [-1.15 * a, -3.3 * a, 1.55 * a]]
+    }
+
+    /// Logs one frame; returns the bytes.
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+        let nodes = self.window.nodes().len() as u64;
+        self.log_film(stream, frame)?;
+        let mut bytes = 16 * nodes;
+        let bodies = [
+            (
+                0,
+                "body_1_surface",
+                self.levels.body_1,
+                1.0,
+                &frame.roughness_1_m,
+            ),
+            (
+                1,
+                "body_2_surface",
+                self.levels.body_2,
+                -1.0,
+                &frame.roughness_2_m,
+            ),
+        ];
+        for (body, name, level, side, field) in bodies {
+            // A smooth body's sheet is flat and was logged once.
+            if self.tops.rough[body] {
+                self.log_body(stream, name, level, side * self.exaggeration, field)?;
+                bytes += 16 * nodes;
+            }
+        }
+        bytes += self.log_slice(stream, frame)?;
+        self.log_spots(stream, frame)?;
+        self.log_point(stream, frame)?;
+        self.log_speeds(stream, &frame.metrics)?;
+        Ok(bytes + 300)
+    }
+
+    fn log_film(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        let factor = (MM * self.exaggeration) as f32;
+        let cap = self.levels.film_cap as f32;
+        let nodes = self.window.nodes();
+        self.heights.clear();
+        self.heights
+            .extend(nodes.iter().map(|&at| (frame.film_m[at] * factor).min(cap)));
+        let shades = self.window.shades(&self.heights);
+        let top = self.tops.pressure_pa as f32;
+        self.colours.clear();
+        self.colours
+            .extend(nodes.iter().zip(shades).map(|(&at, shade)| {
+                // Only half of the shading, so that colours can still be read.
+                pressure_colour(frame.pressure_pa[at] / top, (0.5 + 0.5 * shade).min(1.0))
+            }));
+        let sheet = self.window.sheet(&self.heights, &self.colours);
+        stream.log(&format!("{SPACE}/film_coloured_by_pressure"), &sheet)
+    }
+
+    fn log_body(
+        &mut self,
+        stream: &Stream,
+        name: &str,
+        level: f64,
+        factor: f64,
+        field: &[f32],
+    ) -> Result<(), ObserveError> {
+        let factor = (MM * factor) as f32;
+        self.heights.clear();
+        let nodes = self.window.nodes();
+        self.heights
+            .extend(nodes.iter().map(|&at| level as f32 + field[at] * factor));
+        let shades = self.window.shades(&self.heights);
+        self.colours.clear();
+        self.colours.extend(shades.into_iter().map(steel));
+        let sheet = self.window.sheet(&self.heights, &self.colours);
+        stream.log(&format!("{SPACE}/{name}"), &sheet)
+    }
+
+    fn log_slice(&self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+        let (Some(sheet), Some(slice), Some(top)) =
+            (&self.slice, &frame.slice, self.tops.effective_pa)
+        else {
+            return Ok(0);
+        };
+        let nx = self.geometry.nx;
+        if !sheet.rows.hold(slice, nx) {
+            return Ok(0);
+        }
+        let value = |row, &i: &usize| sheet.rows.value(&slice.effective_pa, nx, row, i);
+        let colours = (0..sheet.rows.len()).flat_map(|row| {
+            let stress = sheet.columns.iter().map(move |i| value(row, i));
+            stress.map(|stress| Ramp::Magma.colour(stress / top as f32, 1.0))
+        });
+        let mesh = Mesh3D::update_fields().with_vertex_colors(colours);
+        stream.log(&format!("{SPACE}/effective_stress_slice"), &mesh)?;
+        Ok(4 * (sheet.rows.len() * sheet.columns.len()) as u64)
+    }
+
+    /// Where the bodies touch, on the film's sheet.
+    fn log_spots(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        let factor = MM * self.exaggeration;
+        let spots = self.window.nodes().iter().zip(self.window.xy());
+        let spots = spots
+            .filter(|(at, _)| frame.contact[**at] > 0)
+            .map(|(&at, &[x, y])| [x, y, (f64::from(frame.film_m[at]) * factor) as f32]);
+        let points = Points3D::new(spots)
+            .with_radii([Radius::new_scene_units((0.55 * self.geometry.dx) as f32)])
+            .with_colors([Color::from([90, 255, 250])]);
+        stream.log(&format!("{SPACE}/contact_spots"), &points)
+    }
+
+    /// The followed point of body 1, coloured by its stress.
+    fn log_point(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        let (Some(point), Some(top)) = (frame.material_point, self.tops.effective_pa) else {
+            return Ok(());
+        };
+        let entity = format!("{SPACE}/material_point");
+        let x = point.x_m * MM;
+        if point.body != 1 || x.abs() > 1.45 * self.geometry.a {
+            return stream.log(&entity, &Points3D::new(std::iter::empty::<[f32; 3]>()));
+        }
+        let z = self.levels.slice - point.depth_m * MM;
+        let colour = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
+        let label = format!("{:.2} GPa", point.effective_pa * GPA.1);
+        // A little in front of the cut, or the slice would hide half of it.
+        let at = [x as f32, (-0.03 * self.geometry.a) as f32, z as f32];
+        let dot = Points3D::new([at, at])
+            .with_radii([0.075, 0.055].map(|r| (r * self.geometry.a) as f32))
+            .with_colors([Color::from(GREEN), Color::from(colour)])
+            .with_labels([label.as_str(), ""])
+            .with_show_labels(true);
+        stream.log(&entity, &dot)
+    }
+
+    /// Arrows as long as the surfaces are fast, logged when a speed has changed.
+    fn log_speeds(&mut self, stream: &Stream, m: &Metrics) -> Result<(), ObserveError> {
+        let u = m.entrainment_m_s;
+        let speeds = [
+            u * (1.0 - 0.5 * m.slide_roll),
+            u * (1.0 + 0.5 * m.slide_roll),
+        ];
+        let now = Some([speeds[0], speeds[1], u]);
+        if self.speeds == now || u == 0.0 {
+            return Ok(());
+        }
+        self.speeds = now;
+        let a = self.geometry.a;
+        let [x, y] = [-1.45 * a, -0.15 * a];
+        let levels = [self.levels.body_1, self.levels.body_2];
+        let arrows =
+            Arrows3D::from_vectors(speeds.map(|speed| [(0.7 * a * speed / u) as f32, 0.0, 0.0]))
+                .with_origins(levels.map(|z| [x as f32, y as f32, z as f32]))
+                .with_radii([(0.022 * a) as f32])
+                .with_colors([Color::from(SKY), Color::from(ORANGE)])
+                .with_labels([
+                    format!("U1 = {:.2} m/s", speeds[0]),
+                    format!("U2 = {:.2} m/s", speeds[1]),
+                ])
+                .with_show_labels(true);
+        stream.log(&format!("{SPACE}/surface_speeds"), &arrows)
+    }
+
+    // ---- what stays ----
+
+    fn log_static(&mut self, stream: &Stream) -> Result<(), ObserveError> {
+        let triangles = self.window.triangles();
+        let sheet = |name: &str, colour: [u8; 4]| {
+            let albedo = AlbedoFactor::from(Rgba32::from_unmultiplied_rgba(
+                colour[0], colour[1], colour[2], colour[3],
+            ));
+            let mesh = Mesh3D::update_fields()
+                .with_triangle_indices(triangles.iter().copied())
+                .with_albedo_factor(albedo);
+            stream.log_static(&format!("{SPACE}/{name}"), &mesh)
+        };
+        sheet("film_coloured_by_pressure", [255, 255, 255, 255])?;
+        sheet("body_1_surface", [200, 222, 245, 255])?;
+        sheet("body_2_surface", [250, 222, 190, 150])?;
+        self.log_smooth_bodies(stream)?;
+        self.log_cut(stream)?;
+        self.log_legends(stream)?;
+        self.log_labels(stream)
+    }
+
+    /// The sheets of smooth bodies never change.
+    fn log_smooth_bodies(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let bodies = [
+            (0, "body_1_surface", self.levels.body_1),
+            (1, "body_2_surface", self.levels.body_2),
+        ];
+        for (body, name, level) in bodies {
+            if !self.tops.rough[body] {
+                let n = self.window.nodes().len();
+                let sheet = self
+                    .window
+                    .sheet(&vec![level as f32; n], &vec![steel(1.0); n]);
+                stream.log_static(&format!("{SPACE}/{name}"), &sheet)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The cut plane: its mesh, its outline and its depths.
+    fn log_cut(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let Some(sheet) = &self.slice else {
+            return Ok(());
+        };
+        let g = self.geometry;
+        let level = self.levels.slice;
+        let positions = (0..sheet.rows.len()).flat_map(|row| {
+            let z = (level - sheet.rows.depth_mm(row)) as f32;
+            let xs = sheet.columns.iter().map(move |&i| g.x(i) as f32);
+            xs.map(move |x| [x, 0.0, z])
+        });
+        let mesh = Mesh3D::new(positions)
+            .with_triangle_indices(triangles(sheet.columns.len(), sheet.rows.len()));
+        let entity = format!("{SPACE}/effective_stress_slice");
+        stream.log_static(
+            &entity,
+            // Colours come with every frame: static ones would hide them.
+            &Mesh3D {
+                vertex_colors: None,
+                ..mesh
+            },
+        )?;
+        let (left, right) = sheet.edges(g);
+        let bottom = level - sheet.rows.depth_mm(sheet.rows.len() - 1);
+        let edge = [
+            [left, level],
+            [right, level],
+            [right, bottom],
+            [left, bottom],
+            [left, level],
+        ];
+        let outline = LineStrips3D::new([edge.map(|[x, z]| [x as f32, 0.0, z as f32])])
+            .with_radii([Radius::new_ui_points(0.75)])
+            .with_colors([faded(GREY, 255)]);
+        stream.log_static(&format!("{SPACE}/cut/outline"), &outline)?;
+        let mut depths = ticks(0.0, level - bottom, 3);
+        // The surface needs no number, and its place is taken by the arrow.
+        depths.retain(|&z| z > 0.0);
+        let labels = Points3D::new(
+            depths
+                .iter()
+                .map(|z| [(left - 0.1 * g.a) as f32, 0.0, (level - z) as f32]),
+        )
+        .with_radii([Radius::new_scene_units(0.0)])
+        .with_colors([Color::from(GREY)])
+        .with_labels(depths.iter().map(|&z| format!("{} mm", number(z))))
+        .with_show_labels(true);
+        stream.log_static(&format!("{SPACE}/cut/depths"), &labels)
+    }
+
+    /// Colour bars of pressure and stress at the right of the bodies.
+    fn log_legends(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let a = self.geometry.a;
+        let pressure = (Ramp::Inferno, self.tops.pressure_pa, "p, GPa");
+        self.log_legend(stream, "pressure", pressure, [-0.1 * a, 0.85 * a])?;
+        if let Some(top) = self.tops.effective_pa {
+            let stress = (Ramp::Magma, top, "σ_eff, GPa");
+            let bottom = self.levels.slice - 1.4 * a;
+            self.log_legend(
+                stream,
+                "effective_stress",
+                stress,
+                [bottom, bottom + 1.1 * a],
+            )?;
+        }
+        Ok(())
+    }
+
+    fn log_legend(
+        &self,
+        stream: &Stream,
+        name: &str,
+        (ramp, top_pa, title): (Ramp, f64, &str),
+        [low, high]: [f64; 2],
+    ) -> Result<(), ObserveError> {
+        const ROWS: usize = 33;
+        let a = self.geometry.a;
+        let (left, right) = (1.72 * a, 1.82 * a);
+        let share = |row: usize| row as f64 / (ROWS - 1) as f64;
+        let positions = (0..ROWS).flat_map(|row| {
+            let z = low + (high - low) * share(row);
+            [left, right].map(|x| [x as f32, 0.0, z as f32])
+        });
+        let colours = (0..ROWS).flat_map(|row| [ramp.colour(share(row) as f32, 1.0); 2]);
+        let mesh = Mesh3D::new(positions)
+            .with_triangle_indices(triangles(2, ROWS))
+            .with_vertex_colors(colours);
+        stream.log_static(&format!("{SPACE}/legend/{name}"), &mesh)?;
+        let top = top_pa * GPA.1;
+        let mut at = vec![[left, 0.0, high + 0.27 * a]];
+        let mut texts = vec![title.to_owned()];
+        for value in divisions(top) {
+            at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
+            texts.push(number(value));
+        }
+        let labels = Points3D::new(at.iter().map(|at| at.map(|v| v as f32)))
+            .with_radii([Radius::new_scene_units(0.0)])
+            .with_colors([Color::from(WHITE)])
+            .with_labels(texts)
+            .with_show_labels(true);
+        stream.log_static(&format!("{SPACE}/legend/{name}/labels"), &labels)
+    }
+
+    /// What the sheets are, and how much their heights are exaggerated.
+    fn log_labels(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let g = self.geometry;
+        let right = 1.0 * g.a;
+        let factor = number(self.exaggeration);
+        let texts = [
+            (self.levels.body_2 + 0.2 * g.a, "body 2 (above)".to_owned()),
+            (
+                self.levels.body_2 + 0.48 * g.a,
+                format!("heights × {factor}; x, y and depth to scale"),
+            ),
+        ];
+        let labels = Points3D::new(texts.iter().enumerate().map(|(k, (z, _))| {
+            let x = if k == 0 { right } else { 0.0 };
+            [x as f32, (1.2 * g.b) as f32, *z as f32]
+        }))
+        .with_radii([Radius::new_scene_units(0.0)])
+        .with_colors([Color::from(WHITE)])
+        .with_labels(texts.iter().map(|(_, text)| text.as_str()))
+        .with_show_labels(true);
+        stream.log_static(&format!("{SPACE}/labels"), &labels)
+    }
+}
+
+impl SliceSheet {
+    /// Coarser than the slice's image: the 3-D view is for looking, the image for reading.
+    fn new(g: Geometry, slice: &crate::sim::StressSlice) -> Option<Self> {
+        let columns: Vec<usize> = (0..g.nx).filter(|&i| g.x(i).abs() <= 1.45 * g.a).collect();
+        let step = columns.len().div_ceil(64).max(1);
+        let columns: Vec<usize> = columns.into_iter().step_by(step).collect();
+        let rows = Rows::new(&slice.depths_m, 0.05 * g.a, 1.5 * g.a)?;
+        (columns.len() > 1).then_some(Self { rows, columns })
+    }
+
+    fn edges(&self, g: Geometry) -> (f64, f64) {
+        let end = |i: Option<&usize>| i.map_or(0.0, |&i| g.x(i));
+        (end(self.columns.first()), end(self.columns.last()))
+    }
+}
+
+/// The pressure's colour; where there is hardly any, the grey-blue of oil, because the dark end of
+/// the map would hide the sheet's shape.
+fn pressure_colour(share: f32, shade: f32) -> [u8; 3] {
+    const OIL: [f32; 3] = [88.0, 104.0, 128.0];
+    let weight = (share / 0.06).clamp(0.0, 1.0);
+    let map = Ramp::Inferno.colour(share, shade);
+    std::array::from_fn(|c| (weight * f32::from(map[c]) + (1.0 - weight) * OIL[c] * shade) as u8)
+}
+
+/// Steel under a light.
+fn steel(shade: f32) -> [u8; 3] {
+    let value = (215.0 * shade).clamp(0.0, 255.0) as u8;
+    [value; 3]
+}
+
+/// A round factor (1, 2 or 5 times a power of ten) that makes the roughness, or in smooth contacts
+/// the film, as high as about a tenth of the contact's half-width.
+fn exaggeration(g: Geometry, first: &Frame) -> f64 {
+    let rough = first.metrics.amplitude_1_m + first.metrics.amplitude_2_m;
+    let height = if rough > 0.0 {
+        rough
+    } else {
+        first.metrics.h_central_m
+    };
+    let wanted = 0.2 * g.a / (height * MM).max(1e-12);
+    let decade = 10_f64.powf(wanted.log10().floor());
+    let step = match wanted / decade {
+        share if share < 2.0 => 1.0,
+        share if share < 5.0 => 2.0,
+        _ => 5.0,
+    };
+    (step * decade).max(1.0)
+}

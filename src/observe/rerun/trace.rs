@@ -1,0 +1,143 @@
+//! What a material point has felt since it entered the contact, against where it was: one hump in
+//! pure rolling, a comb when the mating roughness slides over it.
+
+use rerun::{Points2D, Radius};
+
+use super::centre_line::line;
+use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, faded};
+use super::geometry::{Geometry, MM, divisions, ticks};
+use super::maps::GPA;
+use super::plot::{PlotBox, ticks_at};
+use super::stream::Stream;
+use crate::observe::ObserveError;
+use crate::sim::{Frame, MaterialPoint};
+
+pub(super) const TRACE: &str = "material_point/trace";
+/// Points kept of a crossing; when there are more every other one is dropped.
+const MOST_POINTS: usize = 1024;
+
+/// The trace of the crossing that goes on, and the one before it.
+pub(super) struct Trace {
+    plot: PlotBox,
+    pressure_top_pa: f64,
+    body: u8,
+    last_x_m: f64,
+    pressure: Vec<[f32; 2]>,
+    effective: Vec<[f32; 2]>,
+    before: Vec<[f32; 2]>,
+}
+
+impl Trace {
+    /// Sets up the axes.
+    pub(super) fn new(
+        stream: &Stream,
+        geometry: Geometry,
+        pressure_top_pa: f64,
+    ) -> Result<Self, ObserveError> {
+        let x = [geometry.x_min, geometry.x_max()];
+        let height = 0.45 * (x[1] - x[0]);
+        let top = pressure_top_pa * GPA.1;
+        let plot = PlotBox {
+            x,
+            y: [-height, 0.0],
+            x_ticks: ticks_at(&ticks(x[0], x[1], 8), |x| x),
+            left_ticks: ticks_at(&divisions(top), |p| -height * p / top),
+            x_title: "where the point is: x, mm".into(),
+            titles: vec![
+                (0.02, "GPa".into(), WHITE),
+                (0.22, "pressure above the point".into(), ORANGE),
+                (0.48, "effective stress at it".into(), PURPLE),
+                (0.76, "pressure, crossing before".into(), GREY),
+            ],
+            ..PlotBox::default()
+        };
+        plot.log(stream, &format!("{TRACE}/axes"))?;
+        Ok(Self {
+            plot,
+            pressure_top_pa,
+            body: 0,
+            last_x_m: f64::NEG_INFINITY,
+            pressure: Vec::new(),
+            effective: Vec::new(),
+            before: Vec::new(),
+        })
+    }
+
+    pub(super) fn plot(&self) -> &PlotBox {
+        &self.plot
+    }
+
+    /// Takes up a step; called for every step, also for those whose fields are not recorded.
+    pub(super) fn follow(&mut self, frame: &Frame) {
+        let Some(point) = &frame.material_point else {
+            return;
+        };
+        if point.body != self.body || point.x_m < self.last_x_m {
+            self.before = std::mem::take(&mut self.pressure);
+            self.effective.clear();
+        }
+        (self.body, self.last_x_m) = (point.body, point.x_m);
+        let [left, right] = self.plot.x;
+        if (left..=right).contains(&(point.x_m * MM)) {
+            let at = self.place(point, point.pressure_pa);
+            self.pressure.push(at);
+            let at = self.place(point, point.effective_pa);
+            self.effective.push(at);
+        }
+        for trace in [&mut self.pressure, &mut self.effective] {
+            if trace.len() > MOST_POINTS {
+                let mut keep = false;
+                trace.retain(|_| {
+                    keep = !keep;
+                    keep
+                });
+            }
+        }
+    }
+
+    fn place(&self, point: &MaterialPoint, value_pa: f64) -> [f32; 2] {
+        let share = (value_pa / self.pressure_top_pa).min(1.0);
+        [(point.x_m * MM) as f32, (self.plot.y[0] * share) as f32]
+    }
+
+    /// Logs the trace up to this frame; returns the bytes.
+    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<u64, ObserveError> {
+        let Some(point) = &frame.material_point else {
+            return Ok(0);
+        };
+        let curve = |name: &str, trace: &Vec<[f32; 2]>, colour, radius| {
+            let strips: &[Vec<[f32; 2]>] = std::slice::from_ref(trace);
+            let strips = if trace.len() > 1 { strips } else { &[] };
+            stream.log(&format!("{TRACE}/{name}"), &line(strips, colour, radius))
+        };
+        curve("crossing_before", &self.before, GREY, 0.75)?;
+        curve("pressure_GPa", &self.pressure, ORANGE, 1.5)?;
+        curve("effective_stress_GPa", &self.effective, PURPLE, 1.5)?;
+        let formula = match point.body {
+            1 => frame.metrics.n_body_1,
+            _ => frame.metrics.n_body_2,
+        };
+        let counted = format!(
+            "body {}, cycles counted in this crossing: {}",
+            point.body, point.cycles_counted
+        );
+        let label = match formula {
+            Some(n) => format!("{counted}   (formula n = {n:.2})"),
+            None => counted,
+        };
+        let [left, right] = self.plot.x;
+        let label_at = [
+            (0.5 * (left + right)) as f32,
+            (0.97 * self.plot.y[0]) as f32,
+        ];
+        let now = Points2D::new([self.place(point, point.pressure_pa), label_at])
+            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
+            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
+            .with_labels([String::new(), label])
+            .with_show_labels(true)
+            .with_draw_order(30.0);
+        stream.log(&format!("{TRACE}/now"), &now)?;
+        let points = self.before.len() + self.pressure.len() + self.effective.len();
+        Ok(8 * points as u64 + 200)
+    }
+}

@@ -1,0 +1,90 @@
+//! Frames: SI, single precision, the whole domain also where half of it was solved.
+
+use std::sync::Arc;
+
+use super::{Frame, Knob, Simulation, StressSlice};
+
+/// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
+pub fn fill(sim: &Simulation, frame: &mut Frame) {
+    let (grid, door) = (&sim.march.grid, &sim.door);
+    let scale = (sim.drive.get(Knob::ForceN).now / sim.plan.force_n).cbrt();
+    frame.step = sim.step;
+    frame.time_s = sim.time_s();
+    frame.stage = sim.stage();
+    frame.passages = sim.step as f64 / sim.plan.steps_per_passage.max(1) as f64;
+    (frame.nx, frame.ny) = (grid.nx, grid.ny_full());
+    frame.x_min_m = door.m_from_x(grid.x_min);
+    frame.dx_m = door.m_from_x(grid.dx);
+    frame.dy_m = door.m_from_x(grid.dy);
+    frame.y_min_m = -0.5 * (frame.ny - 1) as f64 * frame.dy_m;
+    frame.a_m = door.a_m * scale;
+    frame.b_m = door.a_m * door.b_over_a * scale;
+    frame.p_hertz_pa = door.p_hertz_pa * scale;
+    let expand = |from: &[f64], unit: f64, to: &mut Vec<f32>| {
+        to.resize(frame_len(grid.nx, grid.ny_full()), 0.0);
+        for (j, row) in to.chunks_exact_mut(grid.nx).enumerate() {
+            let start = grid.stored_row(j) * grid.nx;
+            if from.len() < start + grid.nx {
+                row.fill(0.0);
+                continue;
+            }
+            for (to, &from) in row.iter_mut().zip(&from[start..start + grid.nx]) {
+                *to = (from * unit) as f32;
+            }
+        }
+    };
+    let state = &sim.march.state;
+    expand(&state.pressure, door.p_hertz_pa, &mut frame.pressure_pa);
+    expand(&state.film, door.film_m, &mut frame.film_m);
+    expand(&sim.traction, door.p_hertz_pa, &mut frame.traction_pa);
+    expand(
+        &sim.terrain.heights[0],
+        door.film_m,
+        &mut frame.roughness_1_m,
+    );
+    expand(
+        &sim.terrain.heights[1],
+        door.film_m,
+        &mut frame.roughness_2_m,
+    );
+    let contact_film = sim.contact_film_m() as f32;
+    frame.contact.resize(frame.film_m.len(), 0);
+    for ((c, &h), &p) in frame
+        .contact
+        .iter_mut()
+        .zip(&frame.film_m)
+        .zip(&frame.pressure_pa)
+    {
+        *c = u8::from(p > 0.0 && h <= contact_film);
+    }
+    fill_slice(sim, frame);
+    frame.metrics.clone_from(&sim.metrics);
+}
+
+fn frame_len(nx: usize, ny: usize) -> usize {
+    nx * ny
+}
+
+fn fill_slice(sim: &Simulation, frame: &mut Frame) {
+    let Some(stress) = sim.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
+        frame.slice = None;
+        return;
+    };
+    let slice = frame.slice.get_or_insert_with(StressSlice::default);
+    if slice.depths_m.len() != stress.depths().len() {
+        slice.depths_m = stress
+            .depths()
+            .iter()
+            .map(|&z| sim.door.m_from_x(z))
+            .collect::<Arc<[f64]>>();
+    }
+    let unit = sim.door.p_hertz_pa as f32;
+    let scaled = |from: &[f32], to: &mut Vec<f32>| {
+        to.resize(from.len(), 0.0);
+        for (to, &from) in to.iter_mut().zip(from) {
+            *to = from * unit;
+        }
+    };
+    scaled(&stress.slice.effective, &mut slice.effective_pa);
+    scaled(&stress.slice.sxz, &mut slice.tau_xz_pa);
+}

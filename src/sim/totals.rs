@@ -1,0 +1,87 @@
+//! Means over the last passage, and the summary of a run.
+
+use std::collections::VecDeque;
+
+use super::{LifeEstimate, Metrics, Simulation, Stats, Summary};
+
+/// What the summary averages, one entry a step of the last passage.
+#[derive(Debug, Clone, Default)]
+pub struct Totals {
+    recent: VecDeque<[f64; 8]>,
+    not_converged: u64,
+}
+
+impl Totals {
+    /// Takes a step; keeps the last `most`.
+    pub fn push(&mut self, m: &Metrics, most: u64) {
+        if self.recent.capacity() == 0 {
+            self.recent.reserve_exact(most.max(1) as usize + 1);
+        }
+        while self.recent.len() >= most.max(1) as usize {
+            self.recent.pop_front();
+        }
+        self.recent.push_back([
+            m.h_central_m,
+            m.h_min_m,
+            m.p_max_pa,
+            m.contact_ratio,
+            m.friction_coefficient,
+            m.load_error,
+            m.mass_error,
+            m.load_n,
+        ]);
+        self.not_converged += u64::from(!m.converged);
+    }
+
+    fn mean(&self, k: usize) -> f64 {
+        self.recent.iter().map(|row| row[k]).sum::<f64>() / self.recent.len().max(1) as f64
+    }
+
+    fn greatest(&self, k: usize) -> f64 {
+        self.recent.iter().map(|row| row[k]).fold(0.0, f64::max)
+    }
+}
+
+/// The summary of a simulation.
+pub fn summary(
+    sim: &Simulation,
+    totals: &Totals,
+    life: Option<LifeEstimate>,
+    counters: Stats,
+) -> Summary {
+    let m = sim.metrics();
+    Summary {
+        scene: String::new(),
+        converged: totals.not_converged == 0,
+        steps: sim.passage_steps(),
+        steps_not_converged: totals.not_converged,
+        wall_s: 0.0,
+        a_m: sim.plan.hertz.a_m,
+        p_hertz_pa: sim.plan.hertz.p_max_pa,
+        h_central_m: totals.mean(0),
+        h_min_m: totals.mean(1),
+        p_max_pa: totals.mean(2),
+        contact_ratio: totals.mean(3),
+        load_n: totals.mean(7),
+        load_error: totals.greatest(5),
+        mass_error: totals.greatest(6),
+        friction_coefficient: totals.mean(4),
+        n_body_1: m.n_body_1,
+        n_body_2: m.n_body_2,
+        n_counted_body_1: m.n_counted_body_1,
+        n_counted_body_2: m.n_counted_body_2,
+        i_ref: life.map(|l| l.i_ref),
+        i_mean: life.map(|l| l.i_mean),
+        cycle_factor: life.map(|l| l.cycle_factor),
+        stress_factor: life.map(|l| l.stress_factor),
+        peak_factor: life.map(|l| l.peak_factor),
+        traction_factor: life.map(|l| l.traction_factor),
+        life_relative: life.map(|l| l.life_relative),
+        life_relative_low: life.map(|l| l.life_relative_low),
+        life_relative_high: life.map(|l| l.life_relative_high),
+        sigma_eff_max_pa: m.sigma_eff_max_pa,
+        sigma_eff_max_depth_m: m.sigma_eff_max_depth_m,
+        sigma_eff_max_x_m: m.sigma_eff_max_x_m,
+        counters,
+    }
+}

@@ -1,0 +1,218 @@
+//! A contact that marches in time on one grid: pressure, film, approach, history, workspace.
+//!
+//! One attempt of a step: predict, convect, solve; nothing is committed until the caller has seen the
+//! verdict. `State` is what a restart needs; everything else can be made again.
+
+use super::film::macroscopic_gap;
+use super::history::History;
+use super::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance};
+use super::reynolds::Medium;
+use crate::math::grid::Grid;
+
+/// What a restart needs.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// P, shape ny × nx.
+    pub pressure: Vec<f64>,
+    /// H.
+    pub film: Vec<f64>,
+    /// H0.
+    pub h0: f64,
+    /// Past masses and pressures.
+    pub history: History,
+}
+
+/// Where a step's first guess comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Guess {
+    /// Extrapolated along characteristics.
+    Extrapolated,
+    /// The last committed pressure.
+    Last,
+}
+
+/// A contact on one grid.
+pub struct March {
+    /// Grid.
+    pub grid: Grid,
+    /// State.
+    pub state: State,
+    /// X²/2 + c_y Y²/2.
+    pub macroscopic: Vec<f64>,
+    /// Undeformed gap of the next step.
+    pub gap: Vec<f64>,
+    /// Solver.
+    pub newton: Newton,
+    c_star: Vec<f64>,
+    s: Vec<f64>,
+    mass: Vec<f64>,
+    flowing: bool,
+}
+
+/// Constants of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shape {
+    /// κ.
+    pub kappa: f64,
+    /// Rx/Ry.
+    pub curvature_y: f64,
+    /// Ellipse half-width along y over that along x.
+    pub b_over_a: f64,
+}
+
+impl March {
+    /// A Hertz contact with film `h_central` on `grid`; `nodes` is the usual step; `flow` whether there
+    /// is a film at all.
+    pub fn from_hertz(grid: Grid, shape: &Shape, h_central: f64, nodes: f64, flow: Flow) -> Self {
+        let mut this = Self::empty(grid, shape, nodes, flow);
+        let grid = &this.grid;
+        let pressure = &mut this.state.pressure;
+        for j in grid.interior_rows() {
+            let y = grid.y(j) / shape.b_over_a;
+            for i in 1..grid.nx - 1 {
+                let r2 = grid.x(i).powi(2) + y * y;
+                pressure[j * grid.nx + i] = (1.0 - r2).max(0.0).sqrt();
+            }
+        }
+        let film = &mut this.state.film;
+        this.newton.elastic.deflect(pressure, film);
+        let mut lowest = f64::INFINITY;
+        for n in 0..grid.len() {
+            film[n] += this.macroscopic[n];
+            if pressure[n] > 0.0 {
+                lowest = lowest.min(film[n]);
+            }
+        }
+        let centre = grid.axis_row() * grid.nx + ((-grid.x_min / grid.dx).round() as usize);
+        this.state.h0 = h_central - film[centre];
+        for h in film.iter_mut() {
+            *h = (*h + this.state.h0).max(0.5 * h_central);
+        }
+        this.state.history = History::steady(film, pressure, this.state.h0);
+        this
+    }
+
+    /// The state of a coarser march with half the intervals, interpolated to twice as many.
+    pub fn refined(coarse: &Self, grid: Grid, shape: &Shape, nodes: f64, flow: Flow) -> Self {
+        let mut this = Self::empty(grid, shape, nodes, flow);
+        prolong(
+            &coarse.grid,
+            &coarse.state.pressure,
+            &this.grid,
+            &mut this.state.pressure,
+        );
+        prolong(
+            &coarse.grid,
+            &coarse.state.film,
+            &this.grid,
+            &mut this.state.film,
+        );
+        let mut mass = vec![0.0; this.grid.len()];
+        prolong(
+            &coarse.grid,
+            &coarse.state.history.mass_1,
+            &this.grid,
+            &mut mass,
+        );
+        this.state.h0 = coarse.state.h0;
+        this.state.history = History::steady(&mass, &this.state.pressure, this.state.h0);
+        this
+    }
+
+    fn empty(grid: Grid, shape: &Shape, nodes: f64, flow: Flow) -> Self {
+        let n = grid.len();
+        let newton = Newton::new(&grid, shape.kappa, 2.0 / 3.0 * nodes * grid.dx);
+        let mut macroscopic = vec![0.0; n];
+        macroscopic_gap(&grid, shape.curvature_y, &mut macroscopic);
+        let zero = vec![0.0; n];
+        Self {
+            state: State {
+                pressure: zero.clone(),
+                film: zero.clone(),
+                h0: 0.0,
+                history: History::steady(&zero, &zero, 0.0),
+            },
+            gap: macroscopic.clone(),
+            macroscopic,
+            newton,
+            c_star: zero.clone(),
+            s: zero.clone(),
+            mass: zero,
+            flowing: flow == Flow::Film,
+            grid,
+        }
+    }
+
+    /// Tries a step of `nodes` nodes against `gap`; nothing is committed.
+    pub fn attempt(
+        &mut self,
+        medium: &Medium,
+        load: f64,
+        nodes: f64,
+        tolerance: Tolerance,
+        guess: Guess,
+    ) -> NewtonReport {
+        let history = &self.state.history;
+        if self.flowing {
+            history.convect(&self.grid, nodes, &mut self.c_star, &mut self.s);
+        }
+        match guess {
+            Guess::Extrapolated => {
+                history.predict(&self.grid, nodes, &mut self.state.pressure);
+                self.state.h0 = history.h0[0];
+            }
+            Guess::Last => {
+                self.state.pressure.copy_from_slice(&history.pressure_1);
+                self.state.h0 = history.h0[0];
+            }
+        }
+        let problem = Problem {
+            grid: &self.grid,
+            medium,
+            gap: &self.gap,
+            c_star: &self.c_star,
+            s: &self.s,
+            load,
+            tolerance,
+        };
+        self.newton.solve(
+            &problem,
+            &mut Iterate {
+                p: &mut self.state.pressure,
+                h: &mut self.state.film,
+                h0: &mut self.state.h0,
+            },
+        )
+    }
+
+    /// Commits the step that was attempted last.
+    pub fn commit(&mut self, nodes: f64) {
+        for (n, mass) in self.mass.iter_mut().enumerate() {
+            *mass = (self.newton.reynolds.rho(n) * self.state.film[n]).max(0.0);
+        }
+        self.state
+            .history
+            .commit(&self.mass, &self.state.pressure, self.state.h0, nodes);
+    }
+}
+
+/// Whether the contact is lubricated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// There is a film.
+    Film,
+    /// Dry: the film equation is H ≥ 0.
+    Dry,
+}
+
+/// Bilinear interpolation to a grid with twice the intervals on the same rectangle.
+fn prolong(coarse: &Grid, from: &[f64], fine: &Grid, to: &mut [f64]) {
+    for j in 0..fine.ny {
+        let (j0, j1) = (j / 2, j.div_ceil(2));
+        for i in 0..fine.nx {
+            let (i0, i1) = (i / 2, i.div_ceil(2));
+            let at = |j: usize, i: usize| from[j * coarse.nx + i];
+            to[j * fine.nx + i] = 0.25 * (at(j0, i0) + at(j0, i1) + at(j1, i0) + at(j1, i1));
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! The plan: which stage is there, which is left out and why, and what is refused.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use asperity::plan::{March, Plan, PlanError, Symmetry, Warning};
+use asperity::scene::{Override, Scene, presets};
+
+fn plan(settings: &[&str]) -> Result<Plan, PlanError> {
+    let overrides: Vec<Override> = settings.iter().map(|text| text.parse().unwrap()).collect();
+    Plan::new(&Scene::load_with(presets::DEFAULT, &overrides).unwrap())
+}
+
+fn left_out(plan: &Plan) -> Vec<&str> {
+    plan.left_out.iter().map(|item| item.stage).collect()
+}
+
+#[test]
+fn every_preset_can_be_planned() {
+    for preset in presets::all() {
+        let plan = Plan::new(&Scene::load(preset.name).unwrap()).unwrap();
+        assert!(plan.steps > 0 && plan.dt_s > 0.0, "{}", preset.name);
+        assert!(plan.cost.memory_bytes < 500_000_000, "{}", preset.name);
+        let text = plan.to_string();
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+    }
+}
+
+#[test]
+fn the_default_scene() {
+    let plan = plan(&[]).unwrap();
+    assert_eq!(
+        (plan.domain.nodes, plan.domain.x_min_a, plan.domain.y_half_b),
+        (129, -2.5, 2.0)
+    );
+    assert_eq!(
+        (plan.march, plan.symmetry),
+        (March::Transient, Symmetry::MirrorY)
+    );
+    assert_eq!((plan.steps, plan.steps_per_passage), (256, 128));
+    assert!(
+        (plan.dt_s * 1.0 / plan.dx_m - 1.0).abs() < 1e-12,
+        "one node a step at U"
+    );
+    let life = plan.life.unwrap();
+    assert!(life.phases_per_passage >= 8, "{life:?}");
+    let nodes = plan.waves[0].unwrap().nodes[0];
+    assert!(nodes >= 13.0, "{nodes}");
+    let record = plan.record.unwrap();
+    assert_eq!((record.every_steps, record.frames), (1, 256));
+    assert_eq!(left_out(&plan), ["rows y < 0", "deflection by traction"]);
+}
+
+#[test]
+fn nothing_that_is_not_asked_for_is_computed() {
+    let dry = plan(&["lubricant=none", "life=none", "stress=none", "record=none"]).unwrap();
+    assert!(
+        dry.film.is_none() && dry.life.is_none() && dry.stress.is_none() && dry.record.is_none()
+    );
+    for stage in [
+        "film and flow",
+        "subsurface stress",
+        "fatigue life",
+        "recording",
+    ] {
+        assert!(left_out(&dry).contains(&stage), "{stage}");
+    }
+    let smooth = plan(&["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"]).unwrap();
+    assert!(matches!(smooth.march, March::Steady { .. }));
+    assert_eq!((smooth.steps, smooth.waves), (1, [None, None]));
+    let ridges = plan(&[
+        "body_1.surface.wavelength_x_m=inf",
+        "body_1.surface.wavelength_y_m=2e-4",
+        "body_2.surface.kind=smooth",
+    ]);
+    assert!(
+        matches!(ridges.unwrap().march, March::Steady { .. }),
+        "longitudinal ridges do not move"
+    );
+}
+
+#[test]
+fn what_is_needed_is_there() {
+    let unlike = plan(&["body_1.young_pa=7e10"]).unwrap();
+    let mismatch = unlike.traction_deflection.unwrap().mismatch_per_pa;
+    let expected = 1.3 * 0.4 / 7e10 - 1.3 * 0.4 / 2e11;
+    assert!((mismatch / expected - 1.0).abs() < 1e-12);
+    let turned = plan(&["body_1.surface.angle_deg=30"]).unwrap();
+    assert_eq!(turned.symmetry, Symmetry::General);
+    let text = turned.to_string();
+    assert!(text.contains("all rows"), "{text}");
+}
+
+#[test]
+fn life_sees_all_phases() {
+    // Waves of 16 and 8 steps at U: an interval of 8 steps would meet them in two phases or in one.
+    for settings in [
+        &[
+            "body_1.surface.wavelength_x_m=2.3514e-4",
+            "motion.slide_roll=0",
+        ][..],
+        &[
+            "body_2.surface.wavelength_x_m=1.17e-4",
+            "motion.slide_roll=0",
+        ][..],
+        &["motion.slide_roll=1"][..],
+    ] {
+        let plan = plan(settings).unwrap();
+        let every = plan.life.unwrap().volume_every_steps;
+        for wave in plan.waves.iter().flatten() {
+            let mut octants = [false; 8];
+            for look in 0..plan.steps_per_passage / every {
+                let phase = (look as f64 * every as f64 * wave.crests_per_step).fract();
+                octants[(phase * 8.0) as usize % 8] = true;
+            }
+            let met = octants.iter().filter(|met| **met).count();
+            assert!(
+                met >= 7,
+                "{settings:?}: every {every} steps meets {met} of 8 phases"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_wave_under_four_nodes_is_refused_by_name() {
+    // dx = 14.696 µm: 4 nodes are 58.79 µm.
+    assert!(plan(&["body_1.surface.wavelength_x_m=5.88e-5"]).is_ok());
+    let PlanError::Unresolved {
+        key,
+        value,
+        allowed,
+    } = plan(&["body_1.surface.wavelength_x_m=5.87e-5"]).unwrap_err();
+    assert_eq!(
+        (key.as_str(), value.as_str()),
+        ("body_1.surface.wavelength_x_m", "5.87e-5 m")
+    );
+    assert!(allowed.contains("at least 5.879e-5 m"), "{allowed}");
+    let named = |settings: &[&str]| match plan(settings).unwrap_err() {
+        PlanError::Unresolved { key, .. } => key,
+    };
+    assert_eq!(
+        named(&["body_2.surface.wavelength_y_m=1e-5"]),
+        "body_2.surface.wavelength_y_m"
+    );
+    // Turned by 90 degrees the x' wave runs along y; it is still the key to change.
+    assert_eq!(
+        named(&[
+            "body_1.surface.wavelength_x_m=1e-5",
+            "body_1.surface.angle_deg=90"
+        ]),
+        "body_1.surface.wavelength_x_m"
+    );
+    assert!(plan(&["body_1.surface.wavelength_x_m=5.87e-5", "grid.nodes=257"]).is_ok());
+}
+
+#[test]
+fn coarse_meshes_are_warned_of() {
+    let slow = plan(&["motion.entrainment_m_s=0.1"]).unwrap();
+    let mesh = slow.warnings.iter().find_map(|warning| match warning {
+        Warning::CoarseForTheFilm { error } => Some(*error),
+        _ => None,
+    });
+    // 31 nm at 128² against 84: the rule must cry out.
+    assert!(mesh.unwrap() > 0.3, "{mesh:?}");
+    let thick = plan(&["load.force_n=10"]).unwrap();
+    assert!(
+        thick.domain.x_min_a < -2.5,
+        "a thick film wants a longer inlet"
+    );
+    let forced = plan(&["load.force_n=10", "grid.x_min_a=-1.5"]).unwrap();
+    assert!(
+        forced
+            .warnings
+            .iter()
+            .any(|warning| matches!(warning, Warning::ShortInlet { .. }))
+    );
+}
+
+#[test]
+fn a_recording_keeps_its_budget() {
+    let tight = plan(&["record.budget_mb=5", "time.passages=10"]).unwrap();
+    let record = tight.record.unwrap();
+    assert!(
+        record.every_steps > 1 && record.bytes <= 5_000_000,
+        "{record:?}"
+    );
+    assert!(record.frames * record.every_steps >= tight.steps);
+}
+
+#[test]
+fn events_keep_time_marching() {
+    let toml = Scene::load_with(
+        presets::DEFAULT,
+        &[
+            "body_1.surface.kind=smooth".parse().unwrap(),
+            "body_2.surface.kind=smooth".parse().unwrap(),
+        ],
+    )
+    .unwrap()
+    .to_toml();
+    let with_event =
+        format!("{toml}\n[[event]]\nat_s = 1e-4\nset = {{ \"load.force_n\" = 900.0 }}\n");
+    let plan = Plan::new(&Scene::from_toml(&with_event).unwrap()).unwrap();
+    assert_eq!(plan.march, March::Transient);
+}

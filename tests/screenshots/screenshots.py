@@ -1,0 +1,134 @@
+"""Pictures of a recording in the real viewer, without a screen.
+
+    python3 -m venv venv && venv/bin/pip install rerun-sdk==0.36.3 numpy
+    venv/bin/python tests/screenshots/screenshots.py recording.rrd assets/screenshots
+
+On a machine without a graphics card the viewer draws in software; on Debian and Ubuntu that needs
+
+    apt-get install --no-install-recommends mesa-vulkan-drivers libvulkan1 libgl1 libegl1 \
+        libxkbcommon-x11-0 libxkbcommon0 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libwayland-client0
+
+One picture per tab of the layout that the recording brings with it: `contact.png`, `maps.png`, ...
+The viewer knows no command for choosing a tab, so the recording's own layout is sent to it once per
+tab with that tab made the active one. The layout's cameras and bounds rest on a convention of the
+viewer (`src/observe/rerun/layout.rs`): if a picture shows the default camera, it no longer holds.
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint.archetypes as blueprint_archetypes
+import rerun.experimental as rx
+import rerun_bindings as bindings
+
+VERSION = "0.36.3"
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("recording", type=pathlib.Path, help=".rrd file")
+    parser.add_argument("folder", type=pathlib.Path, help="where the pictures go")
+    parser.add_argument("--size", default="1600x900", help="window size in pixels (default: %(default)s)")
+    parser.add_argument("--port", type=int, default=9988, help="free port (default: %(default)s)")
+    parser.add_argument("--wait", type=float, default=15.0, help="seconds for loading (default: %(default)s)")
+    parser.add_argument("--settle", type=float, default=4.0, help="seconds per tab (default: %(default)s)")
+    return parser.parse_args()
+
+
+def layout(recording):
+    """Application, chunks of the layout, and (name, path) of its tabs."""
+    reader = rx.RrdReader(recording)
+    entry = reader.blueprints()[0]
+    chunks = list(reader.stream(store=entry))
+    column = {}
+    for chunk in chunks:
+        batch = chunk.to_record_batch()
+        for name in batch.schema.names:
+            column[(chunk.entity_path, name)] = batch.column(name)
+
+    def value(path, component):
+        for (entity, name), array in column.items():
+            if entity == path and name.endswith(component):
+                return array[0].as_py()
+        return None
+
+    root_bytes = value("/viewport", "root_container")[0]
+    root = "/container/" + str(uuid_of(root_bytes))
+    tabs = []
+    for child in value(root, "contents"):
+        path = "/" + child.lstrip("/")
+        tabs.append((value(path, "display_name")[0], child))
+    return entry.application_id, chunks, root, tabs
+
+
+def uuid_of(raw):
+    """An identifier however the arrow column spells it."""
+    import uuid
+
+    raw = raw.get("bytes", raw) if isinstance(raw, dict) else raw
+    return uuid.UUID(bytes=bytes(raw))
+
+
+def activate(application, chunks, root, tab, url):
+    """Sends the layout again with one tab in front."""
+    stream = rr.RecordingStream._from_native(
+        bindings.new_blueprint(
+            application_id=application,
+            make_default=False,
+            make_thread_default=False,
+            default_enabled=True,
+        )
+    )
+    stream.set_time("blueprint", sequence=0)
+    rx.send_chunks(chunks, recording=stream)
+    stream.set_time("blueprint", sequence=1)
+    change = blueprint_archetypes.ContainerBlueprint.from_fields(active_tab=tab)
+    stream.log(root, change)
+    bindings.connect_grpc_blueprint(url, True, True, stream.to_native())
+
+
+def connect(url, seconds):
+    """Waits for the viewer."""
+    until = time.monotonic() + seconds
+    while True:
+        try:
+            return rx.ViewerClient.connect(url)
+        except Exception:
+            if time.monotonic() > until:
+                raise
+            time.sleep(0.5)
+
+
+def main():
+    arguments = parse_arguments()
+    if rr.__version__ != VERSION:
+        sys.exit(f"rerun-sdk {rr.__version__} is installed; the recording is of {VERSION}")
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    application, chunks, root, tabs = layout(arguments.recording)
+    viewer = pathlib.Path(sys.executable).parent / "rerun"
+    command = [viewer, "--headless", "--bind", "127.0.0.1", "--port", str(arguments.port)]
+    command += ["--window-size", arguments.size, "--memory-limit", "2GB", arguments.recording]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    url = f"rerun+http://127.0.0.1:{arguments.port}/proxy"
+    try:
+        client = connect(url, arguments.wait)
+        time.sleep(arguments.wait)
+        for name, tab in tabs:
+            activate(application, chunks, root, tab, url)
+            time.sleep(arguments.settle)
+            file = arguments.folder / (re.sub(r"[^a-z0-9]+", "_", name.lower()) + ".png")
+            client.save_screenshot(str(file.resolve()))
+            print(file)
+    finally:
+        process.terminate()
+        process.wait()
+
+
+if __name__ == "__main__":
+    main()
