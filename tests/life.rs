@@ -1,8 +1,8 @@
 //! Life integrals and the factors of life against published and computed values.
 //! Every test prints the numbers that it asserts.
 
-use asperity::physics::cycles::{contacts, miner_part};
-use asperity::solve::material::{Row, Track, TrackSpec};
+use asperity::physics::cycles::{BodyId, Kinematics, miner_part};
+use asperity::solve::material::{Line, MaterialTracker, TrackerSpec};
 use asperity::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry, VolumeOut};
 
 const NU: f64 = 0.3;
@@ -125,8 +125,13 @@ struct Passage {
 impl Passage {
     /// Crests that pass over a point of body 1 on its way through the contact, f δ.
     fn crests(&self) -> f64 {
-        let n = contacts(self.u_1, self.u_2, 1.0 / self.wavelength, 2.0);
-        n.per_loading_cycle().expect("moving") - 1.0
+        let kinematics = Kinematics {
+            u_1: self.u_1,
+            u_2: self.u_2,
+            zone: 2.0,
+        };
+        let contacts = kinematics.contacts(BodyId::One, 1.0 / self.wavelength);
+        contacts.per_cycle().expect("moving") - 1.0
     }
 
     /// Sixteen samples a crest.
@@ -158,34 +163,39 @@ fn counted_contacts_match_the_formula() {
             u_2,
             wavelength,
         };
-        let mut track = Track::with(TrackSpec {
-            points: 64,
-            ..TrackSpec::default()
-        });
+        let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 9.3);
+        spec.points = 64;
+        let mut tracker = MaterialTracker::new(spec);
         let (nodes, dx) = (1025, 4.0 / 1024.0);
-        let mut values = vec![0.0; nodes];
-        let steps = (2.2 * 2.0 / (u_1.abs() * passage.step())) as usize;
+        let mut pressure = vec![0.0_f32; nodes];
+        let steps = (2.2 * 4.0 / (u_1.abs() * passage.step())) as usize;
         for s in 0..steps {
             let t = s as f64 * passage.step();
-            for (i, p) in values.iter_mut().enumerate() {
+            for (i, p) in pressure.iter_mut().enumerate() {
                 let x = -2.0 + dx * i as f64;
-                *p = hertz(x, 0.0) * passage.ripple(x, t);
+                *p = (hertz(x, 0.0) * passage.ripple(x, t)) as f32;
             }
-            let row = Row {
-                values: &values,
-                x_min: -2.0,
+            let line = Line {
+                x_first: -2.0,
                 dx,
+                pressure: &pressure,
+                tau_xz: None,
             };
-            track.push(&row, u_1 * passage.step());
+            tracker.step(u_1 * passage.step(), &line);
         }
-        let (tally, expected) = (track.pressure_cycles().expect("crossed"), passage.crests());
+        let (tally, expected) = (
+            tracker.pressure_cycles().expect("crossed"),
+            passage.crests(),
+        );
         println!(
-            "U1 {u_1}, U2 {u_2}, W {wavelength}: f delta {expected:.2}, counted {:.2}; \
+            "U1 {u_1}, U2 {u_2}, W {wavelength}: f delta {expected:.2}, counted {:.2} over {} phases; \
              damage-equivalent {:.2}, f delta phi(9.3) {:.2}",
             tally.count,
+            tracker.phases(),
             tally.equivalent,
             expected * miner_part(9.3)
         );
+        assert!(tracker.phases() >= 8);
         // Between the crests that lie in the zone (f δ) and n = 1 + f δ: the crest that the zone's edge
         // cuts counts when what is left of it passes the gate, 0.6 times in a crossing of this contact.
         assert!((tally.count - expected).abs() <= 1.0);
@@ -211,13 +221,9 @@ fn shear_counts_n_near_the_surface_and_one_below() {
     let spec = spec(128, 16, Symmetry::MirrorY);
     let mut engine = StressEngine::new(&spec).expect("valid");
     let mut slice = SliceOut::new(&spec);
-    let mut track = Track::with(TrackSpec {
-        depths: spec.depths.len(),
-        ..TrackSpec::default()
-    });
+    let mut tracker = MaterialTracker::new(TrackerSpec::new((-HALF, HALF), 16, 9.3));
     let mut pressure = vec![0.0_f32; spec.nx * spec.ny];
-    let mut axis = vec![0.0; spec.nx];
-    for s in 0..(2.1 * 2.0 / passage.step()) as usize {
+    for s in 0..(2.1 * 4.0 / passage.step()) as usize {
         let t = s as f64 * passage.step();
         for j in 0..spec.ny {
             for i in 0..spec.nx {
@@ -228,31 +234,26 @@ fn shear_counts_n_near_the_surface_and_one_below() {
         }
         engine.load(&pressure, None);
         engine.slice(&mut slice);
-        for (to, from) in axis.iter_mut().zip(&pressure) {
-            *to = f64::from(*from);
-        }
-        let row = Row {
-            values: &axis,
-            x_min: spec.x_first,
+        let line = Line {
+            x_first: spec.x_first,
             dx: spec.dx,
+            pressure: &pressure[..spec.nx],
+            tau_xz: Some(&slice.sxz),
         };
-        track.push_with_shear(&row, &slice.sxz, passage.u_1 * passage.step());
+        tracker.step(passage.u_1 * passage.step(), &line);
     }
     println!("n by formula {n:.1}");
     for (k, z) in spec.depths.iter().enumerate() {
-        let tally = track.shear_cycles(k).expect("crossed");
+        let tally = tracker.shear_cycles(k).expect("crossed");
         println!(
             "z = {z:.3} a: {:.2} shear cycles, equivalent {:.2}, range {:.3} p_h",
             tally.count, tally.equivalent, tally.range
         );
         if (0.02..passage.wavelength / 2.0).contains(z) {
-            assert!(
-                (n - 1.0..=n).contains(&tally.count),
-                "near the surface: between f δ and n"
-            );
+            assert!((tally.count - n).abs() <= 0.1 * n, "near the surface: n");
         }
         if *z > 2.0 * passage.wavelength {
-            assert_eq!(tally.count, 1.0, "below 2 W: the base cycle");
+            assert!((tally.count - 1.0).abs() < 0.6, "below 2 W: the base cycle");
         }
     }
 }

@@ -1,21 +1,18 @@
 //! Material points of one body on the line y = 0, carried through the contact, and the cycles they see.
 //!
 //! ```text
-//! x_p ← x_p + U_i Δt     (no grid node: values are interpolated along x)
-//! history of a crossing of −a ≤ x ≤ a: 0, p(x_p, t), ..., 0;   the same of signed τ_xz at each depth
-//! rainflow (ASTM E1049) with a gate → cycles per crossing; mean over points of different phase
+//! x_p ← x_p + U_i Δt      (no grid node: values are interpolated along x)
+//! history of a crossing: 0, p(x_p, t), ..., 0      and the same of signed τ_xz at each depth
+//! rainflow (ASTM E1049) with a gate → cycles per crossing; mean over points that are staggered in phase
 //! ```
-//! A point that leaves the zone enters it again; the crossing in which it was at the start does not
-//! count. A point of the body crosses at every turn, so its history counts as one that repeats
-//! ([`Ends::Repeating`]): every cycle closes. The points stand a golden section apart: with even spacing
-//! all of them would meet the ripples in the same phase whenever the spacing is a multiple of the
-//! wavelength, and the mean would be off by up to one.
+//! A point crosses at every turn of its body, so the history counts as one that repeats
+//! ([`Ends::Repeating`]): every cycle closes.
 //!
 //! *What the count is compared with.* The pressure of ripples that unload fully returns to zero between
 //! crests, so its cycles are the crests that a point meets: `f δ` within the zone, and the crest that the
 //! zone's edge cuts whenever what is left of it passes the gate: 0.6 times in a crossing of a Hertz
 //! contact at a gate of 5 %. The mean count therefore lies between `f δ` and the formula's `n = 1 + f δ`.
-//! The signed shear of a shallow point counts the same crests (8.3 to 8.6 where f δ = 8); from one wavelength
+//! The signed shear of a shallow point counts the same crests (8.3 to 9.4 where n = 9); from one wavelength
 //! down one cycle is left. Accepted is `|mean − f δ| ≤ 1` for the pressure, and from `f δ = 10` on 5 % of
 //! `f δ` or of n (`tests/life.rs`), with at least 8 points and 16 samples a crest,
 //! `Δt ≤ W/(16 |U_2 − U_1|)`.
@@ -24,79 +21,89 @@
 
 use crate::physics::rainflow::{Cycle, Ends, Rainflow};
 
-/// Ranges of pressure below this part of p_h are not counted.
-pub const GATE: f64 = 0.05;
-/// Ranges of shear below this part of p_h are not counted: the same part of its own scale (the τ_xz of
-/// Hertz swings by 0.43 to 0.5 p_h).
-pub const SHEAR_GATE: f64 = 0.02;
-/// Half of the zone.
-const HALF: f64 = 1.0;
-/// Open reversals of a crossing: far more than the crests of any contact that a grid resolves.
-const OPEN: usize = 512;
-/// Fraction of the golden section: multiples of it, modulo 1, spread evenly and fall into step with nothing.
+/// Fraction of the golden section: multiples of it, modulo 1, spread evenly and never fall into step with
+/// the ripples, as equal spacing may.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// What is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TrackSpec {
-    /// Points, at least 8 for a mean over phases.
+pub struct TrackerSpec {
+    /// Points, staggered over the track; at least 8 for a mean over phases.
     pub points: usize,
-    /// Depths at which shear is followed (0: pressure alone).
+    /// Ends of the track: the domain's edges along x, where the pressure is zero, a.
+    pub x_first: f64,
+    /// Other end, a.
+    pub x_last: f64,
+    /// Least range of pressure that counts, p_h.
+    pub pressure_gate: f64,
+    /// Least range of shear that counts, p_h.
+    pub shear_gate: f64,
+    /// Depths at which shear is followed (0: pressure alone); the slice's own depths.
     pub depths: usize,
+    /// Depth of the point that is shown, an index below `depths`.
+    pub shown_depth: usize,
     /// Exponent of Miner's sum of ranges.
     pub damage_exponent: f64,
-    /// Samples kept of the shown point's crossing (0: none).
+    /// Samples kept of the shown point's crossing.
     pub trace: usize,
 }
 
-impl Default for TrackSpec {
-    /// Sixteen points, pressure alone, Lundberg-Palmgren's exponent of 9.3 on stress, no trace.
-    fn default() -> Self {
+impl TrackerSpec {
+    /// Gate on the pressure's ranges, p_h.
+    pub const PRESSURE_GATE: f64 = 0.05;
+    /// Gate on the shear's ranges, p_h: the same part of its own scale (τ_xz of Hertz swings by 0.5 p_h).
+    pub const SHEAR_GATE: f64 = 0.02;
+
+    /// Sixteen points, default gates.
+    pub fn new((x_first, x_last): (f64, f64), depths: usize, damage_exponent: f64) -> Self {
         Self {
             points: 16,
-            depths: 0,
-            damage_exponent: 9.3,
-            trace: 0,
+            x_first,
+            x_last,
+            pressure_gate: Self::PRESSURE_GATE,
+            shear_gate: Self::SHEAR_GATE,
+            depths,
+            shown_depth: 0,
+            damage_exponent,
+            trace: 2048,
         }
     }
 }
 
-/// One row of pressure along x.
+/// The line y = 0 at one instant.
 #[derive(Debug, Clone, Copy)]
-pub struct Row<'a> {
-    /// Values.
-    pub values: &'a [f64],
-    /// First node.
-    pub x_min: f64,
-    /// Spacing.
+pub struct Line<'a> {
+    /// Coordinate of the first node, a.
+    pub x_first: f64,
+    /// Node spacing, a.
     pub dx: f64,
+    /// Pressure at the nodes, p_h.
+    pub pressure: &'a [f32],
+    /// Signed orthogonal shear below the nodes, `[k·nx + i]`; `None`: not known.
+    pub tau_xz: Option<&'a [f32]>,
 }
 
-impl Row<'_> {
-    /// Value at `x`, linear between nodes, zero outside.
-    pub fn at(&self, x: f64) -> f64 {
-        self.place(x).map_or(0.0, |(i, t)| {
-            self.values[i] * (1.0 - t) + self.values[i + 1] * t
-        })
-    }
-
-    /// Same in row `k` of another field on the same nodes.
-    fn at_depth(&self, field: &[f32], k: usize, x: f64) -> f64 {
-        let first = k * self.values.len();
-        self.place(x).map_or(0.0, |(i, t)| {
-            let number = |i: usize| field.get(first + i).map_or(0.0, |v| f64::from(*v));
-            number(i) * (1.0 - t) + number(i + 1) * t
-        })
-    }
-
-    /// Node to the left and part of the way to the next.
-    fn place(&self, x: f64) -> Option<(usize, f64)> {
-        let position = (x - self.x_min) / self.dx;
-        if position.is_nan() || position < 0.0 {
-            return None;
+impl Line<'_> {
+    /// Linear interpolation in one row of nodes; 0 outside.
+    fn at(&self, row: &[f32], x: f64) -> f64 {
+        let place = (x - self.x_first) / self.dx;
+        if place < 0.0 || place > (row.len() - 1) as f64 {
+            return 0.0;
         }
-        let i = position as usize;
-        (i + 1 < self.values.len()).then_some((i, position - i as f64))
+        let i = (place as usize).min(row.len().saturating_sub(2));
+        let part = place - i as f64;
+        f64::from(row[i]) * (1.0 - part) + f64::from(row[i + 1]) * part
+    }
+
+    fn pressure_at(&self, x: f64) -> f64 {
+        self.at(self.pressure, x)
+    }
+
+    fn shear_at(&self, k: usize, x: f64) -> f64 {
+        let nx = self.pressure.len();
+        self.tau_xz
+            .and_then(|tau| tau.get(k * nx..(k + 1) * nx))
+            .map_or(0.0, |row| self.at(row, x))
     }
 }
 
@@ -105,12 +112,12 @@ impl Row<'_> {
 pub struct Tally {
     /// Cycles with a range above the gate.
     pub count: f64,
-    /// `Σ count · (range/greatest)^m`: as many cycles of the greatest range do the same damage.
-    pub equivalent: f64,
-    /// Greatest range.
-    pub range: f64,
     /// Σ count · range^m.
     damage: f64,
+    /// Greatest range.
+    pub range: f64,
+    /// `Σ count · (range/greatest)^m`: as many cycles of the greatest range do the same damage.
+    pub equivalent: f64,
 }
 
 impl Tally {
@@ -132,14 +139,15 @@ struct History {
 }
 
 impl History {
+    /// Open reversals of a crossing: far more than the crests of any contact that a grid resolves.
+    const OPEN: usize = 512;
+
     fn new(gate: f64) -> Self {
-        let mut history = Self {
-            flow: Rainflow::new(Ends::Repeating, gate, OPEN),
+        Self {
+            flow: Rainflow::new(Ends::Repeating, gate, Self::OPEN),
             tally: Tally::default(),
             last: None,
-        };
-        history.start();
-        history
+        }
     }
 
     fn push(&mut self, value: f64, exponent: f64) {
@@ -148,10 +156,10 @@ impl History {
     }
 
     /// Starts a crossing at zero stress.
-    fn start(&mut self) {
+    fn start(&mut self, exponent: f64) {
         self.flow.reset();
-        self.flow.push(0.0, &mut |_| {});
         self.tally = Tally::default();
+        self.push(0.0, exponent);
     }
 
     /// Ends it at zero stress.
@@ -162,14 +170,17 @@ impl History {
         if crossing == Crossing::Whole {
             *last = Some(*tally);
         }
-        self.start();
     }
 }
 
 /// Whether a point's crossing has been followed from its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Crossing {
+    /// Not sampled yet.
+    New,
+    /// From before the contact.
     Whole,
+    /// From inside or behind the contact: not counted.
     Part,
 }
 
@@ -181,41 +192,23 @@ struct Point {
     shear: Vec<History>,
 }
 
-impl Point {
-    fn histories(&mut self) -> impl Iterator<Item = &mut History> {
-        std::iter::once(&mut self.pressure).chain(&mut self.shear)
-    }
-
-    /// Moves the point; true when it left the zone and entered it anew.
-    fn advance(&mut self, travel: f64, exponent: f64) -> bool {
-        self.x += travel;
-        let left = self.x.abs() > HALF;
-        if left {
-            self.x = (self.x + HALF).rem_euclid(2.0 * HALF) - HALF;
-            let crossing = self.crossing;
-            for history in self.histories() {
-                history.end(exponent, crossing);
-            }
-        }
-        left
-    }
-}
-
 /// A sample of the shown point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sample {
-    /// Where it is.
+    /// Where it is, a.
     pub x: f64,
-    /// Pressure above it.
+    /// Pressure above it, p_h.
     pub pressure: f64,
-    /// Pressure cycles closed in this crossing so far.
-    pub cycles: f64,
+    /// Signed orthogonal shear at the shown depth, p_h.
+    pub tau_xz: f64,
+    /// Pressure cycles of this crossing so far.
+    pub counted: f64,
 }
 
-/// The points of one body.
+/// Points of one body under way.
 #[derive(Debug, Clone)]
-pub struct Track {
-    spec: TrackSpec,
+pub struct MaterialTracker {
+    spec: TrackerSpec,
     points: Vec<Point>,
     crossings: u64,
     /// Samples of the shown point's crossing, oldest first from `oldest` on.
@@ -223,144 +216,172 @@ pub struct Track {
     oldest: usize,
 }
 
-impl Default for Track {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl Track {
-    /// Points by the default [`TrackSpec`].
-    pub fn new() -> Self {
-        Self::with(TrackSpec::default())
-    }
-
-    /// Points spread over the zone; at least one.
-    pub fn with(spec: TrackSpec) -> Self {
+impl MaterialTracker {
+    /// Points spread over the track; at least one.
+    pub fn new(spec: TrackerSpec) -> Self {
+        let length = spec.x_last - spec.x_first;
+        let count = spec.points.max(1);
         let point = |i: usize| Point {
-            x: HALF * (2.0 * (GOLDEN * (i as f64 + 0.5)).fract() - 1.0),
-            crossing: Crossing::Part,
-            pressure: History::new(GATE),
-            shear: vec![History::new(SHEAR_GATE); spec.depths],
+            x: spec.x_first + length * (GOLDEN * i as f64).fract(),
+            crossing: Crossing::New,
+            pressure: History::new(spec.pressure_gate),
+            shear: vec![History::new(spec.shear_gate); spec.depths],
         };
-        Self {
-            points: (0..spec.points.max(1)).map(point).collect(),
-            crossings: 0,
-            trace: Vec::with_capacity(spec.trace),
-            oldest: 0,
+        let mut tracker = Self {
             spec,
-        }
+            points: (0..count).map(point).collect(),
+            crossings: 0,
+            trace: Vec::with_capacity(spec.trace.max(1)),
+            oldest: 0,
+        };
+        tracker.restart();
+        tracker
     }
 
-    /// Forgets the counts (after a change of speeds, load or roughness); the points stay where they are.
+    /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are.
     pub fn restart(&mut self) {
+        let exponent = self.spec.damage_exponent;
         for point in &mut self.points {
-            point.crossing = Crossing::Part;
-            for history in point.histories() {
-                history.start();
+            point.crossing = Crossing::New;
+            for history in std::iter::once(&mut point.pressure).chain(&mut point.shear) {
+                history.start(exponent);
                 history.last = None;
             }
         }
         self.crossings = 0;
-        self.clear_trace();
-    }
-
-    /// Moves the points by `travel = U_i Δt` (either sign) and samples the pressure.
-    pub fn push(&mut self, row: &Row, travel: f64) {
-        self.push_with_shear(row, &[], travel);
-    }
-
-    /// Same, with the signed shear below the row, `[k·nx + i]`, k over the followed depths.
-    pub fn push_with_shear(&mut self, row: &Row, tau_xz: &[f32], travel: f64) {
-        let exponent = self.spec.damage_exponent;
-        let mut shown_left = false;
-        for (i, point) in self.points.iter_mut().enumerate() {
-            if point.advance(travel, exponent) {
-                self.crossings += u64::from(point.crossing == Crossing::Whole);
-                point.crossing = Crossing::Whole;
-                shown_left |= i == 0;
-            }
-            point.pressure.push(row.at(point.x), exponent);
-            for (k, history) in point.shear.iter_mut().enumerate() {
-                history.push(row.at_depth(tau_xz, k, point.x), exponent);
-            }
-        }
-        if shown_left {
-            self.clear_trace();
-        }
-        self.keep_sample(row);
-    }
-
-    fn clear_trace(&mut self) {
         self.trace.clear();
         self.oldest = 0;
     }
 
-    fn keep_sample(&mut self, row: &Row) {
-        let (x, cycles) = self.shown();
-        let sample = Sample {
-            x,
-            pressure: row.at(x),
-            cycles,
-        };
-        if self.trace.len() < self.spec.trace {
-            self.trace.push(sample);
-        } else if self.spec.trace > 0 {
-            self.trace[self.oldest] = sample;
+    /// Moves every point by `travel = U_i Δt` (in a, signed) and samples the line there.
+    pub fn step(&mut self, travel: f64, line: &Line) {
+        for i in 0..self.points.len() {
+            if self.advance(i, travel) {
+                self.crossings += u64::from(self.points[i].crossing == Crossing::Whole);
+                self.points[i].crossing = Crossing::Whole;
+                if i == 0 {
+                    self.trace.clear();
+                    self.oldest = 0;
+                }
+            }
+            self.sample(i, travel, line);
+        }
+        let shown = self.shown(line);
+        if self.trace.len() < self.spec.trace.max(1) {
+            self.trace.push(shown);
+        } else {
+            self.trace[self.oldest] = shown;
             self.oldest = (self.oldest + 1) % self.trace.len();
         }
     }
 
-    /// Place and cycles so far of the first point.
-    pub fn shown(&self) -> (f64, f64) {
-        (self.points[0].x, self.points[0].pressure.tally.count)
+    /// Moves a point; true when it left the track and entered it anew.
+    fn advance(&mut self, i: usize, travel: f64) -> bool {
+        let (first, last) = (self.spec.x_first, self.spec.x_last);
+        let exponent = self.spec.damage_exponent;
+        let point = &mut self.points[i];
+        point.x += travel;
+        let left = if travel > 0.0 {
+            point.x >= last
+        } else {
+            travel < 0.0 && point.x <= first
+        };
+        if left {
+            point.x = first + (point.x - first).rem_euclid(last - first);
+            let crossing = point.crossing;
+            for history in std::iter::once(&mut point.pressure).chain(&mut point.shear) {
+                history.end(exponent, crossing);
+                history.start(exponent);
+            }
+        }
+        left
     }
 
-    /// Samples of the first point's present crossing, oldest first.
+    fn sample(&mut self, i: usize, travel: f64, line: &Line) {
+        let (gate, exponent) = (self.spec.pressure_gate, self.spec.damage_exponent);
+        let point = &mut self.points[i];
+        let pressure = line.pressure_at(point.x);
+        if point.crossing == Crossing::New && travel != 0.0 {
+            // Followed from the start only if it is still ahead of the contact and unloaded.
+            let ahead = point.x * travel < 0.0 && pressure < gate;
+            point.crossing = if ahead {
+                Crossing::Whole
+            } else {
+                Crossing::Part
+            };
+        }
+        point.pressure.push(pressure, exponent);
+        if line.tau_xz.is_some() {
+            for (k, history) in point.shear.iter_mut().enumerate() {
+                history.push(line.shear_at(k, point.x), exponent);
+            }
+        }
+    }
+
+    /// The point on the screen, as the line now is.
+    pub fn shown(&self, line: &Line) -> Sample {
+        let point = &self.points[0];
+        Sample {
+            x: point.x,
+            pressure: line.pressure_at(point.x),
+            tau_xz: line.shear_at(self.spec.shown_depth, point.x),
+            counted: point.pressure.tally.count,
+        }
+    }
+
+    /// Samples of the shown point's present crossing, oldest first.
     pub fn trace(&self) -> impl Iterator<Item = &Sample> {
-        let (late, early) = self.trace.split_at(self.oldest);
-        early.iter().chain(late)
+        self.trace[self.oldest..]
+            .iter()
+            .chain(&self.trace[..self.oldest])
     }
 
-    /// Whole crossings since the start.
+    /// Whole crossings finished since the start.
     pub fn crossings(&self) -> u64 {
         self.crossings
     }
 
-    /// Mean cycles of the pressure in a crossing; `None` before all points have crossed once.
-    pub fn mean_cycles(&self) -> Option<f64> {
-        self.pressure_cycles().map(|tally| tally.count)
-    }
-
-    /// Mean tally of the pressure over the points' last crossings; `None` before all have crossed once.
+    /// Mean over the points' last whole crossings of the pressure's cycles; `None` until one is finished.
     pub fn pressure_cycles(&self) -> Option<Tally> {
-        self.mean(|point| point.pressure.last)
+        mean(self.points.iter().filter_map(|p| p.pressure.last))
     }
 
     /// Same of the signed shear at depth `k`.
     pub fn shear_cycles(&self, k: usize) -> Option<Tally> {
-        self.mean(|point| point.shear.get(k)?.last)
+        mean(self.points.iter().filter_map(|p| p.shear.get(k)?.last))
     }
 
-    /// Mean cycles of pressure in the present crossings so far: for a body that stands, whose crossing
-    /// never ends, this over the time is its rate.
+    /// Points whose last whole crossing is in the mean.
+    pub fn phases(&self) -> usize {
+        self.points
+            .iter()
+            .filter(|p| p.pressure.last.is_some())
+            .count()
+    }
+
+    /// Mean cycles of pressure that the points have seen so far in their present crossing: for a body
+    /// that stands, whose crossing never ends, this over the time is its rate.
     pub fn open_cycles(&self) -> f64 {
         let sum: f64 = self.points.iter().map(|p| p.pressure.tally.count).sum();
         sum / self.points.len() as f64
     }
+}
 
-    fn mean(&self, last: impl Fn(&Point) -> Option<Tally>) -> Option<Tally> {
-        let count = self.points.len() as f64;
-        self.points.iter().try_fold(Tally::default(), |sum, point| {
-            let tally = last(point)?;
-            Some(Tally {
-                count: sum.count + tally.count / count,
-                equivalent: sum.equivalent + tally.equivalent / count,
-                range: sum.range.max(tally.range),
-                damage: sum.damage + tally.damage / count,
-            })
-        })
+fn mean(tallies: impl Iterator<Item = Tally>) -> Option<Tally> {
+    let (mut sum, mut count) = (Tally::default(), 0.0);
+    for tally in tallies {
+        sum.count += tally.count;
+        sum.damage += tally.damage;
+        sum.equivalent += tally.equivalent;
+        sum.range = sum.range.max(tally.range);
+        count += 1.0;
     }
+    (count > 0.0).then(|| Tally {
+        count: sum.count / count,
+        damage: sum.damage / count,
+        equivalent: sum.equivalent / count,
+        range: sum.range,
+    })
 }
 
 #[cfg(test)]
@@ -368,98 +389,96 @@ mod tests {
     use super::*;
 
     /// A smooth bump over [−1, 1] on 201 nodes of [−2, 2].
-    fn bump() -> Vec<f64> {
+    fn bump() -> Vec<f32> {
         (0..201)
-            .map(|i| -2.0 + 0.02 * f64::from(i))
-            .map(|x: f64| (1.0 - x * x).max(0.0).sqrt())
+            .map(|i| {
+                let x = -2.0 + 0.02 * f64::from(i);
+                (1.0 - x * x).max(0.0).sqrt() as f32
+            })
             .collect()
-    }
-
-    fn row(values: &[f64]) -> Row<'_> {
-        Row {
-            values,
-            x_min: -2.0,
-            dx: 0.02,
-        }
     }
 
     #[test]
     fn smooth_passage_is_one_cycle_in_both_directions() {
-        let values = bump();
+        let pressure = bump();
+        let line = Line {
+            x_first: -2.0,
+            dx: 0.02,
+            pressure: &pressure,
+            tau_xz: None,
+        };
         for travel in [0.03, -0.03] {
-            let mut track = Track::new();
-            for _ in 0..140 {
-                track.push(&row(&values), travel);
+            let mut tracker = MaterialTracker::new(TrackerSpec::new((-2.0, 2.0), 0, 10.0));
+            for _ in 0..400 {
+                tracker.step(travel, &line);
             }
-            let tally = track.pressure_cycles().expect("all crossed");
-            assert_eq!(tally.count, 1.0);
-            assert!((tally.equivalent - 1.0).abs() < 1e-12 && (tally.range - 1.0).abs() < 1e-3);
+            let tally = tracker.pressure_cycles().expect("crossings finished");
+            assert_eq!((tally.count, tracker.phases()), (1.0, 16));
+            assert!((tally.equivalent - 1.0).abs() < 1e-12);
         }
     }
 
     #[test]
-    fn the_crossing_at_the_start_does_not_count() {
-        let values = bump();
-        let mut track = Track::new();
-        for _ in 0..101 {
-            track.push(&row(&values), 0.02);
+    fn a_crossing_seen_from_its_middle_does_not_count() {
+        let pressure = bump();
+        let line = Line {
+            x_first: -2.0,
+            dx: 0.02,
+            pressure: &pressure,
+            tau_xz: None,
+        };
+        let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 10.0);
+        spec.points = 4; // at −2, 0.47, −1.06 and 1.42
+        let mut tracker = MaterialTracker::new(spec);
+        for _ in 0..104 {
+            tracker.step(0.02, &line);
         }
-        assert_eq!(track.crossings(), 0, "every point has left once");
-        assert!(track.mean_cycles().is_none());
-        for _ in 0..101 {
-            track.push(&row(&values), 0.02);
+        // The points from inside and from behind the contact have left.
+        assert_eq!(tracker.crossings(), 0);
+        assert!(tracker.pressure_cycles().is_none());
+        for _ in 0..104 {
+            tracker.step(0.02, &line);
         }
-        assert_eq!((track.crossings(), track.mean_cycles()), (16, Some(1.0)));
-        track.restart();
-        assert_eq!((track.crossings(), track.mean_cycles()), (0, None));
+        assert_eq!(tracker.crossings(), 2);
     }
 
     #[test]
     fn a_standing_body_counts_by_time() {
-        let mut track = Track::new();
+        let mut tracker = MaterialTracker::new(TrackerSpec::new((-1.0, 1.0), 0, 10.0));
         for step in 0..1600 {
             let wave = (std::f64::consts::TAU * f64::from(step) / 16.0).cos();
-            track.push(&row(&[1.0 + wave; 201]), 0.0);
+            let pressure = [(1.0 + wave) as f32; 5];
+            let line = Line {
+                x_first: -1.0,
+                dx: 0.5,
+                pressure: &pressure,
+                tau_xz: None,
+            };
+            tracker.step(0.0, &line);
         }
-        println!("100 crests over a standing body: {}", track.open_cycles());
-        assert!(track.mean_cycles().is_none());
-        assert!((track.open_cycles() - 100.0).abs() <= 1.5);
-    }
-
-    #[test]
-    fn pure_rolling_is_one_cycle() {
-        // Full ripples that move with the point: one cycle, unless the point sits in a valley that
-        // never passes the gate (a tenth of the phases at 5 %).
-        let mut track = Track::with(TrackSpec {
-            points: 64,
-            ..TrackSpec::default()
-        });
-        let mut values = bump();
-        for step in 0..300 {
-            for (i, (value, smooth)) in values.iter_mut().zip(bump()).enumerate() {
-                let x = -2.0 + 0.02 * i as f64 - 0.02 * f64::from(step);
-                *value = smooth * (1.0 + (std::f64::consts::TAU * x / 0.25).cos());
-            }
-            track.push(&row(&values), 0.02);
-        }
-        let count = track.mean_cycles().expect("all crossed");
-        println!("pure rolling: {count:.3} cycles");
-        assert!(count <= 1.0 && count > 0.8);
+        println!("100 crests over a standing body: {}", tracker.open_cycles());
+        assert!(tracker.pressure_cycles().is_none());
+        assert!((tracker.open_cycles() - 100.0).abs() <= 1.5);
     }
 
     #[test]
     fn the_trace_is_bounded_and_in_order() {
-        let values = bump();
-        let mut track = Track::with(TrackSpec {
-            trace: 10,
-            ..TrackSpec::default()
-        });
-        for _ in 0..60 {
-            track.push(&row(&values), 0.02);
+        let pressure = bump();
+        let line = Line {
+            x_first: -2.0,
+            dx: 0.02,
+            pressure: &pressure,
+            tau_xz: None,
+        };
+        let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 10.0);
+        spec.trace = 10;
+        let mut tracker = MaterialTracker::new(spec);
+        for _ in 0..57 {
+            tracker.step(0.02, &line);
         }
-        let xs: Vec<f64> = track.trace().map(|s| s.x).collect();
+        let xs: Vec<f64> = tracker.trace().map(|s| s.x).collect();
         assert_eq!(xs.len(), 10);
         assert!(xs.windows(2).all(|pair| pair[1] > pair[0]));
-        assert_eq!(xs[9], track.shown().0);
+        assert!((xs[9] - (-2.0 + 57.0 * 0.02)).abs() < 1e-9);
     }
 }

@@ -66,7 +66,7 @@ fn numbers(app: &App) -> Line<'static> {
         _ => theme.pick("∞", "inf").to_owned(),
     };
     let pairs = [
-        ("S", sig(metrics.slide_roll, 2), Role::Strong),
+        ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
         ("p_h", pressure.show(frame.p_hertz_pa, 3), Role::Strong),
         ("λ", sig_or_dash(metrics.lambda_ratio, 2), Role::Strong),
         ("n", n, Role::Strong),

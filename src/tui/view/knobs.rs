@@ -323,7 +323,7 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// What the letters on the screen mean; the help screen says it too.
 pub(super) const SYMBOLS: &[(&str, &str)] = &[
-    ("S", "(U₂−U₁)/U, U = (U₁+U₂)/2"),
+    ("S", "(U₂−U₁)/U, U the mean"),
     ("p_h", "max. Hertz pressure"),
     ("λ", "smooth film/rms height"),
     ("n", "1 + 2a f |U₂−U₁|/|U|"),
