@@ -191,9 +191,9 @@ impl Mover<'_> {
             self.march.gap.copy_from_slice(&self.march.macroscopic);
             return;
         }
-        for body in 0..2 {
-            self.terrain
-                .place(grid, body, self.motion.travelled[body], amplitude[body]);
+        for (body, (way, amplitude)) in self.motion.travelled.into_iter().zip(amplitude).enumerate()
+        {
+            self.terrain.place(grid, body, way, amplitude);
         }
         self.terrain
             .gap_into(&self.march.macroscopic, &mut self.march.gap);

@@ -5,9 +5,9 @@
 
 use super::film::macroscopic_gap;
 use super::history::History;
-use super::newton::{Iterate, Newton, NewtonReport, Problem, Shear, Tolerance};
+use super::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance};
 use super::reynolds::Medium;
-use super::tangential::Tangential;
+use super::tangential::{Shear, Tangential};
 use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 

@@ -16,7 +16,7 @@ use super::jacobian::Jacobian;
 use super::krylov::Krylov;
 use super::precondition::Preconditioner;
 use super::reynolds::{Medium, Reynolds};
-use super::tangential::Tangential;
+use super::tangential::Shear;
 use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 
@@ -123,37 +123,6 @@ pub struct Newton {
     fixed_deflection: Vec<f32>,
     rhs: Vec<f32>,
     scratch: Vec<f32>,
-}
-
-/// Deflection by traction and its fields. The traction follows the iterate; its derivative is left out
-/// of the linearisation, because u^s is at most βμ, some per cent, of u^p.
-pub struct Shear {
-    tangential: Tangential,
-    traction: Vec<f64>,
-    deflection: Vec<f64>,
-}
-
-impl Shear {
-    /// Buffers for `grid`.
-    pub fn new(grid: &Grid, tangential: Tangential) -> Self {
-        Self {
-            tangential,
-            traction: vec![0.0; grid.len()],
-            deflection: vec![0.0; grid.len()],
-        }
-    }
-
-    /// Adds u^s to the film, the traction taken at the film with the last u^s.
-    fn add_to(&mut self, law: &TractionLaw, p: &[f64], h: &mut [f64]) {
-        for (n, q) in self.traction.iter_mut().enumerate() {
-            *q = law.traction(p[n], h[n] + self.deflection[n]);
-        }
-        self.tangential
-            .deflect(&self.traction, &mut self.deflection);
-        for (h, &u) in h.iter_mut().zip(&self.deflection) {
-            *h += u;
-        }
-    }
 }
 
 struct Evaluation {

@@ -12,8 +12,10 @@
 //! The gap opens ahead of and closes behind a loaded patch. Sources: Johnson, Contact Mechanics (1985),
 //! eq. 3.71 ff. (Cerruti); the frequency response is −2βQ/(E*k), β Dundurs' constant.
 
-use crate::math::filter::{Filter, Padding, odd_kernel_symbol};
+use crate::math::filter::{Filter, Padding};
 use crate::math::grid::Grid;
+use crate::math::kernel_symbol::odd_kernel_symbol;
+use crate::solve::traction::TractionLaw;
 
 /// The filter q → u^s.
 pub struct Tangential {
@@ -48,6 +50,37 @@ impl Tangential {
     /// `out = S q`, the opening of the gap.
     pub fn deflect(&mut self, q: &[f64], out: &mut [f64]) {
         self.filter.apply(q, out);
+    }
+}
+
+/// Deflection by traction and its fields. The traction follows the iterate; its derivative is left out
+/// of the linearisation, because u^s is at most βμ, some per cent, of u^p.
+pub struct Shear {
+    tangential: Tangential,
+    traction: Vec<f64>,
+    deflection: Vec<f64>,
+}
+
+impl Shear {
+    /// Buffers for `grid`.
+    pub fn new(grid: &Grid, tangential: Tangential) -> Self {
+        Self {
+            tangential,
+            traction: vec![0.0; grid.len()],
+            deflection: vec![0.0; grid.len()],
+        }
+    }
+
+    /// Adds u^s to the film, the traction taken at the film with the last u^s.
+    pub(super) fn add_to(&mut self, law: &TractionLaw, p: &[f64], h: &mut [f64]) {
+        for (n, q) in self.traction.iter_mut().enumerate() {
+            *q = law.traction(p[n], h[n] + self.deflection[n]);
+        }
+        self.tangential
+            .deflect(&self.traction, &mut self.deflection);
+        for (h, &u) in h.iter_mut().zip(&self.deflection) {
+            *h += u;
+        }
     }
 }
 
