@@ -1,7 +1,10 @@
 //! The stress engine against the closed forms, against itself on other grids and threads.
 //! Every test prints the numbers that it asserts.
 
+use asperity::physics::invariants::Stress6;
 use asperity::physics::stress_exact::hertz_sliding;
+use asperity::physics::stress_exact_patch::rectangle_harmonics;
+use asperity::scene::StressMeasure;
 use asperity::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry};
 
 const NU: f64 = 0.3;
@@ -302,8 +305,9 @@ fn a_warm_engine_forgets_the_last_surface() {
 
 #[test]
 fn bad_specifications_name_their_entry() {
+    type Spoil = fn(&mut StressSpec);
     let good = Surface::new(64).spec(Symmetry::General, (8, 3.0));
-    let cases: [(&str, fn(&mut StressSpec)); 6] = [
+    let cases: [(&str, Spoil); 6] = [
         ("nx", |s| s.nx = 3),
         ("ny", |s| s.ny = 64),
         ("dx", |s| s.dx = f64::NAN),
@@ -316,5 +320,84 @@ fn bad_specifications_name_their_entry() {
         spoil(&mut spec);
         let error = StressEngine::new(&spec).err().map(|e| e.key);
         assert_eq!(error, Some(key));
+    }
+}
+
+#[test]
+fn long_ellipse_matches_summed_patches() {
+    // b = 5 a on a grid with dy = 5 dx: the window is stretched with the domain. Against the sum of
+    // uniform patches at the nodes, whose own staircase error is of second order: 1e-4 at z = 0.5 a.
+    let (n, b) = (128, 5.0);
+    let d = 4.0 / n as f64;
+    let mut spec = StressSpec::new(
+        (n + 1, n / 2 + 1),
+        (d, b * d),
+        NU,
+        (8, 3.0),
+        Symmetry::MirrorY,
+    );
+    spec.x_first = -2.0;
+    spec.depths = vec![0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 2.5, 3.0];
+    let p = field(&spec, |x, y| hertz(x, y / b));
+    let q: Vec<f32> = p.iter().map(|p| 0.2 * p).collect();
+    let mut engine = StressEngine::new(&spec).expect("valid");
+    let mut out = SliceOut::new(&spec);
+    engine.load(&p, Some(&q));
+    engine.slice(&mut out);
+    let patches = |x: f64, z: f64| {
+        let mut sum = Stress6::default();
+        for j in -64_i32..=64 {
+            for i in 0..=n {
+                let p = f64::from(p[j.unsigned_abs() as usize * spec.nx + i]);
+                let (dx, dy) = (x - (d * i as f64 - 2.0), b * d * f64::from(j));
+                if p > 0.0 {
+                    let h = rectangle_harmonics(dx, dy, z, d / 2.0, b * d / 2.0);
+                    let s = h.normal(NU).plus(h.tangential_x(NU).times(0.2));
+                    sum = sum.plus(s.times(p));
+                }
+            }
+        }
+        sum
+    };
+    for k in [1, 3, 5, 7] {
+        let mut worst: f64 = 0.0;
+        for i in [34, 52, 64, 90] {
+            let s = patches(d * i as f64 - 2.0, spec.depths[k]);
+            let at = k * spec.nx + i;
+            for (a, b) in [(s.xx, out.sxx[at]), (s.yy, out.syy[at])] {
+                worst = worst.max((a - f64::from(b)).abs());
+            }
+            for (a, b) in [(s.zz, out.szz[at]), (s.xz, out.sxz[at])] {
+                worst = worst.max((a - f64::from(b)).abs());
+            }
+        }
+        println!("ellipse b = 5 a, z = {} a: {worst:.1e} p0", spec.depths[k]);
+        assert!(worst < 3e-4);
+    }
+    println!("greatest von Mises {:?}", out.peak);
+}
+
+#[test]
+fn every_measure_finds_its_hertz_maximum() {
+    // τ_max: half of von Mises on the axis, where two principal stresses are equal.
+    for (measure, exact) in [
+        (StressMeasure::VonMises, 0.620041),
+        (StressMeasure::MaxShear, 0.310020),
+        (StressMeasure::Octahedral, 0.292290),
+    ] {
+        let mut spec = Surface::new(128).spec(Symmetry::MirrorY, (24, 3.0));
+        spec.measure = measure;
+        let p = field(&spec, hertz);
+        let mut engine = StressEngine::new(&spec).expect("valid");
+        let mut out = SliceOut::new(&spec);
+        engine.load(&p, None);
+        engine.slice(&mut out);
+        let sampled = engine.volume(10.0).normal.peak.value;
+        println!(
+            "{measure:?}: slice {:.6}, volume's greatest sample {sampled:.6}, exact {exact}",
+            out.peak.value
+        );
+        assert!((out.peak.value / exact - 1.0).abs() < 1e-3);
+        assert!((sampled / exact - 1.0).abs() < 1e-2);
     }
 }

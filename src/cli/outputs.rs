@@ -78,7 +78,7 @@ impl Outputs {
         use asperity::observe::{Queue, WhenFull};
         /// Frames that may wait: some MB, a few hundredths of a second.
         const WAITING: usize = 8;
-        let (Some(record), Some(plan)) = (&prepared.scene.record, prepared.plan.record) else {
+        let Some(record) = &prepared.scene.record else {
             return Ok(());
         };
         let recorder = Recorder::create(path, overwrite, record)?;
@@ -88,7 +88,8 @@ impl Outputs {
         };
         let queue = Queue::spawn("record", WAITING, when_full, Box::new(recorder))?;
         let name = path.display().to_string();
-        let watcher = Watcher::new(name, Box::new(queue), plan.every_steps);
+        // Every step goes to it: it thins fields itself, by what the file has grown to.
+        let watcher = Watcher::new(name, Box::new(queue), 1);
         self.recording = Some((path.to_owned(), watcher.switch()));
         self.watchers.push(watcher);
         Ok(())

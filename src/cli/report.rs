@@ -146,8 +146,10 @@ pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {
     match &outcome.end {
         End::Stalled(error) => list.push(format!("stalled: {error}")),
         End::NotStarted(error) => list.push(error.to_string()),
-        End::Stopped => list.push("stopped by the user; what was recorded is complete".to_owned()),
-        End::Done | End::OutputFailed => {}
+        End::Stopped | End::Done | End::OutputFailed => {}
+    }
+    if outcome.summary.is_none() {
+        list.push("it ended before the passage began, so there are no results".to_owned());
     }
     for step in outcome.unconverged.iter().take(NAMED) {
         list.push(format!(

@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use asperity::run::{Command, Ending, Outcome, Request, Session};
+use asperity::run::{Command, End, Ending, Outcome, Request, Session};
 use asperity::scene::Scene;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -39,6 +39,10 @@ pub(crate) fn run(args: &RunArgs) -> Result<u8, Failure> {
     stop_on_signals(&session)?;
     wait(&session, estimate_s);
     let outcome = session.join()?;
+    if matches!(outcome.end, End::Stopped) {
+        let note = "stopped by the user; what was recorded is complete";
+        let _ = writeln!(std::io::stderr(), "{note}");
+    }
     conclude(&prepared.scene, &outcome, outputs)
 }
 

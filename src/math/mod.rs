@@ -3,4 +3,5 @@
 pub mod elliptic;
 pub mod filter;
 pub mod grid;
+pub mod kernel_symbol;
 pub mod root;

@@ -1,11 +1,14 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
+pub mod cycles;
 pub mod estimate;
+pub mod fatigue;
 pub mod film_regression;
 pub mod fluid;
 pub mod groups;
 pub mod hertz;
 pub mod invariants;
+pub mod rainflow;
 pub mod stress_exact;
 pub mod stress_exact_patch;
 pub mod waviness;

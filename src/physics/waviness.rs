@@ -47,13 +47,6 @@ impl Waviness {
         factor(self.kx) * factor(self.ky)
     }
 
-    /// Whether z is even in y.
-    pub fn is_even_in_y(&self) -> bool {
-        let (c, s) = self.direction;
-        (s == 0.0 || self.kx == 0.0) && (s == 0.0 || self.ky == 0.0)
-            || c == 0.0 && self.phase == 0.0
-    }
-
     /// Crests per length that pass a point at relative speed 1 along x.
     pub fn crest_density_x(&self) -> f64 {
         let (c, s) = self.direction;
@@ -73,8 +66,6 @@ mod tests {
         assert!((transverse.rms() - 0.5_f64.sqrt()).abs() < 1e-15);
         let product = Waviness::new(0.5, 0.25, 0.0, 0.0);
         assert!((product.rms() - 0.5).abs() < 1e-15);
-        assert!(product.is_even_in_y());
-        assert!(!Waviness::new(0.5, f64::INFINITY, 0.3, 0.0).is_even_in_y());
         assert!((product.crest_density_x() - 2.0).abs() < 1e-12);
     }
 }

@@ -1,15 +1,13 @@
-//! What a run will cost: memory, time, size of the recording. Estimates to one digit, for `asperity check`
+//! What a run will cost: memory, time, size of a recorded frame. Estimates to one digit, for `asperity check`
 //! and for deciding on a progress bar; nothing in the results depends on them.
 
-/// Memory, time and file size of a run.
+/// Memory and time of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cost {
     /// Memory of the solver's arrays, bytes.
     pub memory_bytes: u64,
     /// Time of the whole run on one core of a laptop, s.
     pub time_s: f64,
-    /// Size of the recording, bytes.
-    pub recording_bytes: u64,
 }
 
 /// What decides the cost.
@@ -22,7 +20,6 @@ pub(super) struct Load {
     pub(super) steps: u64,
     pub(super) start_up_steps: u64,
     pub(super) volumes: u64,
-    pub(super) recorded_frames: u64,
 }
 
 /// Fields of one f64 per node that the solver keeps, Krylov basis and padded transforms (4 nodes each)
@@ -36,14 +33,16 @@ const STEP_129_S: f64 = 0.029;
 const STEP_GROWTH: f64 = 2.3;
 /// Seconds of one stress field per depth at 129²: six transforms of 33 000 values.
 const DEPTH_129_S: f64 = 1.5e-3;
-/// Bytes of a recorded frame per node: five maps at 4 bytes, compressed to about a third (measured: 22 kB of
-/// 66 kB), and per depth of the slice the same for one row.
-const RECORDED_BYTES_PER_NODE: f64 = 5.0 * 1.35;
+/// Bytes of the fields of one recorded frame: 15 a node for maps and slice, the sheets of the 3-D view besides,
+/// of which 3/4 reach the disk. The recorder starts from the same numbers and then keeps to what it measures.
+const FIELD_BYTES_PER_NODE: f64 = 0.75 * 15.0;
+const SHEET_BYTES: f64 = 0.75 * 1e5;
+/// Bytes of the scalars of one step, which are recorded whatever the cadence of the fields.
+pub(super) const SCALAR_BYTES: f64 = 1.5e3;
 
-/// Bytes of one recorded frame.
-pub(super) fn frame_bytes(nodes: usize, depths: usize) -> f64 {
-    let nodes = nodes as f64;
-    RECORDED_BYTES_PER_NODE * nodes * nodes + 1.35 * nodes * depths as f64
+/// Bytes of the fields of one recorded frame.
+pub(super) fn frame_bytes(nodes: usize) -> f64 {
+    FIELD_BYTES_PER_NODE * (nodes * nodes) as f64 + SHEET_BYTES
 }
 
 impl Cost {
@@ -59,8 +58,6 @@ impl Cost {
             memory_bytes: memory as u64,
             time_s: step_s * (load.steps + load.start_up_steps) as f64
                 + volume_s * load.volumes as f64,
-            recording_bytes: (frame_bytes(load.nodes, load.depths) * load.recorded_frames as f64)
-                as u64,
         }
     }
 }

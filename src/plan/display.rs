@@ -148,7 +148,7 @@ impl Plan {
         }
         if let Some(record) = self.record {
             lines.push(format!(
-                "recording of every {} ({} frames, about {})",
+                "recording: scalars every step, fields every {} ({} frames, about {})",
                 if record.every_steps == 1 {
                     "step".to_owned()
                 } else {

@@ -131,12 +131,12 @@ pub struct LifePlan {
     pub phases_per_passage: u64,
 }
 
-/// Recording.
+/// Recording, as far as it can be known before: the recorder keeps to the budget by what it measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RecordPlan {
-    /// Time steps between two recorded frames: the scene's, or more to keep its budget.
+    /// Time steps between two recordings of the fields: the scene's, or more to keep its budget.
     pub every_steps: u64,
-    /// Frames of the whole run.
+    /// Recordings of the fields in the whole run.
     pub frames: u64,
     /// Estimated size, bytes.
     pub bytes: u64,
@@ -224,9 +224,8 @@ pub enum PlanError {
 
 /// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
 const PHASES: u64 = 16;
-/// Lengths of 4 a at U that the start-up marches, on all its grids together: the film is flushed
-/// after 3.5 a on each grid.
-const START_UP_PASSAGES: f64 = 1.5;
+/// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
+const START_UP_PASSAGES: f64 = 2.5;
 
 impl Plan {
     /// Decides what a validated scene needs.
@@ -272,7 +271,6 @@ impl Plan {
             cost: Cost {
                 memory_bytes: 0,
                 time_s: 0.0,
-                recording_bytes: 0,
             },
         };
         plan.life = scene.life.as_ref().map(|_| plan.life_plan());
@@ -312,14 +310,16 @@ impl Plan {
     }
 
     fn record_plan(&self, record: &Record) -> RecordPlan {
-        let frame = cost::frame_bytes(self.domain.nodes, self.depths());
-        let budget_frames = (record.budget_mb * 1e6 / frame).floor().max(1.0) as u64;
+        let frame = cost::frame_bytes(self.domain.nodes);
+        let scalars = self.steps as f64 * cost::SCALAR_BYTES;
+        let budget = (record.budget_mb * 1e6 - scalars).max(0.1 * record.budget_mb * 1e6);
+        let budget_frames = (budget / frame).floor().max(1.0) as u64;
         let every_steps = (record.every_steps as u64).max(self.steps.div_ceil(budget_frames));
         let frames = self.steps.div_ceil(every_steps);
         RecordPlan {
             every_steps,
             frames,
-            bytes: (frames as f64 * frame) as u64,
+            bytes: (frames as f64 * frame + scalars) as u64,
         }
     }
 
@@ -337,7 +337,6 @@ impl Plan {
             steps: self.steps,
             start_up_steps: (START_UP_PASSAGES * self.steps_per_passage as f64) as u64,
             volumes,
-            recorded_frames: self.record.map_or(0, |record| record.frames),
         })
     }
 }

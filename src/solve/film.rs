@@ -14,8 +14,9 @@
 //! Second order in the spacing. The transform length 2(N−1) is exact because P = 0 on the boundary.
 //! Test: the dry Hertz contact (`tests/hertz_dry.rs`).
 
-use crate::math::filter::{Filter, Padding, even_kernel_symbol};
+use crate::math::filter::{Filter, Padding};
 use crate::math::grid::Grid;
+use crate::math::kernel_symbol::even_kernel_symbol;
 
 /// Deflection by filters in double precision (residuals) and single precision (search directions).
 pub struct Elastic {

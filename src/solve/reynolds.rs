@@ -186,7 +186,7 @@ impl Reynolds {
                     return;
                 }
                 let (south, north) = (grid.row_below(j) * nx, (j + 1) * nx);
-                for i in 1..nx - 1 {
+                for (i, row) in rows.iter_mut().enumerate().take(nx - 1).skip(1) {
                     let n = j * nx + i;
                     if !active[n] {
                         continue;
@@ -206,7 +206,7 @@ impl Reynolds {
                         a_h[0] -= w * face.h_a * dp;
                         a_h[k + 1] = -w * face.h_b * dp;
                     }
-                    rows[i].set(scale, &a_p, &a_h);
+                    row.set(scale, &a_p, &a_h);
                 }
             });
     }

@@ -265,7 +265,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('c'), Action::Contrast)],
         "c",
-        "high contrast",
+        "contrast: high, light",
         Group::Show,
     ),
     row(

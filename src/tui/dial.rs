@@ -1,5 +1,6 @@
 //! A dial: one knob on the screen, with its range, its steps and where it is going.
 
+use crate::scene::keys::{self, Kind};
 use crate::scene::{Scene, Surface};
 use crate::sim::{Knob, Metrics};
 use crate::tui::units::{NO_UNIT, Unit, Units};
@@ -157,11 +158,23 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
             Knob::Amplitude2M => amplitude(knob, &scene.body_2.surface),
             Knob::EntrainmentMS => speed(scene.motion.entrainment_m_s),
         })
+        .map(within_the_scenes_range)
         .collect()
 }
 
+/// No dial reaches where the run would refuse to go.
+fn within_the_scenes_range(mut dial: Dial) -> Dial {
+    if let Some(Kind::Number(least, most)) = keys::find(dial.knob.key()).map(|key| key.kind) {
+        dial.min = dial.min.max(least);
+        dial.max = dial.max.min(most);
+        let (min, max) = (dial.min, dial.max);
+        dial.typical.retain(|value| (min..=max).contains(value));
+    }
+    dial
+}
+
 fn slide_roll(home: f64) -> Dial {
-    let limit = home.abs().ceil().max(2.0);
+    let limit = 2.0;
     Dial {
         knob: Knob::SlideRoll,
         label: "S slide-to-roll",
@@ -177,9 +190,12 @@ fn slide_roll(home: f64) -> Dial {
     }
 }
 
-/// From a ninth of the scene's load to four times it; typical values by Hertz pressure.
+/// From a ninth of the scene's load to four times it, up to the Hertz pressure that scenes may
+/// have; typical values by Hertz pressure.
 fn load(home: f64, p_hertz_pa: f64) -> Dial {
-    let (min, max) = (home / 9.0, home * 4.0);
+    const MOST_PA: f64 = 1e10;
+    let most = home * (MOST_PA / p_hertz_pa).powi(3);
+    let (min, max) = (home / 9.0, (home * 4.0).min(most).max(home));
     let typical = [
         0.75e9, 1.0e9, 1.25e9, 1.5e9, 1.75e9, 2.0e9, 2.25e9, 2.5e9, 3.0e9,
     ]

@@ -1,12 +1,13 @@
 //! From the scene to what the closed-form estimate needs.
 
 use crate::physics::estimate::EstimateBasis;
-use crate::scene::{Life, Surface};
+use crate::physics::waviness::Waviness;
+use crate::scene::Surface;
 use crate::tui::app::Setup;
 
 /// The fixed part of the estimate for a scene.
 pub fn basis(setup: &Setup) -> EstimateBasis {
-    let life = setup.scene.life.clone().unwrap_or_else(Life::default);
+    let life = setup.scene.life.clone().unwrap_or_default();
     EstimateBasis {
         crests_1_per_m: crests_per_m(&setup.scene.body_1.surface),
         crests_2_per_m: crests_per_m(&setup.scene.body_2.surface),
@@ -18,27 +19,23 @@ pub fn basis(setup: &Setup) -> EstimateBasis {
     }
 }
 
-/// Crests that a streamline along x meets per metre: `|cos θ|/Wx`, or those of the other wave
-/// turned into x where that is denser.
+/// Crests that a streamline along x meets per metre.
 fn crests_per_m(surface: &Surface) -> f64 {
-    match surface {
+    /// A wave turned by a right angle has no crests along x, not 1e-17 of them per wavelength.
+    const NONE_PER_M: f64 = 1e-3;
+    match *surface {
         Surface::Smooth {} => 0.0,
         Surface::Sinusoid {
             wavelength_x_m,
             wavelength_y_m,
             angle_deg,
+            phase_deg,
             ..
         } => {
-            let (sine, cosine) = angle_deg.to_radians().sin_cos();
-            // A wave turned by a right angle has no crests along x, not 1e-17 of them.
-            let along = |part: f64, wavelength: f64| {
-                if part.abs() < 1e-12 {
-                    0.0
-                } else {
-                    part.abs() / wavelength
-                }
-            };
-            along(cosine, *wavelength_x_m).max(along(sine, *wavelength_y_m))
+            let (angle, phase) = (angle_deg.to_radians(), phase_deg.to_radians());
+            let wave = Waviness::new(wavelength_x_m, wavelength_y_m, angle, phase);
+            let crests = wave.crest_density_x();
+            if crests < NONE_PER_M { 0.0 } else { crests }
         }
     }
 }

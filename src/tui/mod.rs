@@ -34,7 +34,7 @@ use crate::run::Command;
 use action::{Action, lookup};
 use app::{App, Effect, ErrandKind, Setup};
 use terminal::{Input, Panics, Stage};
-use theme::{Capabilities, Theme};
+use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{Health, LeftOut, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring};
 
 /// Longest wait between two drawings.
@@ -60,8 +60,10 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
     if term == "dumb" {
         return Err(TuiError::NoScreen { term });
     }
-    let capabilities = Capabilities::detect(|name| env::var(name).ok());
-    let mut app = App::new(setup_of(&wiring, Theme::new(capabilities)));
+    let variable = |name: &str| env::var(name).ok();
+    let mut theme = Theme::new(Capabilities::detect(variable));
+    theme.contrast = Contrast::detect(variable);
+    let mut app = App::new(setup_of(&wiring, theme));
     let panics = Panics::watch();
     let result = Stage::enter().and_then(|mut stage| {
         let input = Input::listen()?;
@@ -203,7 +205,7 @@ fn run_errand(app: &App, wiring: &mut Wiring, errand: ErrandKind) -> Result<Stri
             .as_mut()
             .map_or_else(missing, |run| run()),
         ErrandKind::Save => {
-            let text = app.scene_toml()?;
+            let text = app.scene_toml();
             match &mut wiring.save_scene {
                 Some(save) => save(&text).map(|path| format!("saved {}", path.display())),
                 None => missing(),

@@ -62,8 +62,13 @@ impl Drop for Stage {
     }
 }
 
+/// Whether the terminal is taken. It is given back once: leaving the alternate screen twice would
+/// move the cursor back over what was printed in between (a panic's message).
+static TAKEN: AtomicBool = AtomicBool::new(false);
+
 fn take() -> io::Result<()> {
     enable_raw_mode()?;
+    TAKEN.store(true, Ordering::SeqCst);
     let entered = execute!(stdout(), EnterAlternateScreen, EnableMouseCapture);
     if entered.is_err() {
         give_back();
@@ -73,6 +78,9 @@ fn take() -> io::Result<()> {
 
 /// Errors are of no use here: either the terminal is gone, or there is nothing more to try.
 fn give_back() {
+    if !TAKEN.swap(false, Ordering::SeqCst) {
+        return;
+    }
     let _ = execute!(stdout(), DisableMouseCapture, LeaveAlternateScreen, Show);
     let _ = disable_raw_mode();
     let _ = stdout().flush();

@@ -11,24 +11,24 @@ use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use asperity::tui::{LeftOut, RecorderActivity, RecorderState, RunStatus};
 
 /// Hertz half-width at 800 N, m.
-pub const A_M: f64 = 2.2e-4;
+pub(crate) const A_M: f64 = 2.2e-4;
 /// Hertz pressure at 800 N, Pa.
-pub const P_HERTZ_PA: f64 = 1.73e9;
+pub(crate) const P_HERTZ_PA: f64 = 1.73e9;
 const WAVE_M: f64 = 1.0e-4;
 const NODES: usize = 65;
 
 /// The knobs of a synthetic run.
 #[derive(Debug, Clone, Copy)]
-pub struct State {
-    pub slide_roll: f64,
-    pub slide_roll_target: f64,
-    pub load_n: f64,
-    pub load_target_n: f64,
-    pub amplitude_1_m: f64,
-    pub amplitude_2_m: f64,
-    pub speed_m_s: f64,
-    pub settled: bool,
-    pub converged: bool,
+pub(crate) struct State {
+    pub(crate) slide_roll: f64,
+    pub(crate) slide_roll_target: f64,
+    pub(crate) load_n: f64,
+    pub(crate) load_target_n: f64,
+    pub(crate) amplitude_1_m: f64,
+    pub(crate) amplitude_2_m: f64,
+    pub(crate) speed_m_s: f64,
+    pub(crate) settled: bool,
+    pub(crate) converged: bool,
 }
 
 impl Default for State {
@@ -47,7 +47,7 @@ impl Default for State {
     }
 }
 
-pub fn scene() -> Scene {
+pub(crate) fn scene() -> Scene {
     let wave = |wavelength_y_m| Body {
         surface: Surface::Sinusoid {
             amplitude_m: 2.0e-7,
@@ -88,12 +88,11 @@ pub fn scene() -> Scene {
     }
 }
 
-#[allow(dead_code, reason = "shared by several test binaries")]
-pub fn theme(depth: ColorDepth, glyphs: Glyphs) -> Theme {
+pub(crate) fn theme(depth: ColorDepth, glyphs: Glyphs) -> Theme {
     Theme::new(Capabilities { depth, glyphs })
 }
 
-pub fn app(theme: Theme) -> App {
+pub(crate) fn app(theme: Theme) -> App {
     App::new(Setup {
         scene: Arc::new(scene()),
         load_n: 800.0,
@@ -115,8 +114,7 @@ pub fn app(theme: Theme) -> App {
     })
 }
 
-#[allow(dead_code, reason = "shared by several test binaries")]
-pub fn status(frames: u64) -> RunStatus {
+pub(crate) fn status(frames: u64) -> RunStatus {
     RunStatus {
         recorder: Some(RecorderState {
             output: "recordings/first.rrd".into(),
@@ -146,7 +144,7 @@ fn pressure(state: &State, a: f64, p_h: f64, x: f64, y: f64, travelled: f64) -> 
 }
 
 /// A frame at a step; `dt` is one node at the entrainment speed.
-pub fn frame(step: u64, state: &State) -> Frame {
+pub(crate) fn frame(step: u64, state: &State) -> Frame {
     let size = (state.load_n / 800.0).cbrt();
     let (a, p_h) = (A_M * size, P_HERTZ_PA * size);
     let n = NODES;
@@ -174,8 +172,16 @@ pub fn frame(step: u64, state: &State) -> Frame {
         for i in 0..n {
             let (x, y) = (x_min + i as f64 * dx, y_min + j as f64 * dx);
             let r = x.hypot(y) / a;
-            let gap = if r > 1.0 { 2e-6 * (r - 1.0).powf(1.5) } else { 0.0 };
-            let horseshoe = if r > 0.75 && r < 1.05 && x > -0.3 * a { -6e-8 } else { 0.0 };
+            let gap = if r > 1.0 {
+                2e-6 * (r - 1.0).powf(1.5)
+            } else {
+                0.0
+            };
+            let horseshoe = if r > 0.75 && r < 1.05 && x > -0.3 * a {
+                -6e-8
+            } else {
+                0.0
+            };
             let (first, second) = (
                 surface_1(state, x, travelled),
                 surface_2(state, x, y, travelled),
@@ -212,13 +218,16 @@ fn slice(frame: &Frame, state: &State, travelled: f64) -> StressSlice {
             let x = (frame.x_min_m + i as f64 * frame.dx_m) / frame.a_m;
             let depth = z / frame.a_m;
             let bulk = 0.62 * (-(x * x) / 0.5).exp() * (depth / 0.48) * (1.0 - depth / 0.48).exp();
-            let ripple = surface_1(state, x * frame.a_m, travelled) * 1.2e6
+            let ripple = surface_1(state, x * frame.a_m, travelled)
+                * 1.2e6
                 * (-TAU * z / WAVE_M).exp()
                 * (1.0 - x * x).max(0.0);
             slice
                 .effective_pa
                 .push((frame.p_hertz_pa * (bulk + ripple.abs())) as f32);
-            slice.tau_xz_pa.push((0.2 * frame.p_hertz_pa * x * bulk) as f32);
+            slice
+                .tau_xz_pa
+                .push((0.2 * frame.p_hertz_pa * x * bulk) as f32);
         }
     }
     slice
@@ -228,7 +237,7 @@ fn point(frame: &Frame, state: &State, travelled: f64) -> MaterialPoint {
     let own = 1.0 - 0.5 * state.slide_roll;
     let path = 3.0 * frame.a_m;
     let x_m = (own * travelled).rem_euclid(path) - 1.5 * frame.a_m;
-    let inside = ((x_m / frame.a_m + 1.0) / 2.0).clamp(0.0, 1.0);
+    let inside = f64::midpoint(x_m / frame.a_m, 1.0).clamp(0.0, 1.0);
     let n = 1.0 + 2.0 * frame.a_m / WAVE_M * state.slide_roll.abs() / own;
     let pressure_pa = pressure(state, frame.a_m, frame.p_hertz_pa, x_m, 0.0, travelled);
     MaterialPoint {
@@ -254,9 +263,12 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
     let life_relative = peak_factor * traction_factor / worst;
     let (deepest, p_max) = (
         frame.film_m.iter().fold(f32::MAX, |least, h| least.min(*h)),
-        frame.pressure_pa.iter().fold(0.0_f32, |most, p| most.max(*p)),
+        frame
+            .pressure_pa
+            .iter()
+            .fold(0.0_f32, |most, p| most.max(*p)),
     );
-    let touching = frame.contact.iter().filter(|c| **c == 1).count() as f64;
+    let touching = frame.contact.iter().map(|c| f64::from(*c)).sum::<f64>();
     Metrics {
         converged: state.converged,
         residual: if state.converged { 3.1e-4 } else { 4.7e-2 },

@@ -75,7 +75,8 @@ impl App {
     fn take_life(&mut self, frame: &Frame) {
         let metrics = &frame.metrics;
         let Some(life) = metrics.life else { return };
-        if frame.stage == Stage::StartUp || !(life.life_relative > 0.0) {
+        let is_number = life.life_relative.is_finite() && life.life_relative > 0.0;
+        if frame.stage == Stage::StartUp || !is_number {
             return;
         }
         if self.history.len() == HISTORY {

@@ -2,6 +2,7 @@
 //! waits or reads a clock, so every screen can be made in a test.
 
 mod ingest;
+mod kinds;
 mod reduce;
 
 use std::collections::VecDeque;
@@ -19,6 +20,7 @@ use crate::tui::theme::Theme;
 use crate::tui::trace::Trace;
 use crate::tui::units::Units;
 use crate::tui::wiring::{Health, LeftOut, RunStatus};
+pub use kinds::{Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
 /// What a key does outside of the screen and the run, where the program offers it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,100 +44,6 @@ pub enum Effect {
     Suspend,
     /// The end.
     Quit,
-}
-
-/// What is drawn over the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum MapKind {
-    /// Pressure.
-    #[default]
-    Pressure,
-    /// Film thickness.
-    Film,
-    /// Contact spots over the pressure.
-    Contact,
-    /// Sum of both roughnesses.
-    Roughness,
-    /// Effective stress in the plane y = 0.
-    Stress,
-}
-
-impl MapKind {
-    /// All maps in the order of the key.
-    pub const ALL: [Self; 5] = [
-        Self::Pressure,
-        Self::Film,
-        Self::Contact,
-        Self::Roughness,
-        Self::Stress,
-    ];
-
-    /// Name on the screen.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pressure => "pressure",
-            Self::Film => "film",
-            Self::Contact => "contact spots",
-            Self::Roughness => "roughness",
-            Self::Stress => "stress below",
-        }
-    }
-
-    fn shifted(self, by: usize) -> Self {
-        let place = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
-        Self::ALL[(place + by) % Self::ALL.len()]
-    }
-}
-
-/// How much of the plane the map and the centre-line figure show.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Zoom {
-    /// The Hertz ellipse and a little around it.
-    #[default]
-    Contact,
-    /// The whole domain.
-    Domain,
-}
-
-/// What the trace of the material point shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum PointQuantity {
-    /// Pressure above it.
-    #[default]
-    Pressure,
-    /// Orthogonal shear at its depth.
-    Shear,
-}
-
-/// What lies over the screen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Overlay {
-    /// Nothing.
-    #[default]
-    None,
-    /// The keys.
-    Help,
-    /// The plan.
-    Plan,
-}
-
-/// Whether the run steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Pace {
-    /// It does.
-    #[default]
-    Running,
-    /// It waits.
-    Paused,
-}
-
-/// Which number leads on the life panel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Leading {
-    /// The simulation's: it has settled where the knobs are.
-    Simulated,
-    /// The formula's: the simulation is on its way.
-    Formula,
 }
 
 /// A state to compare with.
@@ -316,6 +224,11 @@ impl App {
         (seconds > 0.0).then(|| last.1.saturating_sub(first.1) as f64 / seconds)
     }
 
+    /// Where a knob is going, as the screen has it.
+    pub fn target(&self, knob: Knob) -> f64 {
+        target_of(&self.dials, knob)
+    }
+
     /// The line that is being said.
     pub fn message(&self) -> Option<&str> {
         self.message.as_ref().map(|(text, _)| text.as_str())
@@ -380,15 +293,12 @@ impl App {
     }
 
     /// The scene with the knobs where they are going, as TOML.
-    ///
-    /// # Errors
-    /// When the scene cannot be written as TOML.
-    pub fn scene_toml(&self) -> Result<String, String> {
+    pub fn scene_toml(&self) -> String {
         let mut scene = (*self.setup.scene).clone();
         for dial in &self.dials {
             put(&mut scene, dial);
         }
-        toml::to_string(&scene).map_err(|error| error.to_string())
+        scene.to_toml()
     }
 
     fn refresh_estimate(&mut self) {
@@ -424,18 +334,19 @@ fn put(scene: &mut Scene, dial: &Dial) {
 
 /// The operating point that the knobs are going to.
 fn point_of(dials: &[Dial]) -> OperatingPoint {
-    let target = |knob: Knob| {
-        dials
-            .iter()
-            .find(|dial| dial.knob == knob)
-            .map_or(0.0, |dial| dial.target)
-    };
     OperatingPoint {
-        slide_roll: target(Knob::SlideRoll),
-        load_n: target(Knob::ForceN),
-        amplitude_1_m: target(Knob::Amplitude1M),
-        amplitude_2_m: target(Knob::Amplitude2M),
+        slide_roll: target_of(dials, Knob::SlideRoll),
+        load_n: target_of(dials, Knob::ForceN),
+        amplitude_1_m: target_of(dials, Knob::Amplitude1M),
+        amplitude_2_m: target_of(dials, Knob::Amplitude2M),
     }
+}
+
+fn target_of(dials: &[Dial], knob: Knob) -> f64 {
+    dials
+        .iter()
+        .find(|dial| dial.knob == knob)
+        .map_or(0.0, |dial| dial.target)
 }
 
 /// Before anything was simulated only the cycles are known: peaks and traction count as 1.

@@ -1,7 +1,7 @@
 //! What an action does.
 
 use crate::run::Command;
-use crate::tui::action::Action;
+use crate::tui::action::{Action, KEYS};
 use crate::tui::app::{App, Effect, ErrandKind, Overlay, Pace, Pinned, PointQuantity, Zoom};
 use crate::tui::dial::Life;
 use crate::tui::lessons::TourState;
@@ -12,8 +12,8 @@ impl App {
         match action {
             Action::Quit => vec![Effect::Quit],
             Action::Suspend => vec![Effect::Suspend],
-            Action::ChooseNext | Action::ChoosePrevious if self.overlay == Overlay::Plan => {
-                self.scroll_plan(action);
+            Action::ChooseNext | Action::ChoosePrevious if self.overlay != Overlay::None => {
+                self.scroll(action);
                 Vec::new()
             }
             Action::ChooseNext => self.choose(self.chosen + 1),
@@ -63,7 +63,7 @@ impl App {
                 }
             }
             Action::Units => self.units = self.units.next(),
-            Action::Contrast => self.theme.toggle_contrast(),
+            Action::Contrast => self.theme.next_contrast(),
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
             Action::Close => self.close(),
@@ -71,8 +71,12 @@ impl App {
         }
     }
 
-    fn scroll_plan(&mut self, action: Action) {
-        let last = self.setup.plan_text.lines().count() + self.setup.left_out.len();
+    /// Moves what lies over the screen, up to its last line.
+    fn scroll(&mut self, action: Action) {
+        let last = match self.overlay {
+            Overlay::Plan => self.setup.plan_text.lines().count() + self.setup.left_out.len(),
+            Overlay::Help | Overlay::None => KEYS.len(),
+        };
         self.scroll = if action == Action::ChooseNext {
             (self.scroll + 1).min(last as u16)
         } else {
@@ -221,26 +225,20 @@ impl App {
     }
 
     fn next_lesson(&mut self) -> Vec<Effect> {
-        match self.tour {
-            Some(tour) => self.begin_lesson(tour.lesson + 1),
-            None => Vec::new(),
-        }
+        self.tour
+            .map_or_else(Vec::new, |tour| self.begin_lesson(tour.lesson + 1))
     }
 
     fn begin_lesson(&mut self, lesson: usize) -> Vec<Effect> {
         let passages = self.frame().map_or(0.0, |frame| frame.passages);
         self.tour = TourState::begin(lesson, passages);
-        match self.tour {
-            Some(tour) => {
-                let mut effects = self.apply(Action::HomeAll);
-                effects.extend(self.play(tour));
-                effects
-            }
-            None => {
-                self.say("that was the last lesson");
-                self.apply(Action::HomeAll)
-            }
+        let mut effects = self.apply(Action::HomeAll);
+        if let Some(tour) = self.tour {
+            effects.extend(self.play(tour));
+        } else {
+            self.say("that was the last lesson");
         }
+        effects
     }
 
     /// Sets what a beat of a lesson sets.

@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::app::App;
-use crate::tui::lessons::LESSONS;
+use crate::tui::lessons::{Beat, LESSONS};
 use crate::tui::theme::Role;
 use crate::tui::view::{ascii_text, put, put_right};
 
@@ -15,6 +15,17 @@ pub(super) struct Caption<'a> {
     title: String,
     text: &'a str,
     hint: &'static str,
+    /// Letters of the longest text of a lesson, so that the screen keeps its shape from beat to beat.
+    longest: usize,
+}
+
+impl Caption<'_> {
+    /// Rows that it takes on a screen of that width, title included.
+    pub(super) fn rows(&self, screen_width: u16) -> u16 {
+        // Lines break at words, which leaves up to some ten columns empty.
+        let room = screen_width.saturating_sub(4 + 10).max(20);
+        1 + (self.longest as u16).div_ceil(room)
+    }
 }
 
 /// What is to be said, if anything.
@@ -22,7 +33,7 @@ pub(super) fn of(app: &App) -> Option<Caption<'_>> {
     if let Some(tour) = app.tour {
         return Some(Caption {
             title: format!(
-                "lesson {} of {}: {} ({}/{})",
+                "{}/{} {} ({}/{})",
                 tour.lesson + 1,
                 LESSONS.len(),
                 tour.lesson().title,
@@ -30,14 +41,21 @@ pub(super) fn of(app: &App) -> Option<Caption<'_>> {
                 tour.lesson().beats.len()
             ),
             text: tour.beat().caption,
-            hint: "n next  t ends ",
+            hint: " n next  t ends ",
+            longest: longest(tour.lesson().beats),
         });
     }
     scripted(app).map(|text| Caption {
         title: "the scene says".to_owned(),
         text,
         hint: "",
+        longest: text.chars().count(),
     })
+}
+
+fn longest(beats: &[Beat]) -> usize {
+    let letters = beats.iter().map(|beat| beat.caption.chars().count());
+    letters.max().unwrap_or(0)
 }
 
 /// The caption of the last scripted event, while it is fresh (half a passage).
@@ -54,7 +72,7 @@ fn scripted(app: &App) -> Option<&str> {
 }
 
 pub(super) fn render(app: &App, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     for row in 0..area.height {
         put(
             area,
@@ -68,9 +86,13 @@ pub(super) fn render(app: &App, caption: &Caption<'_>, area: Rect, buffer: &mut 
         width: area.width.saturating_sub(4),
         ..area
     };
-    let title = Span::styled(ascii_text(theme, &caption.title), theme.style(Role::Key));
-    put(text, 0, &Line::from(title), buffer);
     let hint = Line::styled(caption.hint, theme.style(Role::Dim));
+    let title = Span::styled(ascii_text(theme, &caption.title), theme.style(Role::Key));
+    let beside = Rect {
+        width: text.width.saturating_sub(hint.width() as u16),
+        ..text
+    };
+    put(beside, 0, &Line::from(title), buffer);
     put_right(text, 0, &hint, buffer);
     let below = Rect {
         y: text.y + 1,

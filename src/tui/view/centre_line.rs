@@ -16,7 +16,7 @@ use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
 const AXIS: u16 = 5;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let inner = panel(theme, areas, areas.centre_line, heading(app), buffer);
     let Some(frame) = app.frame() else { return };
     if inner.height < 3 || inner.width < 2 * AXIS + 8 {
@@ -34,7 +34,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 }
 
 fn heading(app: &App) -> Line<'static> {
-    let theme = &app.theme;
+    let theme = app.theme;
     let mut line = title(theme, "", "centre line");
     let entry = |mark: &'static str, text: &'static str, role: Role| {
         Span::styled(format!("{mark}{text} "), theme.style(role))
@@ -55,7 +55,7 @@ fn x_range(app: &App, frame: &Frame) -> [f64; 2] {
 }
 
 fn curves(app: &App, frame: &Frame, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let pen = |role: Role, letter: char| Pen {
         style: theme.style(role),
         letter,
@@ -100,7 +100,7 @@ fn row<'a>(
 }
 
 fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let (pressure, film) = (app.units.pressure(), app.units.film());
     let left = Rect {
         width: AXIS - 1,
@@ -163,7 +163,7 @@ fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
 fn ticks(rows: u16) -> Vec<(u16, f64)> {
     let last = rows - 1;
     // A number in the middle only where a row is in the middle.
-    let marks = if rows >= 7 && last % 2 == 0 {
+    let marks = if rows >= 7 && last.is_multiple_of(2) {
         vec![0, last / 2, last]
     } else {
         vec![0, last]

@@ -12,7 +12,7 @@ use crate::tui::view::{ascii_text, put, put_right};
 use crate::tui::wiring::Health;
 
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let numbers = numbers(app);
     put_right(area, 0, &numbers, buffer);
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
@@ -38,7 +38,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// What the run does, as a shape, a word and a colour.
 fn state(app: &App) -> (&'static str, String, Role) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let (back, _) = app.rewound();
     if back > 0 {
         return (theme.pick("◀ ", "< "), format!("{back} back"), Role::Warn);
@@ -55,7 +55,7 @@ fn state(app: &App) -> (&'static str, String, Role) {
 }
 
 fn numbers(app: &App) -> Line<'static> {
-    let theme = &app.theme;
+    let theme = app.theme;
     let Some(frame) = app.frame() else {
         return Line::default();
     };
@@ -66,7 +66,7 @@ fn numbers(app: &App) -> Line<'static> {
         _ => theme.pick("∞", "inf").to_owned(),
     };
     let pairs = [
-        ("S", sig(metrics.slide_roll, 2), Role::Strong),
+        ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
         ("p_h", pressure.show(frame.p_hertz_pa, 3), Role::Strong),
         ("λ", sig_or_dash(metrics.lambda_ratio, 2), Role::Strong),
         ("n", n, Role::Strong),

@@ -14,7 +14,7 @@ use crate::tui::units::{sig, tick};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let heading = title(theme, theme.pick("↑↓←→", "hjkl"), "knobs");
     let inner = panel(theme, areas, areas.knobs, heading, buffer);
     for (place, dial) in app.dials.iter().enumerate() {
@@ -101,7 +101,7 @@ fn track(slot: Rect) -> Rect {
 }
 
 fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let value = value_line(app, dial);
     let chosen = place == app.chosen;
     let room = slot.width.saturating_sub(value.width() as u16 + 1);
@@ -131,7 +131,7 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
 
 /// `0.30 → 0.50` on the way, `0.50` there.
 fn value_line(app: &App, dial: &Dial) -> Line<'static> {
-    let theme = &app.theme;
+    let theme = app.theme;
     if let Life::Dead(reason) = dial.life {
         return Line::styled(reason, theme.style(Role::Dim));
     }
@@ -168,7 +168,7 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer
     if track.is_empty() {
         return;
     }
-    let theme = &app.theme;
+    let theme = app.theme;
     let last = f64::from(track.width - 1);
     let column = |value: f64| (dial.fraction(value) * last).round() as u16;
     let (now, target) = (column(dial.now), column(dial.target));
@@ -233,7 +233,7 @@ fn paint(
 
 /// Range of the slider; for the load the Hertz pressure, as that is what one thinks in.
 fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let unit = dial.unit(app.units);
     if dial.life != Life::Live {
         return;
@@ -266,7 +266,7 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
 
 /// Where there is room: both bodies' speeds, the contact's size, and what the letters mean.
 fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let Some(frame) = app.frame() else { return };
     let metrics = &frame.metrics;
     let speed = app.units.speed();
@@ -312,7 +312,7 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
     for (row, (name, meaning)) in SYMBOLS.iter().enumerate() {
         let line = Line::from(vec![
             Span::styled(
-                format!("{:<4}", ascii_text(theme, name)),
+                format!("{:<5}", ascii_text(theme, name)),
                 theme.style(Role::Strong),
             ),
             Span::styled(ascii_text(theme, meaning), theme.style(Role::Dim)),
@@ -323,9 +323,10 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// What the letters on the screen mean; the help screen says it too.
 pub(super) const SYMBOLS: &[(&str, &str)] = &[
-    ("S", "(U₂−U₁)/U, U = (U₁+U₂)/2"),
+    ("S", "(U₂−U₁)/U, U the mean"),
     ("p_h", "max. Hertz pressure"),
     ("λ", "smooth film/rms height"),
     ("n", "1 + 2a f |U₂−U₁|/|U|"),
     ("", "f: crests of the mate per m"),
+    ("life", "over that of smooth rolling"),
 ];

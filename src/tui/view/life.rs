@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
-use crate::sim::{LifeEstimate, Metrics};
+use crate::sim::LifeEstimate;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
@@ -17,7 +17,7 @@ use crate::tui::view::{
 const DECADES: [f64; 2] = [-4.0, 1.0];
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let inner = panel(
         theme,
         areas,
@@ -97,7 +97,7 @@ fn simulated(app: &App, style: Style) -> Style {
 }
 
 fn figure(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let leading = app.leading();
     let role = match leading {
         Leading::Simulated => Role::Strong,
@@ -125,7 +125,7 @@ fn figure(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
 
 /// Beside the large figure: where the number comes from.
 fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let used = if theme.is_ascii() {
         used / 2 + 8
     } else {
@@ -154,7 +154,7 @@ fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) {
 
 /// The other number, and the band.
 fn provenance(app: &App, width: u16) -> Line<'static> {
-    let theme = &app.theme;
+    let theme = app.theme;
     let text = match (app.leading(), app.life()) {
         (Leading::Simulated, Some(life)) => {
             let (low, high) = (life.life_relative_low, life.life_relative_high);
@@ -184,7 +184,7 @@ fn provenance(app: &App, width: u16) -> Line<'static> {
 /// A number short enough for large figures.
 fn short(life: Option<f64>) -> String {
     match life {
-        Some(life) if life >= 1e-3 && life < 1e3 => sig(life, 2),
+        Some(life) if (1e-3..1e3).contains(&life) => sig(life, 2),
         Some(life) if life > 0.0 && life.is_finite() => format!("{life:.0e}").replace("e-0", "e-"),
         _ => "-".to_owned(),
     }
@@ -202,7 +202,7 @@ fn column(value: f64, width: u16) -> u16 {
 
 /// The logarithmic scale with band, number, formula and pin.
 fn scale(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let bar = rows.take(1);
     let width = bar.width;
     let mut mark = |value: f64, symbol: &'static str, style: Style| {
@@ -327,7 +327,7 @@ fn waterfall_value(
     (name, factor, role): (&'static str, Option<f64>, Role),
     buffer: &mut Buffer,
 ) {
-    let theme = &app.theme;
+    let theme = app.theme;
     put(row, 0, &Line::styled(name, theme.style(role)), buffer);
     let value = ascii_text(theme, &format!("×{}", sig_or_dash(factor, 2)));
     let style = theme.style(Role::Strong);
@@ -342,7 +342,7 @@ fn waterfall_bar(
     role: Role,
     buffer: &mut Buffer,
 ) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let (before, after) = (9, 7);
     if row.is_empty() || row.width < before + after + 3 {
         return;
@@ -372,9 +372,9 @@ fn waterfall_bar(
 
 /// n by formula beside n counted, for both bodies.
 fn counts(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let metrics = app.frame().map(|frame| frame.metrics.clone());
-    let metrics = metrics.unwrap_or_else(Metrics::default);
+    let metrics = metrics.unwrap_or_default();
     let bodies = [
         (
             "n₁",
@@ -407,7 +407,7 @@ fn counts(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
 
 /// "3.4 times shorter than pinned".
 fn comparison(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let row = rows.take(1);
     let Some(ratio) = app.against_pinned() else {
         return;

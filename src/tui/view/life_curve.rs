@@ -49,7 +49,7 @@ fn pen(app: &App, role: Role, letter: char) -> Pen {
 
 /// Formula over the whole range of S; dots where the simulation settled.
 fn against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let heading = Line::from(vec![
         Span::styled("life against S ", theme.style(Role::Title)),
         Span::styled(theme.pick("┄ ", ". "), theme.style(Role::Formula)),
@@ -119,7 +119,7 @@ fn labels(
     range: [f64; 2],
     buffer: &mut Buffer,
 ) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let dim = theme.style(Role::Dim);
     let axis = Rect {
         y: plot.y,
@@ -177,7 +177,7 @@ fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
 
 /// The estimate over the passages seen: one curve, the present on the right.
 fn over_time(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let dim = theme.style(Role::Dim);
     let (Some(first), Some(last)) = (app.history.front(), app.history.back()) else {
         return;
@@ -193,7 +193,7 @@ fn over_time(app: &App, area: Rect, buffer: &mut Buffer) {
         Span::styled(ascii_text(theme, &format!("{span:.1} passages of 4a")), dim),
     ]);
     put(area, 0, &heading, buffer);
-    if !(span > 0.0) || plot.is_empty() {
+    if span <= 0.0 || plot.is_empty() {
         return;
     }
     let logarithm = |life: f64| life.log10();

@@ -29,7 +29,7 @@ struct Look {
 }
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let inner = panel(theme, areas, areas.map, heading(app), buffer);
     let Some(frame) = app.frame() else {
         waiting(app, inner, buffer);
@@ -60,7 +60,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     marker(app, frame, &window, image, buffer);
     color_bar(theme, &look, app.map, bar, buffer);
     motion(app, frame, areas, inner, buffer);
-    probe(app, frame, &window, image, buffer);
+    probe(app, frame, &window, (picture, image), buffer);
 }
 
 /// A press on the picture reads it there.
@@ -81,7 +81,7 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 }
 
 fn heading(app: &App) -> Line<'static> {
-    let theme = &app.theme;
+    let theme = app.theme;
     let mut line = title(theme, "m", app.map.name());
     let note = match (app.map, app.zoom) {
         (MapKind::Stress, _) => "x–z plane, y = 0 ",
@@ -96,8 +96,8 @@ fn heading(app: &App) -> Line<'static> {
 }
 
 fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
-    let text = "the first frame is on its way: dry Hertz, then the smooth film";
+    let theme = app.theme;
+    let text = "starting: dry Hertz, then film";
     put(
         area,
         area.height / 2,
@@ -123,7 +123,7 @@ fn split(areas: &Areas, inner: Rect) -> (Rect, Rect) {
     (picture, bar)
 }
 
-fn rows(theme: &Theme, image: Rect) -> usize {
+fn rows(theme: Theme, image: Rect) -> usize {
     usize::from(image.height) * if theme.paints() { 2 } else { 1 }
 }
 
@@ -226,7 +226,7 @@ impl Look {
 }
 
 fn paint(
-    theme: &Theme,
+    theme: Theme,
     raster: &Raster,
     look: &Look,
     window: &Window,
@@ -312,7 +312,7 @@ fn place(
     symbol: &'static str,
     buffer: &mut Buffer,
 ) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let part = |value: f64, range: [f64; 2]| (value - range[0]) / (range[1] - range[0]);
     let (along, down) = (part(x, window.x), part(y, window.y));
     if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
@@ -333,10 +333,16 @@ fn place(
 }
 
 /// The values at the probe, on the last row of the picture.
-fn probe(app: &App, frame: &Frame, window: &Window, image: Rect, buffer: &mut Buffer) {
+fn probe(
+    app: &App,
+    frame: &Frame,
+    window: &Window,
+    (picture, image): (Rect, Rect),
+    buffer: &mut Buffer,
+) {
     let Some((x, y)) = app.probe else { return };
     place(app, window, image, (x, y), "╋", buffer);
-    let theme = &app.theme;
+    let theme = app.theme;
     let text = if app.map == MapKind::Stress {
         raster::stress_at(frame, x, y).map(|stress| {
             format!(
@@ -361,13 +367,13 @@ fn probe(app: &App, frame: &Frame, window: &Window, image: Rect, buffer: &mut Bu
         let row = Rect {
             y: image.bottom() - 1,
             height: 1,
-            ..image
+            ..picture
         };
         put(row, 0, &line, buffer);
     }
 }
 
-fn color_bar(theme: &Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut Buffer) {
+fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut Buffer) {
     if bar.width < 4 || bar.height < 3 {
         return;
     }
@@ -465,7 +471,7 @@ fn strip(
     row: Rect,
     buffer: &mut Buffer,
 ) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let style = theme.style(role);
     let body = if row.width >= 30 { "body " } else { "" };
     let label = Line::styled(format!("{body}{name} "), style);

@@ -42,8 +42,8 @@ pub enum Density {
 pub enum Banner {
     /// They do not.
     None,
-    /// A lesson or a script says something.
-    Caption,
+    /// A lesson or a script says something that takes so many rows.
+    Caption(u16),
 }
 
 /// Where the panels are.
@@ -87,11 +87,10 @@ impl Areas {
         };
         let caption_rows = match banner {
             Banner::None => 0,
-            // Title and text, which is 180 letters at most.
-            Banner::Caption => 1 + 190_u16.div_ceil(screen.width - 4),
+            Banner::Caption(rows) => rows.min(5),
         };
         let body_rows = screen.height - 1 - caption_rows - point_rows - status_rows;
-        let gap = if density == Density::Compact { 1 } else { 0 };
+        let gap = u16::from(density == Density::Compact);
         let middle = screen.width - left - right - 2 * gap;
         let map_rows = (body_rows * 57).div_ceil(100);
         let top = screen.y + 1 + caption_rows;
@@ -127,7 +126,7 @@ pub fn draw(app: &App, frame: &mut Frame<'_>) {
 /// Draws the whole screen into a buffer.
 pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
     let caption = caption::of(app);
-    let Some(areas) = Areas::of(screen, banner(caption.as_ref())) else {
+    let Some(areas) = Areas::of(screen, banner(caption.as_ref(), screen)) else {
         too_small(app, screen, buffer);
         return;
     };
@@ -154,13 +153,15 @@ pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
     }
 }
 
-fn banner(caption: Option<&caption::Caption<'_>>) -> Banner {
-    caption.map_or(Banner::None, |_| Banner::Caption)
+fn banner(caption: Option<&caption::Caption<'_>>, screen: Rect) -> Banner {
+    caption.map_or(Banner::None, |caption| {
+        Banner::Caption(caption.rows(screen.width))
+    })
 }
 
 /// What a mouse event asks for on a screen of that size.
 pub fn pointed(app: &App, screen: Rect, event: &MouseEvent) -> Option<Action> {
-    let areas = Areas::of(screen, banner(caption::of(app).as_ref()))?;
+    let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
     let at = Position::new(event.column, event.row);
     if app.overlay != Overlay::None {
         let closes = matches!(event.kind, MouseEventKind::Down(_));
@@ -209,7 +210,7 @@ fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws a panel's frame and gives the room inside.
-fn panel(theme: &Theme, areas: &Areas, area: Rect, title: Line<'_>, buffer: &mut Buffer) -> Rect {
+fn panel(theme: Theme, areas: &Areas, area: Rect, title: Line<'_>, buffer: &mut Buffer) -> Rect {
     let borders = match areas.density {
         Density::Compact => Borders::TOP,
         Density::Full => Borders::ALL,
@@ -251,7 +252,7 @@ const ASCII_BORDER: symbols::border::Set<'static> = symbols::border::Set {
 };
 
 /// A panel's title: its name, with the key that changes it in the key's colour.
-fn title<'a>(theme: &Theme, key: &'a str, name: &'a str) -> Line<'a> {
+fn title<'a>(theme: Theme, key: &'a str, name: &'a str) -> Line<'a> {
     let mut spans = vec![Span::raw(" ")];
     if !key.is_empty() {
         spans.push(Span::styled(key, theme.style(Role::Key)));
@@ -278,7 +279,7 @@ fn put_right(area: Rect, row: u16, line: &Line<'_>, buffer: &mut Buffer) {
 }
 
 /// What only Unicode terminals show, in letters for those that do not.
-fn ascii_text(theme: &Theme, text: &str) -> String {
+fn ascii_text(theme: Theme, text: &str) -> String {
     if !theme.is_ascii() {
         return text.to_owned();
     }
@@ -315,7 +316,7 @@ mod tests {
             for height in 20..=100 {
                 let screen = Rect::new(0, 0, width, height);
                 panels_at(screen, Banner::None);
-                panels_at(screen, Banner::Caption);
+                panels_at(screen, Banner::Caption(5));
             }
         }
         assert_eq!(Areas::of(Rect::new(0, 0, 59, 20), Banner::None), None);

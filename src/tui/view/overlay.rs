@@ -20,7 +20,7 @@ fn boxed(
     role: Role,
     buffer: &mut Buffer,
 ) -> Rect {
-    let theme = &app.theme;
+    let theme = app.theme;
     let (width, height) = (width.min(within.width), height.min(within.height));
     let area = Rect {
         x: within.x + (within.width - width) / 2,
@@ -47,27 +47,45 @@ fn boxed(
     }
 }
 
-/// The key table, in as many columns as fit; headings go where rows are short.
+/// The key table in two columns where they fit; headings go where rows are short, and where even
+/// so not all fit, the arrows move it.
 pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
     let columns = (within.width / 37).clamp(1, 2);
-    let room = usize::from(columns * within.height.saturating_sub(2));
+    let most = within.height.saturating_sub(2);
     let mut lines = help_lines(app);
-    if lines.len() > room {
+    if lines.len() > usize::from(columns * most) {
         lines.retain(|(heading, _)| *heading != Heading::Yes);
     }
-    let rows = (lines.len() as u16).div_ceil(columns);
-    let size = (columns * 40 + 4, rows + 2);
-    let inner = boxed(app, within, size, "keys (? closes)", Role::Key, buffer);
+    let rows = (lines.len() as u16).div_ceil(columns).min(most);
+    let hidden = (lines.len() as u16).saturating_sub(columns * rows);
+    let title = if hidden > 0 {
+        app.theme.pick(
+            "keys (↑↓ for more, ? closes)",
+            "keys (up, down for more, ? closes)",
+        )
+    } else {
+        "keys (? closes)"
+    };
+    let inner = boxed(
+        app,
+        within,
+        (columns * 40 + 4, rows + 2),
+        title,
+        Role::Key,
+        buffer,
+    );
     let each = inner.width / columns;
-    for (place, (_, line)) in lines.iter().enumerate() {
-        let place = place as u16;
-        let (column, row) = (place / rows.max(1), place % rows.max(1));
-        let cell = Rect {
-            x: inner.x + column * each,
-            width: each.saturating_sub(1),
-            ..inner
-        };
-        put(cell, row, line, buffer);
+    let shown = lines.iter().skip(usize::from(app.scroll.min(hidden)));
+    for (place, (_, line)) in shown.enumerate() {
+        let (column, row) = (place as u16 / rows.max(1), place as u16 % rows.max(1));
+        if column < columns {
+            let cell = Rect {
+                x: inner.x + column * each,
+                width: each.saturating_sub(1),
+                ..inner
+            };
+            put(cell, row, line, buffer);
+        }
     }
 }
 
@@ -79,7 +97,7 @@ enum Heading {
 }
 
 fn help_lines(app: &App) -> Vec<(Heading, Line<'static>)> {
-    let theme = &app.theme;
+    let theme = app.theme;
     let heading = |name: &'static str| {
         let line = Line::styled(name, theme.style(Role::Title));
         (Heading::Yes, line)
@@ -127,12 +145,12 @@ fn ascii_keys(app: &App, keys: &str) -> String {
         .replace("↑↓", "up dn")
         .replace("⇧←→ ", "")
         .replace("←→", "lt rt");
-    ascii_text(&app.theme, &plain)
+    ascii_text(app.theme, &plain)
 }
 
 /// What is computed, what is left out, and why.
 pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let mut lines = Vec::new();
     if !app.setup.left_out.is_empty() {
         lines.push(Line::styled("Left out", theme.style(Role::Warn)));
@@ -174,7 +192,7 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
 
 /// An engine that failed.
 pub(super) fn fault(app: &App, reason: &str, within: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let wide = 76.min(within.width);
     let rows = reason.chars().count() as u16 / wide.saturating_sub(6).max(1) + 1;
     let size = (wide, rows + 6);

@@ -14,7 +14,7 @@ use crate::tui::view::chart::{Chart, Pen};
 use crate::tui::view::{Areas, Density, ascii_text, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let inner = panel(theme, areas, areas.point, heading(app), buffer);
     let Some(frame) = app.frame() else { return };
     let Some(point) = &frame.material_point else {
@@ -51,7 +51,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 }
 
 fn heading(app: &App) -> Line<'static> {
-    let theme = &app.theme;
+    let theme = app.theme;
     let name = match app.quantity {
         PointQuantity::Pressure => "material point: pressure on it",
         PointQuantity::Shear => "material point: shear below it",
@@ -66,7 +66,7 @@ fn heading(app: &App) -> Line<'static> {
 }
 
 fn numbers(app: &App, frame: &Frame, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let Some(point) = &frame.material_point else {
         return;
     };
@@ -120,7 +120,7 @@ fn value(quantity: PointQuantity, sample: &TraceSample) -> f64 {
 }
 
 fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let range = range(app);
     let mut chart = Chart::new(plot, X_RANGE, range);
     let pen = |role: Role, letter: char| Pen {
@@ -217,7 +217,7 @@ fn mark(
 }
 
 fn axis(app: &App, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let pressure = app.units.pressure();
     let dim = theme.style(Role::Dim);
     let left = Rect {

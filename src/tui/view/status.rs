@@ -23,8 +23,11 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             write(app, area, row, &words, buffer);
             row += 1;
             words = quality(app, frame);
-        } else {
+        } else if frame.metrics.converged {
             words.extend(quality(app, frame));
+        } else {
+            // What is wrong stands first: the rest may not fit.
+            words = quality(app, frame).into_iter().chain(words).collect();
         }
         write(app, area, row, &words, buffer);
         row += 1;
@@ -36,7 +39,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 }
 
 fn write(app: &App, area: Rect, row: u16, words: &Words, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let mut spans = vec![Span::raw(" ")];
     let mut used = 1;
     for (text, role) in words {
@@ -122,7 +125,7 @@ fn regime(metrics: &Metrics) -> (&'static str, Role) {
 }
 
 fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
-    let theme = &app.theme;
+    let theme = app.theme;
     let recorder = recorder(app);
     let room = Rect {
         width: area.width.saturating_sub(recorder.width() as u16 + 1),
@@ -134,31 +137,55 @@ fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
         put(room, row, &line, buffer);
         return;
     }
-    let mut spans = vec![Span::raw(" ")];
-    for (key, word) in hints(app) {
-        spans.push(Span::styled(key, theme.style(Role::Key)));
-        spans.push(Span::styled(format!(" {word}  "), theme.style(Role::Dim)));
-    }
-    let missing: Vec<&str> = app
-        .setup
-        .left_out
-        .iter()
-        .map(|left| left.stage.as_str())
+    let mut words: Vec<(&str, String)> = hints(app)
+        .into_iter()
+        .map(|(key, word)| (key, word.to_owned()))
         .collect();
-    if !missing.is_empty() {
-        let text = format!("left out: {}", missing.join(", "));
-        spans.push(Span::styled("i ", theme.style(Role::Key)));
+    let taken: usize = words.iter().map(hint_width).sum();
+    if !app.setup.left_out.is_empty() {
+        words.push((
+            "i",
+            left_out(app, usize::from(room.width).saturating_sub(taken)),
+        ));
+    }
+    let mut spans = vec![Span::raw(" ")];
+    let mut free = usize::from(room.width);
+    for hint in words {
+        // What does not fit whole is not begun, and nothing after it.
+        if hint_width(&hint) > free {
+            break;
+        }
+        free -= hint_width(&hint);
+        spans.push(Span::styled(hint.0, theme.style(Role::Key)));
         spans.push(Span::styled(
-            ascii_text(theme, &text),
+            format!(" {}  ", hint.1),
             theme.style(Role::Dim),
         ));
     }
     put(room, row, &Line::from(spans), buffer);
 }
 
+/// Columns of a key with its word and the gap after it.
+fn hint_width((key, word): &(&str, String)) -> usize {
+    key.len() + word.chars().count() + 3
+}
+
+/// What the plan leaves out: all of it where it fits, else how much.
+fn left_out(app: &App, room: usize) -> String {
+    let left_out = &app.setup.left_out;
+    let stages: Vec<&str> = left_out.iter().map(|left| left.stage.as_str()).collect();
+    let all = ascii_text(app.theme, &format!("left out: {}", stages.join(", ")));
+    if all.chars().count() + 4 <= room {
+        all
+    } else {
+        format!("{} left out", left_out.len())
+    }
+}
+
 fn hints(app: &App) -> Vec<(&'static str, &'static str)> {
     let mut hints = vec![
         ("?", "keys"),
+        ("q", "quit"),
         ("space", "pause"),
         ("b", "pin"),
         ("t", "tour"),
@@ -166,12 +193,11 @@ fn hints(app: &App) -> Vec<(&'static str, &'static str)> {
     if app.offers(ErrandKind::Record) {
         hints.push(("r", "record"));
     }
-    hints.push(("q", "quit"));
     hints
 }
 
 fn recorder(app: &App) -> Line<'static> {
-    let theme = &app.theme;
+    let theme = app.theme;
     let dim = theme.style(Role::Dim);
     let Some(recorder) = &app.status.recorder else {
         return Line::styled("not recording ", dim);

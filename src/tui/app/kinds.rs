@@ -1,0 +1,95 @@
+//! What the screen can be switched to.
+
+/// What is drawn over the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MapKind {
+    /// Pressure.
+    #[default]
+    Pressure,
+    /// Film thickness.
+    Film,
+    /// Contact spots over the pressure.
+    Contact,
+    /// Sum of both roughnesses.
+    Roughness,
+    /// Effective stress in the plane y = 0.
+    Stress,
+}
+
+impl MapKind {
+    /// All maps in the order of the key.
+    pub const ALL: [Self; 5] = [
+        Self::Pressure,
+        Self::Film,
+        Self::Contact,
+        Self::Roughness,
+        Self::Stress,
+    ];
+
+    /// Name on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pressure => "pressure",
+            Self::Film => "film",
+            Self::Contact => "contact spots",
+            Self::Roughness => "roughness",
+            Self::Stress => "stress below",
+        }
+    }
+
+    pub(super) fn shifted(self, by: usize) -> Self {
+        let place = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
+        Self::ALL[(place + by) % Self::ALL.len()]
+    }
+}
+
+/// How much of the plane the map and the centre-line figure show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Zoom {
+    /// The Hertz ellipse and a little around it.
+    #[default]
+    Contact,
+    /// The whole domain.
+    Domain,
+}
+
+/// What the trace of the material point shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PointQuantity {
+    /// Pressure above it.
+    #[default]
+    Pressure,
+    /// Orthogonal shear at its depth.
+    Shear,
+}
+
+/// What lies over the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Overlay {
+    /// Nothing.
+    #[default]
+    None,
+    /// The keys.
+    Help,
+    /// The plan.
+    Plan,
+}
+
+/// Whether the run steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Pace {
+    /// It does.
+    #[default]
+    Running,
+    /// It waits.
+    Paused,
+}
+
+/// Which number leads on the life panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Leading {
+    /// The simulation's: it has settled where the knobs are.
+    Simulated,
+    /// The formula's: the simulation is on its way.
+    Formula,
+}
