@@ -1,7 +1,9 @@
 //! Life integrals and the factors of life against published and computed values.
 //! Every test prints the numbers that it asserts.
 
-use asperity::solve::stress::{StressEngine, StressSpec, Symmetry, VolumeOut};
+use asperity::physics::cycles::{BodyId, Kinematics, miner_part};
+use asperity::solve::material::{Line, MaterialTracker, TrackerSpec};
+use asperity::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry, VolumeOut};
 
 const NU: f64 = 0.3;
 /// Half of the domain, a.
@@ -111,4 +113,147 @@ fn strong_exponents_do_not_overflow() {
         out.ln
     );
     assert!(out.ln.is_finite() && step.abs() < 1e-4);
+}
+
+/// Speeds of body 1 (followed) and body 2 (rippled), and the ripple's wavelength, a.
+struct Passage {
+    u_1: f64,
+    u_2: f64,
+    wavelength: f64,
+}
+
+impl Passage {
+    /// Crests that pass over a point of body 1 on its way through the contact, f δ.
+    fn crests(&self) -> f64 {
+        let kinematics = Kinematics {
+            u_1: self.u_1,
+            u_2: self.u_2,
+            zone: 2.0,
+        };
+        let contacts = kinematics.contacts(BodyId::One, 1.0 / self.wavelength);
+        contacts.per_cycle().expect("moving") - 1.0
+    }
+
+    /// Sixteen samples a crest.
+    fn step(&self) -> f64 {
+        self.wavelength / (16.0 * (self.u_2 - self.u_1).abs())
+    }
+
+    fn ripple(&self, x: f64, t: f64) -> f64 {
+        1.0 + (std::f64::consts::TAU * (x - self.u_2 * t) / self.wavelength).cos()
+    }
+}
+
+#[test]
+fn counted_contacts_match_the_formula() {
+    // Full ripples carried by body 2: the pressure's rainflow count is f δ, and part of the crest at the
+    // edge of the zone.
+    for (u_1, u_2, wavelength) in [
+        (1.0, 2.0, 0.5),
+        (1.0, 2.0, 0.25),
+        (1.0, 2.0, 0.2),
+        (1.0, 2.0, 0.1),
+        (0.75, 1.25, 0.1),
+        (1.25, 0.75, 0.1),
+        (-0.5, 0.5, 0.25),
+        (1.0, 3.0, 0.05),
+    ] {
+        let passage = Passage {
+            u_1,
+            u_2,
+            wavelength,
+        };
+        let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 9.3);
+        spec.points = 64;
+        let mut tracker = MaterialTracker::new(spec);
+        let (nodes, dx) = (1025, 4.0 / 1024.0);
+        let mut pressure = vec![0.0_f32; nodes];
+        let steps = (2.2 * 4.0 / (u_1.abs() * passage.step())) as usize;
+        for s in 0..steps {
+            let t = s as f64 * passage.step();
+            for (i, p) in pressure.iter_mut().enumerate() {
+                let x = -2.0 + dx * i as f64;
+                *p = (hertz(x, 0.0) * passage.ripple(x, t)) as f32;
+            }
+            let line = Line {
+                x_first: -2.0,
+                dx,
+                pressure: &pressure,
+                tau_xz: None,
+            };
+            tracker.step(u_1 * passage.step(), &line);
+        }
+        let (tally, expected) = (
+            tracker.pressure_cycles().expect("crossed"),
+            passage.crests(),
+        );
+        println!(
+            "U1 {u_1}, U2 {u_2}, W {wavelength}: f delta {expected:.2}, counted {:.2} over {} phases; \
+             damage-equivalent {:.2}, f delta phi(9.3) {:.2}",
+            tally.count,
+            tracker.phases(),
+            tally.equivalent,
+            expected * miner_part(9.3)
+        );
+        assert!(tracker.phases() >= 8);
+        // Between the crests that lie in the zone (f δ) and n = 1 + f δ: the crest that the zone's edge
+        // cuts counts when what is left of it passes the gate, 0.6 times in a crossing of this contact.
+        assert!((tally.count - expected).abs() <= 1.0);
+        if expected >= 10.0 {
+            let n = 1.0 + expected;
+            let off = (tally.count / expected - 1.0)
+                .abs()
+                .min((tally.count / n - 1.0).abs());
+            assert!(off <= 0.05);
+        }
+    }
+}
+
+#[test]
+fn shear_counts_n_near_the_surface_and_one_below() {
+    // Full ripples, W = 0.25 a, U2/U1 = 2: n = 1 + f δ = 9.
+    let passage = Passage {
+        u_1: 1.0,
+        u_2: 2.0,
+        wavelength: 0.25,
+    };
+    let n = 1.0 + passage.crests();
+    let spec = spec(128, 16, Symmetry::MirrorY);
+    let mut engine = StressEngine::new(&spec).expect("valid");
+    let mut slice = SliceOut::new(&spec);
+    let mut tracker = MaterialTracker::new(TrackerSpec::new((-HALF, HALF), 16, 9.3));
+    let mut pressure = vec![0.0_f32; spec.nx * spec.ny];
+    for s in 0..(2.1 * 4.0 / passage.step()) as usize {
+        let t = s as f64 * passage.step();
+        for j in 0..spec.ny {
+            for i in 0..spec.nx {
+                let x = spec.x_first + spec.dx * i as f64;
+                let p = hertz(x, spec.dy * j as f64) * passage.ripple(x, t);
+                pressure[j * spec.nx + i] = p as f32;
+            }
+        }
+        engine.load(&pressure, None);
+        engine.slice(&mut slice);
+        let line = Line {
+            x_first: spec.x_first,
+            dx: spec.dx,
+            pressure: &pressure[..spec.nx],
+            tau_xz: Some(&slice.sxz),
+        };
+        tracker.step(passage.u_1 * passage.step(), &line);
+    }
+    println!("n by formula {n:.1}");
+    for (k, z) in spec.depths.iter().enumerate() {
+        let tally = tracker.shear_cycles(k).expect("crossed");
+        println!(
+            "z = {z:.3} a: {:.2} shear cycles, equivalent {:.2}, range {:.3} p_h",
+            tally.count, tally.equivalent, tally.range
+        );
+        if (0.02..passage.wavelength / 2.0).contains(z) {
+            assert!((tally.count - n).abs() <= 0.1 * n, "near the surface: n");
+        }
+        if *z > 2.0 * passage.wavelength {
+            assert!((tally.count - 1.0).abs() < 0.6, "below 2 W: the base cycle");
+        }
+    }
 }

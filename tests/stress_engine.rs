@@ -302,8 +302,9 @@ fn a_warm_engine_forgets_the_last_surface() {
 
 #[test]
 fn bad_specifications_name_their_entry() {
+    type Spoil = fn(&mut StressSpec);
     let good = Surface::new(64).spec(Symmetry::General, (8, 3.0));
-    let cases: [(&str, fn(&mut StressSpec)); 6] = [
+    let cases: [(&str, Spoil); 6] = [
         ("nx", |s| s.nx = 3),
         ("ny", |s| s.ny = 64),
         ("dx", |s| s.dx = f64::NAN),

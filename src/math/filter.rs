@@ -30,6 +30,15 @@ pub enum Padding {
     Periodic,
 }
 
+/// Parity of the symbols in kx.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parity {
+    /// Real and even: kernels that are even in x.
+    Even,
+    /// i times real and odd: kernels that are odd in x. The symbol given is its imaginary part at kx ≥ 0.
+    OddInX,
+}
+
 /// Buffers of one block of rows.
 struct RowWork<T> {
     real: Vec<T>,
@@ -51,6 +60,7 @@ pub struct Filter<T: FftNum> {
     lx: usize,
     ly: usize,
     symmetry: Symmetry,
+    parity: Parity,
     n_symbols: usize,
     n_kx: usize,
     row_forward: Arc<dyn RealToComplex<T>>,
@@ -109,6 +119,7 @@ impl<T: FftNum> Filter<T> {
             lx,
             ly,
             symmetry: grid.symmetry,
+            parity: Parity::Even,
             n_symbols,
             n_kx,
             row_forward,
@@ -121,6 +132,13 @@ impl<T: FftNum> Filter<T> {
             row_work,
             column_work,
         }
+    }
+
+    /// The same filter for kernels that are odd in x.
+    #[must_use]
+    pub fn odd_in_x(mut self) -> Self {
+        self.parity = Parity::OddInX;
+        self
     }
 
     /// Transform length along x.
@@ -183,6 +201,7 @@ impl<T: FftNum> Filter<T> {
         let n_ky = ly / 2 + 1;
         let (forward, inverse) = (&self.column_forward, &self.column_inverse);
         let (rows, symbols, symmetry) = (&self.rows_spectrum, &self.symbols, self.symmetry);
+        let parity = self.parity;
         self.columns_out
             .par_chunks_mut(COLUMNS * n_symbols * ny)
             .zip(self.column_work.par_iter_mut())
@@ -197,6 +216,11 @@ impl<T: FftNum> Filter<T> {
                     for b in 0..n_symbols {
                         let start = (b * n_kx + k0 + c) * n_ky;
                         multiply(line, &symbols[start..start + n_ky], &mut work.image);
+                        if parity == Parity::OddInX {
+                            for v in &mut work.image {
+                                *v = Complex::new(-v.im, v.re);
+                            }
+                        }
                         inverse.process_with_scratch(&mut work.image, &mut work.scratch);
                         let at = (c * n_symbols + b) * ny;
                         let n = ny.min(ly);
@@ -350,6 +374,48 @@ pub fn even_kernel_symbol(
     out
 }
 
+/// The imaginary part of the transform of a kernel that is odd in x and even in y: `[kx][ky]`.
+pub fn odd_kernel_symbol(
+    lx: usize,
+    ly: usize,
+    kernel: impl Fn(usize, usize) -> f64 + Sync,
+) -> Vec<f64> {
+    let (nkx, nky) = (lx / 2 + 1, ly / 2 + 1);
+    let mut planner = FftPlanner::<f64>::new();
+    let (fx, fy) = (planner.plan_fft_forward(lx), planner.plan_fft_forward(ly));
+    let mut table = vec![0.0; nky * nkx];
+    let mut line = vec![Complex::new(0.0, 0.0); lx];
+    for (j, row) in table.chunks_exact_mut(nkx).enumerate() {
+        for (i, v) in line.iter_mut().enumerate() {
+            // Zero where the period makes +L and −L the same offset.
+            let value = if i == 0 || 2 * i == lx {
+                0.0
+            } else if 2 * i < lx {
+                kernel(i, j)
+            } else {
+                -kernel(lx - i, j)
+            };
+            *v = Complex::new(value, 0.0);
+        }
+        fx.process(&mut line);
+        for (o, v) in row.iter_mut().zip(&line) {
+            *o = v.im;
+        }
+    }
+    let mut out = vec![0.0; nkx * nky];
+    let mut column = vec![Complex::new(0.0, 0.0); ly];
+    for kx in 0..nkx {
+        for (j, v) in column.iter_mut().enumerate() {
+            *v = Complex::new(table[j.min(ly - j) * nkx + kx], 0.0);
+        }
+        fy.process(&mut column);
+        for (o, v) in out[kx * nky..(kx + 1) * nky].iter_mut().zip(&column) {
+            *o = v.re;
+        }
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -392,6 +458,35 @@ mod tests {
             let expected = direct(&grid, &p, kernel);
             for (a, b) in out.iter().zip(&expected) {
                 assert!((a - b).abs() < 1e-12, "{symmetry:?}: {a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn odd_filter_is_the_direct_sum() {
+        let grid = Grid::new(9, -1.0, 1.0, 1.0, Symmetry::General);
+        let kernel = |i: usize, j: usize| i as f64 / (1.0 + (i * i) as f64 + 0.3 * (j * j) as f64);
+        let mut p = vec![0.0; grid.len()];
+        for j in 1..8 {
+            for i in 1..8 {
+                p[j * 9 + i] = ((5 * i + 3 * j) % 7) as f64 - 2.1;
+            }
+        }
+        let mut filter = Filter::<f64>::new(&grid, Padding::Doubled, 1).odd_in_x();
+        let symbol = odd_kernel_symbol(filter.lx(), filter.ly(), kernel);
+        let nky = filter.ly() / 2 + 1;
+        filter.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
+        let mut out = vec![f64::NAN; grid.len()];
+        filter.apply(&p, &mut out);
+        for j in 0..9_usize {
+            for i in 0..9_usize {
+                let mut sum = 0.0;
+                for (n, &value) in p.iter().enumerate() {
+                    let (ii, jj) = (n % 9, n / 9);
+                    let sign = if i >= ii { 1.0 } else { -1.0 };
+                    sum += sign * kernel(i.abs_diff(ii), j.abs_diff(jj)) * value;
+                }
+                assert!((out[j * 9 + i] - sum).abs() < 1e-12, "{i} {j}");
             }
         }
     }

@@ -19,7 +19,7 @@
 //!
 //! `n_i` is [`contacts`]'s.
 
-use crate::physics::cycles::contacts;
+use crate::physics::cycles::{BodyId, Kinematics};
 
 /// An operating point. SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,12 +98,12 @@ impl EstimateBasis {
     /// Contacts per loading cycle of both bodies at a point; the zone is 2a at its load.
     pub fn contacts(&self, point: &OperatingPoint) -> (Option<f64>, Option<f64>) {
         let zone_m = 2.0 * self.half_width_m * self.size_ratio(point.load_n);
-        let (u1, u2) = speed_ratios(point.slide_roll);
+        let kinematics = Kinematics::from_slide_roll(1.0, point.slide_roll, zone_m);
         let crests_1 = crests(self.crests_1_per_m, point.amplitude_1_m);
         let crests_2 = crests(self.crests_2_per_m, point.amplitude_2_m);
         (
-            contacts(u1, u2, crests_2, zone_m).per_loading_cycle(),
-            contacts(u2, u1, crests_1, zone_m).per_loading_cycle(),
+            kinematics.contacts(BodyId::One, crests_2).per_cycle(),
+            kinematics.contacts(BodyId::Two, crests_1).per_cycle(),
         )
     }
 

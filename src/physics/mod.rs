@@ -1,7 +1,8 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
-pub mod estimate;
 pub mod cycles;
+pub mod estimate;
+pub mod fatigue;
 pub mod film_regression;
 pub mod fluid;
 pub mod groups;

@@ -14,19 +14,19 @@ use crate::solve::reynolds::Medium;
 
 /// Scales and constants of one scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Door {
+pub(super) struct Door {
     /// Half-width along x, m.
-    pub a_m: f64,
+    pub(super) a_m: f64,
     /// Maximum Hertz pressure, Pa.
-    pub p_hertz_pa: f64,
+    pub(super) p_hertz_pa: f64,
     /// Film unit a²/Rx, m.
-    pub film_m: f64,
+    pub(super) film_m: f64,
     /// κ.
-    pub kappa: f64,
+    pub(super) kappa: f64,
     /// Rx/Ry.
-    pub curvature_y: f64,
+    pub(super) curvature_y: f64,
     /// Ellipse half-widths over a.
-    pub b_over_a: f64,
+    pub(super) b_over_a: f64,
     /// λ per m/s of entrainment; 0 in a dry scene.
     lambda_s_m: f64,
     /// Z per m/s of sliding.
@@ -37,7 +37,7 @@ pub struct Door {
 
 impl Door {
     /// The door of `scene`.
-    pub fn new(scene: &Scene) -> Self {
+    pub(super) fn new(scene: &Scene) -> Self {
         let hertz: Hertz = scene.hertz();
         let (a, p) = (hertz.a_m, hertz.p_max_pa);
         let rx = scene.contact.rx_m;
@@ -74,7 +74,7 @@ impl Door {
     }
 
     /// The fluid at entrainment speed `u_m_s` and slide-to-roll ratio `s`; a dry scene has λ = ∞: no flow.
-    pub fn medium(&self, u_m_s: f64, s: f64) -> Medium {
+    pub(super) fn medium(&self, u_m_s: f64, s: f64) -> Medium {
         Medium {
             viscosity: self.viscosity,
             density: self.density,
@@ -88,32 +88,32 @@ impl Door {
     }
 
     /// Load integral of a force.
-    pub fn load(&self, force_n: f64) -> f64 {
+    pub(super) fn load(&self, force_n: f64) -> f64 {
         force_n / (self.p_hertz_pa * self.a_m * self.a_m)
     }
 
     /// Pressure, Pa.
-    pub fn pa_from_p(&self, p: f64) -> f64 {
+    pub(super) fn pa_from_p(&self, p: f64) -> f64 {
         p * self.p_hertz_pa
     }
 
     /// Film, m.
-    pub fn m_from_h(&self, h: f64) -> f64 {
+    pub(super) fn m_from_h(&self, h: f64) -> f64 {
         h * self.film_m
     }
 
     /// Dimensionless film.
-    pub fn h_from_m(&self, h_m: f64) -> f64 {
+    pub(super) fn h_from_m(&self, h_m: f64) -> f64 {
         h_m / self.film_m
     }
 
     /// Length along the surface, m.
-    pub fn m_from_x(&self, x: f64) -> f64 {
+    pub(super) fn m_from_x(&self, x: f64) -> f64 {
         x * self.a_m
     }
 
-    /// Volume integral scale `∬∬ P dX dY` to N.
-    pub fn n_from_load(&self, load: f64) -> f64 {
-        load * self.p_hertz_pa * self.a_m * self.a_m
+    /// κ_s of the deflection by traction, from the mismatch of the materials, 1/Pa.
+    pub(super) fn kappa_s(&self, mismatch_per_pa: f64) -> f64 {
+        self.p_hertz_pa * self.a_m / self.film_m * mismatch_per_pa / std::f64::consts::TAU
     }
 }

@@ -5,13 +5,13 @@ use super::knob::Knob;
 
 /// One knob's state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setting {
+pub(super) struct Setting {
     /// Value of the present step.
-    pub now: f64,
+    pub(super) now: f64,
     /// Where it goes.
-    pub target: f64,
+    pub(super) target: f64,
     /// Largest change per dimensionless time (a/U).
-    pub rate: f64,
+    pub(super) rate: f64,
 }
 
 impl Setting {
@@ -29,13 +29,13 @@ impl Setting {
 
 /// All knobs, SI.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Drive {
+pub(super) struct Drive {
     settings: [Setting; Knob::ALL.len()],
 }
 
 impl Drive {
     /// Knobs at rest at `values`, with `rates` per a/U.
-    pub fn new(values: impl Fn(Knob) -> (f64, f64)) -> Self {
+    pub(super) fn new(values: impl Fn(Knob) -> (f64, f64)) -> Self {
         Self {
             settings: Knob::ALL.map(|knob| {
                 let (now, rate) = values(knob);
@@ -53,31 +53,26 @@ impl Drive {
     }
 
     /// A knob's state.
-    pub fn get(&self, knob: Knob) -> Setting {
+    pub(super) fn get(&self, knob: Knob) -> Setting {
         self.settings[Self::index(knob)]
     }
 
     /// Moves a target.
-    pub fn aim(&mut self, knob: Knob, target: f64) {
+    pub(super) fn aim(&mut self, knob: Knob, target: f64) {
         self.settings[Self::index(knob)].target = target;
     }
 
     /// Puts a knob where it is asked to be, without a ramp.
-    pub fn jump(&mut self, knob: Knob, value: f64) {
+    pub(super) fn jump(&mut self, knob: Knob, value: f64) {
         let setting = &mut self.settings[Self::index(knob)];
         (setting.now, setting.target) = (value, value);
     }
 
     /// One time step of `dt` (a/U).
-    pub fn walk(&mut self, dt: f64) {
+    pub(super) fn walk(&mut self, dt: f64) {
         for setting in &mut self.settings {
             setting.walk(dt);
         }
-    }
-
-    /// Whether every knob has arrived.
-    pub fn is_settled(&self) -> bool {
-        self.settings.iter().all(|s| s.now == s.target)
     }
 }
 
@@ -90,10 +85,9 @@ mod tests {
         let mut drive = Drive::new(|_| (0.0, 0.1));
         drive.aim(Knob::SlideRoll, 0.5);
         for _ in 0..5 {
-            assert!(!drive.is_settled());
+            assert_ne!(drive.get(Knob::SlideRoll).now, 0.5);
             drive.walk(1.0);
         }
         assert_eq!(drive.get(Knob::SlideRoll).now, 0.5);
-        assert!(drive.is_settled());
     }
 }

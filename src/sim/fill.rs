@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{Frame, Knob, Simulation, StressSlice};
+use super::{Frame, Knob, MaterialPoint, Simulation, StressSlice};
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
-pub fn fill(sim: &Simulation, frame: &mut Frame) {
+pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     let (grid, door) = (&sim.march.grid, &sim.door);
     let scale = (sim.drive.get(Knob::ForceN).now / sim.plan.force_n).cbrt();
     frame.step = sim.step;
@@ -58,6 +58,7 @@ pub fn fill(sim: &Simulation, frame: &mut Frame) {
         *c = u8::from(p > 0.0 && h <= contact_film);
     }
     fill_slice(sim, frame);
+    frame.material_point = material_point(sim);
     frame.metrics.clone_from(&sim.metrics);
 }
 
@@ -87,4 +88,27 @@ fn fill_slice(sim: &Simulation, frame: &mut Frame) {
     };
     scaled(&stress.slice.effective, &mut slice.effective_pa);
     scaled(&stress.slice.sxz, &mut slice.tau_xz_pa);
+}
+
+/// The shown point of body 1, its stress interpolated in the slice.
+fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
+    let counting = sim.counting.as_ref()?;
+    let shown = counting.shown?;
+    let stress = sim.stress.as_ref()?;
+    let (grid, depth) = (&sim.march.grid, counting.shown_depth());
+    let place = ((shown.x - grid.x_min) / grid.dx).clamp(0.0, (grid.nx - 2) as f64);
+    let (i, t) = (place as usize, place.fract());
+    let at = depth * grid.nx + i;
+    let effective = |n: usize| f64::from(stress.slice.effective[n]);
+    Some(MaterialPoint {
+        body: 1,
+        x_m: sim.door.m_from_x(shown.x),
+        depth_m: sim.door.m_from_x(stress.depths()[depth]),
+        pressure_pa: sim.door.pa_from_p(shown.pressure),
+        effective_pa: sim
+            .door
+            .pa_from_p(effective(at) * (1.0 - t) + effective(at + 1) * t),
+        tau_xz_pa: sim.door.pa_from_p(shown.tau_xz),
+        cycles_counted: shown.counted,
+    })
 }

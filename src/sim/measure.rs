@@ -5,25 +5,25 @@ use crate::solve::traction::TractionLaw;
 
 /// What one pass over the fields gives, dimensionless.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Measured {
+pub(super) struct Measured {
     /// Greatest P.
-    pub p_max: f64,
+    pub(super) p_max: f64,
     /// H at the origin.
-    pub h_central: f64,
+    pub(super) h_central: f64,
     /// Least H inside the Hertz ellipse.
-    pub h_min: f64,
+    pub(super) h_min: f64,
     /// Mean H within two thirds of the ellipse.
-    pub h_mean: f64,
+    pub(super) h_mean: f64,
     /// Contact area over the ellipse's.
-    pub contact_ratio: f64,
+    pub(super) contact_ratio: f64,
     /// Load on contacts over the load.
-    pub contact_load_ratio: f64,
+    pub(super) contact_load_ratio: f64,
     /// ∬Q/∬P.
-    pub friction: f64,
+    pub(super) friction: f64,
 }
 
 /// Fills the traction and measures. `a`, `b`: the Hertz half-widths of the present load.
-pub fn measure(
+pub(super) fn measure(
     grid: &Grid,
     law: &TractionLaw,
     p: &[f64],
@@ -72,7 +72,7 @@ pub fn measure(
 }
 
 /// Value at x = 0, y = 0, linear between nodes.
-pub fn at_origin(grid: &Grid, field: &[f64]) -> f64 {
+pub(super) fn at_origin(grid: &Grid, field: &[f64]) -> f64 {
     let at = -grid.x_min / grid.dx;
     let i = (at.floor() as usize).min(grid.nx - 2);
     let t = at - i as f64;

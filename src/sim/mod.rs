@@ -3,19 +3,22 @@
 mod door;
 mod drive;
 mod error;
+mod fatigue_stage;
 mod fill;
 mod frame;
 mod knob;
-mod life_stage;
 mod measure;
 mod motion;
+mod setup;
 mod simulation;
+mod start_up;
 mod stats;
 mod stepping;
 mod stress_stage;
 mod summary;
 mod terrain;
 mod totals;
+mod watching;
 
 pub use error::{SimError, StepError};
 pub use frame::{Frame, LifeEstimate, MaterialPoint, Metrics, Stage, StressSlice};

@@ -4,24 +4,23 @@ use super::door::Door;
 use super::drive::Drive;
 use super::knob::Knob;
 use crate::math::grid::Grid;
-use crate::plan::Plan;
 
 /// Travelled ways and the time since the last disturbance.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Motion {
+pub(super) struct Motion {
     /// Step in nodes at U.
-    pub nodes: f64,
+    pub(super) nodes: f64,
     /// Way of body 1 and 2, in a.
-    pub travelled: [f64; 2],
+    pub(super) travelled: [f64; 2],
     /// η0/(p_h × film unit), s/m: shear stress per sliding speed.
-    pub shear_rate: f64,
+    pub(super) shear_rate: f64,
     /// Time (a/U) that must pass until a steady contact is steady again.
     unsettled: f64,
 }
 
 impl Motion {
     /// Bodies at their origin.
-    pub fn new(nodes: f64) -> Self {
+    pub(super) fn new(nodes: f64) -> Self {
         Self {
             nodes,
             travelled: [0.0; 2],
@@ -31,7 +30,7 @@ impl Motion {
     }
 
     /// Moves both bodies by a step of `nodes` nodes at slide-to-roll ratio `s`.
-    pub fn travel(&mut self, grid: &Grid, nodes: f64, s: f64) {
+    pub(super) fn travel(&mut self, grid: &Grid, nodes: f64, s: f64) {
         let dt = nodes * grid.dx;
         self.travelled[0] += (1.0 - 0.5 * s) * dt;
         self.travelled[1] += (1.0 + 0.5 * s) * dt;
@@ -39,34 +38,22 @@ impl Motion {
     }
 
     /// Time of a full step, s.
-    pub fn dt_s(&self, grid: &Grid, door: &Door, drive: &Drive) -> f64 {
+    pub(super) fn dt_s(&self, grid: &Grid, door: &Door, drive: &Drive) -> f64 {
         self.nodes * grid.dx * door.a_m / drive.get(Knob::EntrainmentMS).now
     }
 
     /// Something changed: `time` (a/U) to be steady again.
-    pub fn disturb(&mut self, time: f64) {
+    pub(super) fn disturb(&mut self, time: f64) {
         self.unsettled = time;
     }
 
     /// The contact is steady now.
-    pub fn flush(&mut self) {
+    pub(super) fn flush(&mut self) {
         self.unsettled = 0.0;
     }
 
     /// Whether the contact has been flushed since the last disturbance.
-    pub fn is_flushed(&self) -> bool {
+    pub(super) fn is_flushed(&self) -> bool {
         self.unsettled == 0.0
-    }
-
-    /// n of both bodies over the zone 2a: `n_i = 1 + f_j |U2−U1| 2a/|U_i|`; `None` where a body rests.
-    pub fn contacts_per_cycle(&self, plan: &Plan, u: f64, s: f64) -> [Option<f64>; 2] {
-        let speeds = [u * (1.0 - 0.5 * s), u * (1.0 + 0.5 * s)];
-        [0, 1].map(|body: usize| {
-            let density = plan.waves[1 - body].map_or(0.0, |wave| wave.crests_per_m);
-            let speed = speeds[body].abs();
-            (speed > 0.0).then(|| {
-                1.0 + density * (speeds[1] - speeds[0]).abs() * 2.0 * plan.hertz.a_m / speed
-            })
-        })
     }
 }

@@ -7,8 +7,9 @@ use super::frame::Metrics;
 use super::knob::Knob;
 use super::motion::Motion;
 use super::terrain::Terrain;
-use crate::solve::march::{Guess, March};
+use crate::solve::march::{Conditions, Guess, March};
 use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
+use crate::solve::traction::TractionLaw;
 
 /// Most times a step is halved.
 const MAX_HALVINGS: u32 = 2;
@@ -17,25 +18,25 @@ const HOPELESS: f64 = 0.05;
 
 /// What a step took and reached.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Attempted {
+pub(super) struct Attempted {
     /// Every part converged.
-    pub converged: bool,
+    pub(super) converged: bool,
     /// Worst relative change of pressure.
-    pub residual: f64,
+    pub(super) residual: f64,
     /// Worst mass error.
-    pub mass_error: f64,
+    pub(super) mass_error: f64,
     /// Worst load error.
-    pub load_error: f64,
+    pub(super) load_error: f64,
     /// Newton iterations.
-    pub newton: u32,
+    pub(super) newton: u32,
     /// Krylov iterations.
-    pub linear: u32,
+    pub(super) linear: u32,
     /// Transforms.
-    pub ffts: u64,
+    pub(super) ffts: u64,
     /// Attempts beyond the first.
-    pub retries: u32,
+    pub(super) retries: u32,
     /// Simulated time, s.
-    pub dt_s: f64,
+    pub(super) dt_s: f64,
     /// Why nothing was kept.
     failure: Option<Failure>,
 }
@@ -48,7 +49,7 @@ enum Failure {
 
 impl Attempted {
     /// A step of a steady contact: nothing was solved, the last numbers hold.
-    pub fn held(metrics: &Metrics) -> Self {
+    pub(super) fn held(metrics: &Metrics) -> Self {
         Self {
             converged: metrics.converged,
             residual: metrics.residual,
@@ -59,7 +60,7 @@ impl Attempted {
     }
 
     /// The error, when nothing was kept.
-    pub fn fatal(&self, t_s: f64, tolerance: f64) -> Option<StepError> {
+    pub(super) fn fatal(&self, t_s: f64, tolerance: f64) -> Option<StepError> {
         Some(match self.failure? {
             Failure::NotFinite => StepError::NotFinite { t_s },
             Failure::Hopeless { x_m, y_m } => StepError::Stalled {
@@ -95,16 +96,18 @@ struct Mover<'a> {
     drive: &'a mut Drive,
     motion: &'a mut Motion,
     door: &'a Door,
+    law: TractionLaw,
     tolerance: Tolerance,
 }
 
 /// Advances by one full step, in parts where that is what it takes.
-pub fn advance(
+pub(super) fn advance(
     march: &mut March,
     terrain: &mut Terrain,
     drive: &mut Drive,
     motion: &mut Motion,
     door: &Door,
+    law: TractionLaw,
     tolerance: Tolerance,
 ) -> Attempted {
     let mut done = Attempted {
@@ -118,6 +121,7 @@ pub fn advance(
         drive,
         motion,
         door,
+        law,
         tolerance,
     };
     mover.part(nodes, 0, &mut done);
@@ -200,8 +204,12 @@ impl Mover<'_> {
         let medium = self
             .door
             .medium(value(Knob::EntrainmentMS), value(Knob::SlideRoll));
-        let load = self.door.load(value(Knob::ForceN));
-        self.march
-            .attempt(&medium, load, nodes, self.tolerance, guess)
+        let conditions = Conditions {
+            medium: &medium,
+            law: Some(&self.law),
+            load: self.door.load(value(Knob::ForceN)),
+            tolerance: self.tolerance,
+        };
+        self.march.attempt(&conditions, nodes, guess)
     }
 }

@@ -5,12 +5,12 @@ use crate::scene::StressMeasure;
 use crate::solve::stress::{SliceOut, StressEngine, StressError, StressSpec, VolumeOut};
 
 /// Engine, its single-precision inputs and the last slice.
-pub struct StressStage {
+pub(super) struct StressStage {
     engine: StressEngine,
     pressure: Vec<f32>,
     traction: Vec<f32>,
     /// The slice of the last step.
-    pub slice: SliceOut,
+    pub(super) slice: SliceOut,
 }
 
 impl StressStage {
@@ -18,7 +18,7 @@ impl StressStage {
     ///
     /// # Errors
     /// [`StressError`] names what the engine refuses.
-    pub fn new(
+    pub(super) fn new(
         grid: &Grid,
         poisson: f64,
         depths: (usize, f64),
@@ -48,12 +48,12 @@ impl StressStage {
     }
 
     /// Depths, in a.
-    pub fn depths(&self) -> &[f64] {
+    pub(super) fn depths(&self) -> &[f64] {
         &self.engine.spec().depths
     }
 
     /// Takes the surface of a step and computes the slice.
-    pub fn slice(&mut self, p: &[f64], q: &[f64], friction: f64) {
+    pub(super) fn slice(&mut self, p: &[f64], q: &[f64], friction: f64) {
         narrow(p, &mut self.pressure);
         narrow(q, &mut self.traction);
         let traction = (friction != 0.0).then_some(&self.traction[..]);
@@ -62,7 +62,7 @@ impl StressStage {
     }
 
     /// ln ∫ s^m dV of the surface loaded last, without and with traction.
-    pub fn volume(&mut self, exponent: f64) -> VolumeOut {
+    pub(super) fn volume(&mut self, exponent: f64) -> VolumeOut {
         self.engine.volume(exponent)
     }
 }

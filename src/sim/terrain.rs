@@ -29,15 +29,15 @@ struct Waves {
 
 /// Both surfaces.
 #[derive(Debug, Clone)]
-pub struct Terrain {
+pub(super) struct Terrain {
     waves: [Option<Waves>; 2],
     /// Heights of both bodies, film units, shape ny × nx.
-    pub heights: [Vec<f64>; 2],
+    pub(super) heights: [Vec<f64>; 2],
 }
 
 impl Terrain {
     /// The surfaces of a scene on `grid` (lengths over `a_m`).
-    pub fn new(grid: &Grid, surfaces: [&Surface; 2], a_m: f64) -> Self {
+    pub(super) fn new(grid: &Grid, surfaces: [&Surface; 2], a_m: f64) -> Self {
         let waves = surfaces.map(|surface| Waves::new(grid, surface, a_m));
         let heights = [0, 1].map(|body| {
             let n = if waves[body as usize].is_some() {
@@ -51,19 +51,19 @@ impl Terrain {
     }
 
     /// Whether body `body` (0 or 1) has waves.
-    pub fn is_rough(&self, body: usize) -> bool {
+    pub(super) fn is_rough(&self, body: usize) -> bool {
         self.waves[body].is_some()
     }
 
     /// Moves body `body` to `travelled` (in a) with amplitude `amplitude` (film units).
-    pub fn place(&mut self, grid: &Grid, body: usize, travelled: f64, amplitude: f64) {
+    pub(super) fn place(&mut self, grid: &Grid, body: usize, travelled: f64, amplitude: f64) {
         if let Some(waves) = &mut self.waves[body] {
             waves.heights(grid, travelled, amplitude, &mut self.heights[body]);
         }
     }
 
     /// `gap = macroscopic − z1 − z2`.
-    pub fn gap_into(&self, macroscopic: &[f64], gap: &mut [f64]) {
+    pub(super) fn gap_into(&self, macroscopic: &[f64], gap: &mut [f64]) {
         gap.copy_from_slice(macroscopic);
         for heights in &self.heights {
             for (g, &z) in gap.iter_mut().zip(heights) {

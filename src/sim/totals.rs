@@ -6,14 +6,14 @@ use super::{LifeEstimate, Metrics, Simulation, Stats, Summary};
 
 /// What the summary averages, one entry a step of the last passage.
 #[derive(Debug, Clone, Default)]
-pub struct Totals {
+pub(super) struct Totals {
     recent: VecDeque<[f64; 8]>,
     not_converged: u64,
 }
 
 impl Totals {
     /// Takes a step; keeps the last `most`.
-    pub fn push(&mut self, m: &Metrics, most: u64) {
+    pub(super) fn push(&mut self, m: &Metrics, most: u64) {
         if self.recent.capacity() == 0 {
             self.recent.reserve_exact(most.max(1) as usize + 1);
         }
@@ -43,7 +43,7 @@ impl Totals {
 }
 
 /// The summary of a simulation.
-pub fn summary(
+pub(super) fn summary(
     sim: &Simulation,
     totals: &Totals,
     life: Option<LifeEstimate>,

@@ -5,8 +5,10 @@
 
 use super::film::macroscopic_gap;
 use super::history::History;
-use super::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance};
+use super::newton::{Iterate, Newton, NewtonReport, Problem, Shear, Tolerance};
 use super::reynolds::Medium;
+use super::tangential::Tangential;
+use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 
 /// What a restart needs.
@@ -46,7 +48,7 @@ pub struct March {
     c_star: Vec<f64>,
     s: Vec<f64>,
     mass: Vec<f64>,
-    flowing: bool,
+    flow: Flow,
 }
 
 /// Constants of a contact.
@@ -58,6 +60,21 @@ pub struct Shape {
     pub curvature_y: f64,
     /// Ellipse half-width along y over that along x.
     pub b_over_a: f64,
+    /// κ_s of the deflection by traction; 0: the bodies are alike.
+    pub kappa_s: f64,
+}
+
+/// What a step is solved under.
+#[derive(Debug, Clone, Copy)]
+pub struct Conditions<'a> {
+    /// Fluid.
+    pub medium: &'a Medium,
+    /// Traction law (bodies of different materials only).
+    pub law: Option<&'a TractionLaw>,
+    /// ∬P.
+    pub load: f64,
+    /// Tolerances.
+    pub tolerance: Tolerance,
 }
 
 impl March {
@@ -121,7 +138,11 @@ impl March {
 
     fn empty(grid: Grid, shape: &Shape, nodes: f64, flow: Flow) -> Self {
         let n = grid.len();
-        let newton = Newton::new(&grid, shape.kappa, 2.0 / 3.0 * nodes * grid.dx);
+        let mut newton = Newton::new(&grid, shape.kappa, 2.0 / 3.0 * nodes * grid.dx);
+        if shape.kappa_s != 0.0 {
+            let tangential = Tangential::new(&grid, shape.kappa_s);
+            newton.shear = Some(Shear::new(&grid, tangential));
+        }
         let mut macroscopic = vec![0.0; n];
         macroscopic_gap(&grid, shape.curvature_y, &mut macroscopic);
         let zero = vec![0.0; n];
@@ -138,22 +159,15 @@ impl March {
             c_star: zero.clone(),
             s: zero.clone(),
             mass: zero,
-            flowing: flow == Flow::Film,
+            flow,
             grid,
         }
     }
 
     /// Tries a step of `nodes` nodes against `gap`; nothing is committed.
-    pub fn attempt(
-        &mut self,
-        medium: &Medium,
-        load: f64,
-        nodes: f64,
-        tolerance: Tolerance,
-        guess: Guess,
-    ) -> NewtonReport {
+    pub fn attempt(&mut self, conditions: &Conditions, nodes: f64, guess: Guess) -> NewtonReport {
         let history = &self.state.history;
-        if self.flowing {
+        if self.flow != Flow::Dry {
             history.convect(&self.grid, nodes, &mut self.c_star, &mut self.s);
         }
         match guess {
@@ -168,12 +182,13 @@ impl March {
         }
         let problem = Problem {
             grid: &self.grid,
-            medium,
+            medium: conditions.medium,
+            law: conditions.law,
             gap: &self.gap,
             c_star: &self.c_star,
             s: &self.s,
-            load,
-            tolerance,
+            load: conditions.load,
+            tolerance: conditions.tolerance,
         };
         self.newton.solve(
             &problem,
@@ -188,7 +203,14 @@ impl March {
     /// Commits the step that was attempted last.
     pub fn commit(&mut self, nodes: f64) {
         for (n, mass) in self.mass.iter_mut().enumerate() {
-            *mass = (self.newton.reynolds.rho(n) * self.state.film[n]).max(0.0);
+            let full = self.newton.reynolds.rho(n) * self.state.film[n];
+            let ruptured = self.flow == Flow::MassConserving && self.state.pressure[n] == 0.0;
+            let missing = if ruptured {
+                self.newton.reynolds.residual[n].max(0.0)
+            } else {
+                0.0
+            };
+            *mass = (full - missing).max(0.0);
         }
         self.state
             .history
@@ -196,11 +218,14 @@ impl March {
     }
 }
 
-/// Whether the contact is lubricated.
+/// Whether the contact is lubricated, and how the film ruptures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
-    /// There is a film.
+    /// A film that counts as full where it has ruptured (Reynolds' condition).
     Film,
+    /// A film that keeps its mass where it has ruptured (Jakobsson-Floberg-Olsson): there the equation
+    /// leaves F ≥ 0 and `θ ρ̄H = ρ̄H − F` is the oil that is really there.
+    MassConserving,
     /// Dry: the film equation is H ≥ 0.
     Dry,
 }

@@ -16,6 +16,8 @@ use super::jacobian::Jacobian;
 use super::krylov::Krylov;
 use super::precondition::Preconditioner;
 use super::reynolds::{Medium, Reynolds};
+use super::tangential::Tangential;
+use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 
 /// Largest change of pressure (in p_h) of one iteration at one node.
@@ -76,6 +78,8 @@ pub struct Problem<'a> {
     pub grid: &'a Grid,
     /// Fluid.
     pub medium: &'a Medium,
+    /// Traction law, for the deflection by traction (bodies of different materials only).
+    pub law: Option<&'a TractionLaw>,
     /// Undeformed gap without H0: macroscopic minus roughness.
     pub gap: &'a [f64],
     /// C*.
@@ -106,6 +110,8 @@ pub struct Newton {
     pub reynolds: Reynolds,
     /// Preconditioner.
     pub precondition: Preconditioner,
+    /// Deflection by traction; `None`: the bodies are alike.
+    pub shear: Option<Shear>,
     jacobian: Jacobian,
     krylov: Krylov,
     active: Vec<bool>,
@@ -117,6 +123,37 @@ pub struct Newton {
     fixed_deflection: Vec<f32>,
     rhs: Vec<f32>,
     scratch: Vec<f32>,
+}
+
+/// Deflection by traction and its fields. The traction follows the iterate; its derivative is left out
+/// of the linearisation, because u^s is at most βμ, some per cent, of u^p.
+pub struct Shear {
+    tangential: Tangential,
+    traction: Vec<f64>,
+    deflection: Vec<f64>,
+}
+
+impl Shear {
+    /// Buffers for `grid`.
+    pub fn new(grid: &Grid, tangential: Tangential) -> Self {
+        Self {
+            tangential,
+            traction: vec![0.0; grid.len()],
+            deflection: vec![0.0; grid.len()],
+        }
+    }
+
+    /// Adds u^s to the film, the traction taken at the film with the last u^s.
+    fn add_to(&mut self, law: &TractionLaw, p: &[f64], h: &mut [f64]) {
+        for (n, q) in self.traction.iter_mut().enumerate() {
+            *q = law.traction(p[n], h[n] + self.deflection[n]);
+        }
+        self.tangential
+            .deflect(&self.traction, &mut self.deflection);
+        for (h, &u) in h.iter_mut().zip(&self.deflection) {
+            *h += u;
+        }
+    }
 }
 
 struct Evaluation {
@@ -137,6 +174,7 @@ impl Newton {
             elastic,
             reynolds: Reynolds::new(grid),
             precondition,
+            shear: None,
             jacobian: Jacobian::new(grid),
             krylov: Krylov::new(grid),
             active: vec![false; n],
@@ -203,6 +241,9 @@ impl Newton {
         self.elastic.deflect(iterate.p, &mut self.deflection);
         for ((h, &g), &u) in iterate.h.iter_mut().zip(problem.gap).zip(&self.deflection) {
             *h = *iterate.h0 + g + u;
+        }
+        if let (Some(shear), Some(law)) = (&mut self.shear, problem.law) {
+            shear.add_to(law, iterate.p, iterate.h);
         }
         self.reynolds
             .properties(grid, problem.medium, iterate.p, iterate.h);

@@ -7,7 +7,7 @@
 //! For a mode −ky, `ny` changes sign: d1, d2, σxz keep their factors, those of σxy and σyz turn.
 
 use super::fft::Lanes;
-use super::lanes::{C, V};
+use super::lanes::{LANES, V};
 use super::layer::{Layer, LowRow, Waves};
 use super::load::{Half, Spectrum};
 use super::window::LOW;
@@ -21,106 +21,180 @@ pub(super) enum Loads {
     Both,
 }
 
-/// d1, d2, xy, xz, yz.
-type Five = [C; 5];
+/// One lane's complex number.
+type Z = (f32, f32);
 
-/// Factors of a mode.
-#[derive(Clone, Copy)]
-struct Mode {
-    e: V,
-    kz: V,
-    nx: V,
-    ny: V,
-}
+/// d1, d2, xy, xz, yz of one lane.
+type Five = [Z; 5];
 
-/// Poisson's ratio as lanes.
+/// 2ν and 1 − 2ν.
 #[derive(Clone, Copy)]
 struct Elastic {
-    two_nu: V,
-    one_less_two_nu: V,
+    two_nu: f32,
+    one_less_two_nu: f32,
+}
+
+/// One lane's e^{−kz}, kz and direction.
+#[derive(Clone, Copy)]
+struct Mode {
+    e: f32,
+    kz: f32,
+    nx: f32,
+    ny: f32,
 }
 
 #[inline(always)]
-fn normal(m: Mode, s: Elastic, p: C) -> Five {
-    let (nx2, ny2) = (m.nx * m.nx, m.ny * m.ny);
-    let a = (s.one_less_two_nu - m.kz) * m.e;
-    let e_kz = m.e * m.kz;
+fn normal(m: Mode, s: Elastic, (re, im): Z) -> Five {
+    let Mode { e, kz, nx, ny } = m;
+    let a = (s.one_less_two_nu - kz) * e;
+    let e_kz = e * kz;
+    let f1 = (ny * ny - nx * nx) * a;
+    let f2 = s.one_less_two_nu * e + e_kz - ny * ny * a;
+    let (fxy, fxz, fyz) = (-nx * ny * a, nx * e_kz, ny * e_kz);
     [
-        p.scale((ny2 - nx2) * a),
-        p.scale(ny2.fnma(a, s.one_less_two_nu.fma(m.e, e_kz))),
-        p.scale(-(m.nx * m.ny * a)),
-        p.scale_i(m.nx * e_kz),
-        p.scale_i(m.ny * e_kz),
+        (f1 * re, f1 * im),
+        (f2 * re, f2 * im),
+        (fxy * re, fxy * im),
+        (-fxz * im, fxz * re),
+        (-fyz * im, fyz * re),
     ]
 }
 
 #[inline(always)]
-fn both(m: Mode, s: Elastic, p: C, x: C) -> Five {
-    let (nx2, ny2) = (m.nx * m.nx, m.ny * m.ny);
-    let q = x.scale_i(m.nx);
-    let d = p.minus(q);
-    let a = d.fma(-m.kz, q.fma(s.two_nu, p.scale(s.one_less_two_nu)));
-    let d1 = a.fma(ny2 - nx2, q.plus(q));
-    let d2 = a.fma(-ny2, d.fma(m.kz - s.two_nu, p));
-    let xy = a.fma(-(m.nx * m.ny), x.scale_i(m.ny));
-    let xz = d.scale_i(m.nx * m.kz).minus(x);
-    let yz = d.scale_i(m.ny * m.kz);
-    [d1, d2, xy, xz, yz].map_scale(m.e)
+fn both(m: Mode, s: Elastic, p: Z, x: Z) -> Five {
+    let Mode { e, kz, nx, ny } = m;
+    let q = (-nx * x.1, nx * x.0);
+    let d = (p.0 - q.0, p.1 - q.1);
+    let a0 = s.one_less_two_nu * p.0 + s.two_nu * q.0 - kz * d.0;
+    let a1 = s.one_less_two_nu * p.1 + s.two_nu * q.1 - kz * d.1;
+    let (f1, f2, fxy) = (ny * ny - nx * nx, kz - s.two_nu, nx * ny);
+    let (fxz, fyz) = (nx * kz, ny * kz);
+    [
+        (e * (2.0 * q.0 + f1 * a0), e * (2.0 * q.1 + f1 * a1)),
+        (
+            e * (p.0 + f2 * d.0 - ny * ny * a0),
+            e * (p.1 + f2 * d.1 - ny * ny * a1),
+        ),
+        (e * (-ny * x.1 - fxy * a0), e * (ny * x.0 - fxy * a1)),
+        (e * (-x.0 - fxz * d.1), e * (fxz * d.0 - x.1)),
+        (-e * fyz * d.1, e * fyz * d.0),
+    ]
 }
 
-trait MapScale {
-    fn map_scale(self, a: V) -> Self;
+/// A windowed mode; `ny` is the sign of ky. Without traction `x` is zero.
+#[inline(always)]
+fn low(row: &LowRow, l: usize, ny: f32, p: Z, x: Z) -> Five {
+    let t = |i: usize| row.p[i].0[l];
+    let u = |i: usize| row.q[i].0[l];
+    let (txy, tyz, uxy, uyz) = (ny * t(3), ny * t(5), ny * u(3), ny * u(5));
+    [
+        (t(0) * p.0 - u(0) * x.1, t(0) * p.1 + u(0) * x.0),
+        (t(1) * p.0 - u(1) * x.1, t(1) * p.1 + u(1) * x.0),
+        (txy * p.0 - uxy * x.1, txy * p.1 + uxy * x.0),
+        (u(4) * x.0 - t(4) * p.1, u(4) * x.1 + t(4) * p.0),
+        (uyz * x.0 - tyz * p.1, uyz * x.1 + tyz * p.0),
+    ]
 }
 
-impl MapScale for Five {
-    #[inline(always)]
-    fn map_scale(self, a: V) -> Self {
+/// What a mirror surface transforms: even and odd parts packed, at ky and at −ky.
+#[inline(always)]
+fn folded([d1, d2, xy, xz, yz]: Five) -> Five {
+    [
+        (d1.0 + xy.0, d1.1 + xy.1),
+        (d2.0 + yz.0, d2.1 + yz.1),
+        xz,
+        (d1.0 - xy.0, d1.1 - xy.1),
+        (d2.0 - yz.0, d2.1 - yz.1),
+    ]
+}
+
+/// What a general surface transforms.
+#[inline(always)]
+fn plain(five: Five) -> Five {
+    five
+}
+
+/// Sixteen lanes of a five. One loop with a long body of scalars and an array for every result: only
+/// then does the compiler make vectors of it (a two-dimensional array, or a chain of operations on whole
+/// vectors, ends as scalars).
+macro_rules! in_lanes {
+    ($l:ident => $shape:ident($five:expr)) => {{
+        let zero = [0.0_f32; LANES];
+        let (mut a_re, mut a_im, mut b_re, mut b_im, mut c_re) = (zero, zero, zero, zero, zero);
+        let (mut c_im, mut d_re, mut d_im, mut e_re, mut e_im) = (zero, zero, zero, zero, zero);
+        for $l in 0..LANES {
+            let [a, b, c, d, e] = $shape($five);
+            (a_re[$l], a_im[$l]) = a;
+            (b_re[$l], b_im[$l]) = b;
+            (c_re[$l], c_im[$l]) = c;
+            (d_re[$l], d_im[$l]) = d;
+            (e_re[$l], e_im[$l]) = e;
+        }
         [
-            self[0].scale(a),
-            self[1].scale(a),
-            self[2].scale(a),
-            self[3].scale(a),
-            self[4].scale(a),
+            (V(a_re), V(a_im)),
+            (V(b_re), V(b_im)),
+            (V(c_re), V(c_im)),
+            (V(d_re), V(d_im)),
+            (V(e_re), V(e_im)),
         ]
+    }};
+}
+
+/// Every lane of a row of modes.
+#[derive(Clone, Copy)]
+struct Row<'a> {
+    e: &'a V,
+    k: &'a V,
+    nx: &'a V,
+    ny: &'a V,
+    p: (&'a V, &'a V),
+    x: (&'a V, &'a V),
+    z: f32,
+    /// Sign of ky.
+    sign: f32,
+}
+
+impl Row<'_> {
+    #[inline(always)]
+    fn mode(&self, l: usize) -> Mode {
+        Mode {
+            e: self.e.0[l],
+            kz: self.k.0[l] * self.z,
+            nx: self.nx.0[l],
+            ny: self.sign * self.ny.0[l],
+        }
+    }
+
+    #[inline(always)]
+    fn p(&self, l: usize) -> Z {
+        (self.p.0.0[l], self.p.1.0[l])
+    }
+
+    #[inline(always)]
+    fn x(&self, l: usize) -> Z {
+        (self.x.0.0[l], self.x.1.0[l])
     }
 }
 
-/// The windowed modes; `ny` is the sign of ky.
 #[inline(always)]
-fn low(row: &LowRow, ny: V, p: C, x: C, loads: Loads) -> Five {
-    let [t1, t2, _, txy, txz, tyz] = row.p;
-    let five = [
-        p.scale(t1),
-        p.scale(t2),
-        p.scale(txy * ny),
-        p.scale_i(txz),
-        p.scale_i(tyz * ny),
-    ];
-    if loads == Loads::Normal {
-        return five;
+fn row_of<'a>(
+    layer: &'a Layer,
+    waves: &'a Waves,
+    half: &'a Half,
+    (block, y): (usize, usize),
+    sign: f32,
+) -> Row<'a> {
+    let i = block * waves.modes_y + y;
+    Row {
+        e: &layer.e[block * layer.rows + y],
+        k: &waves.k[i],
+        nx: &waves.nx[i],
+        ny: &waves.ny[i],
+        p: (&half.p.re[i], &half.p.im[i]),
+        x: (&half.q.re[i], &half.q.im[i]),
+        z: layer.z as f32,
+        sign,
     }
-    let [t1, t2, _, txy, txz, tyz] = row.q;
-    [
-        x.fma_i(t1, five[0]),
-        x.fma_i(t2, five[1]),
-        x.fma_i(txy * ny, five[2]),
-        x.fma(txz, five[3]),
-        x.fma(tyz * ny, five[4]),
-    ]
-}
-
-#[inline(always)]
-fn at(lanes: &Lanes, i: usize) -> C {
-    C {
-        re: lanes.re[i],
-        im: lanes.im[i],
-    }
-}
-
-#[inline(always)]
-fn put(lanes: &mut Lanes, i: usize, c: C) {
-    lanes.re[i] = c.re;
-    lanes.im[i] = c.im;
 }
 
 /// Fills the inputs of the transforms along y of one block.
@@ -137,42 +211,27 @@ pub(super) fn block_inputs(
     out: &mut [Lanes],
 ) {
     let elastic = Elastic {
-        two_nu: V::splat((2.0 * nu) as f32),
-        one_less_two_nu: V::splat((1.0 - 2.0 * nu) as f32),
+        two_nu: (2.0 * nu) as f32,
+        one_less_two_nu: (1.0 - 2.0 * nu) as f32,
     };
-    match (&spectrum.minus, out) {
-        (None, [a, b, c, ..]) => {
-            mirror_inputs(
-                layer,
-                block,
-                waves,
-                &spectrum.plus,
-                elastic,
-                loads,
-                [a, b, c],
-            );
+    match &spectrum.minus {
+        None => mirror_inputs(layer, block, waves, &spectrum.plus, elastic, loads, out),
+        Some(minus) => {
+            let plus = &spectrum.plus;
+            general_inputs(layer, block, waves, plus, 1.0, elastic, loads, out);
+            general_inputs(layer, block, waves, minus, -1.0, elastic, loads, out);
         }
-        (Some(minus), [a, b, c, d, e]) => {
-            let halves = [&spectrum.plus, minus];
-            general_inputs(layer, block, waves, halves, elastic, loads, [a, b, c, d, e]);
-        }
-        _ => debug_assert!(false, "five buffers for a general surface"),
+    }
+    let (n, rows) = (layer.n_y, layer.rows);
+    for buffer in out {
+        buffer.re[rows..=n - rows].fill(V::ZERO);
+        buffer.im[rows..=n - rows].fill(V::ZERO);
     }
 }
 
+/// Rows of this block that are tabulated.
 #[inline(always)]
-fn mode(layer: &Layer, block: usize, waves: &Waves, y: usize, z: V) -> Mode {
-    let w = block * waves.modes_y + y;
-    Mode {
-        e: layer.e[block * layer.rows + y],
-        kz: waves.k[w] * z,
-        nx: waves.nx[w],
-        ny: waves.ny[w],
-    }
-}
-
-#[inline(always)]
-fn first_analytic_row(block: usize) -> usize {
+fn tabulated_rows(block: usize) -> usize {
     if block == 0 { LOW } else { 0 }
 }
 
@@ -184,54 +243,25 @@ fn mirror_inputs(
     half: &Half,
     elastic: Elastic,
     loads: Loads,
-    out: [&mut Lanes; 3],
+    out: &mut [Lanes],
 ) {
-    let [a, b, c] = out;
-    let (n, rows, z) = (layer.n_y, layer.rows, V::splat(layer.z as f32));
-    let start = block * waves.modes_y;
-    let first = first_analytic_row(block);
-    for y in 0..first {
-        let (p, x) = (at(&half.p, start + y), at(&half.q, start + y));
-        store_mirror(low(&layer.low[y], V::splat(1.0), p, x, loads), y, n, a, b, c);
-    }
-    match loads {
-        Loads::Normal => {
-            for y in first..rows {
-                let m = mode(layer, block, waves, y, z);
-                store_mirror(normal(m, elastic, at(&half.p, start + y)), y, n, a, b, c);
-            }
-        }
-        Loads::Both => {
-            for y in first..rows {
-                let m = mode(layer, block, waves, y, z);
-                let (p, x) = (at(&half.p, start + y), at(&half.q, start + y));
-                store_mirror(both(m, elastic, p, x), y, n, a, b, c);
-            }
+    let n = layer.n_y;
+    for y in 0..layer.rows {
+        let r = row_of(layer, waves, half, (block, y), 1.0);
+        let t = &layer.low[y.min(LOW - 1)];
+        let five = match (loads, y < tabulated_rows(block)) {
+            (Loads::Normal, false) => in_lanes!(l => folded(normal(r.mode(l), elastic, r.p(l)))),
+            (Loads::Both, false) => in_lanes!(l => folded(both(r.mode(l), elastic, r.p(l), r.x(l)))),
+            (Loads::Normal, true) => in_lanes!(l => folded(low(t, l, 1.0, r.p(l), (0.0, 0.0)))),
+            (Loads::Both, true) => in_lanes!(l => folded(low(t, l, 1.0, r.p(l), r.x(l)))),
+        };
+        let minus = (n - y) % n;
+        for (buffer, (plus, at_minus)) in out.iter_mut().zip([(0, 3), (1, 4), (2, 2)]) {
+            (buffer.re[minus], buffer.im[minus]) = five[at_minus];
+            (buffer.re[y], buffer.im[y]) = five[plus];
         }
     }
-    for buffer in [a, b, c] {
-        clear(buffer, rows, n);
-    }
 }
-}
-
-#[inline(always)]
-fn store_mirror(five: Five, y: usize, n: usize, a: &mut Lanes, b: &mut Lanes, c: &mut Lanes) {
-    let [d1, d2, xy, xz, yz] = five;
-    put(a, y, d1.plus(xy));
-    put(b, y, d2.plus(yz));
-    put(c, y, xz);
-    if y > 0 {
-        put(a, n - y, d1.minus(xy));
-        put(b, n - y, d2.minus(yz));
-        put(c, n - y, xz);
-    }
-}
-
-#[inline(always)]
-fn clear(buffer: &mut Lanes, rows: usize, n: usize) {
-    buffer.re[rows..=n - rows].fill(V::ZERO);
-    buffer.im[rows..=n - rows].fill(V::ZERO);
 }
 
 dispatched! {
@@ -239,39 +269,26 @@ fn general_inputs(
     layer: &Layer,
     block: usize,
     waves: &Waves,
-    halves: [&Half; 2],
+    half: &Half,
+    sign: f32,
     elastic: Elastic,
     loads: Loads,
-    out: [&mut Lanes; 5],
+    out: &mut [Lanes],
 ) {
-    let (n, rows, z) = (layer.n_y, layer.rows, V::splat(layer.z as f32));
-    let start = block * waves.modes_y;
-    let first = first_analytic_row(block);
-    let [a, b, c, d, e] = out;
-    for (sign, half) in [1.0, -1.0].into_iter().zip(halves) {
-        let sign = V::splat(sign);
-        for y in 0..rows {
-            let (p, x) = (at(&half.p, start + y), at(&half.q, start + y));
-            let five = if y < first {
-                low(&layer.low[y], sign, p, x, loads)
-            } else {
-                let mut m = mode(layer, block, waves, y, z);
-                m.ny = m.ny * sign;
-                match loads {
-                    Loads::Normal => normal(m, elastic, p),
-                    Loads::Both => both(m, elastic, p, x),
-                }
-            };
-            let i = if sign.0[0] > 0.0 || y == 0 { y } else { n - y };
-            put(a, i, five[0]);
-            put(b, i, five[1]);
-            put(c, i, five[2]);
-            put(d, i, five[3]);
-            put(e, i, five[4]);
+    let n = layer.n_y;
+    for y in 0..layer.rows {
+        let r = row_of(layer, waves, half, (block, y), sign);
+        let t = &layer.low[y.min(LOW - 1)];
+        let five = match (loads, y < tabulated_rows(block)) {
+            (Loads::Normal, false) => in_lanes!(l => plain(normal(r.mode(l), elastic, r.p(l)))),
+            (Loads::Both, false) => in_lanes!(l => plain(both(r.mode(l), elastic, r.p(l), r.x(l)))),
+            (Loads::Normal, true) => in_lanes!(l => plain(low(t, l, sign, r.p(l), (0.0, 0.0)))),
+            (Loads::Both, true) => in_lanes!(l => plain(low(t, l, sign, r.p(l), r.x(l)))),
+        };
+        let i = if sign > 0.0 { y } else { (n - y) % n };
+        for (buffer, five) in out.iter_mut().zip(five) {
+            (buffer.re[i], buffer.im[i]) = five;
         }
-    }
-    for buffer in [a, b, c, d, e] {
-        clear(buffer, rows, n);
     }
 }
 }

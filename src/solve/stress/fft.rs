@@ -9,7 +9,7 @@
 
 use std::f64::consts::TAU;
 
-use super::lanes::{C, V};
+use super::lanes::{LANES, TILE, V};
 
 /// One buffer of lane transforms: real and imaginary parts apart.
 #[derive(Debug, Clone)]
@@ -126,9 +126,9 @@ fn run(fft: &LaneFft, re: &mut [V], im: &mut [V], other_re: &mut [V], other_im: 
     let (mut b_re, mut b_im) = (&mut other_re[..n], &mut other_im[..n]);
     for pass in &fft.passes {
         match pass.radix {
-            4 => pass_4(pass, (a_re, a_im), (b_re, b_im)),
-            3 => pass_3(pass, (a_re, a_im), (b_re, b_im)),
-            _ => pass_2(pass, (a_re, a_im), (b_re, b_im)),
+            4 => pass_4(pass, [a_re, a_im], b_re, b_im),
+            3 => pass_3(pass, [a_re, a_im], b_re, b_im),
+            _ => pass_2(pass, [a_re, a_im], b_re, b_im),
         }
         std::mem::swap(&mut a_re, &mut b_re);
         std::mem::swap(&mut a_im, &mut b_im);
@@ -137,99 +137,124 @@ fn run(fft: &LaneFft, re: &mut [V], im: &mut [V], other_re: &mut [V], other_im: 
 }
 
 #[inline(always)]
-fn get(from: (&[V], &[V]), i: usize) -> C {
-    C {
-        re: from.0[i],
-        im: from.1[i],
-    }
-}
-
-#[inline(always)]
-fn put(to: &mut (&mut [V], &mut [V]), i: usize, c: C) {
-    to.0[i] = c.re;
-    to.1[i] = c.im;
-}
-
-#[inline(always)]
-fn turned(c: C, twiddle: (f32, f32)) -> C {
-    let (cos, sin) = (V::splat(twiddle.0), V::splat(twiddle.1));
-    C {
-        re: c.im.fnma(sin, c.re * cos),
-        im: c.im.fma(cos, c.re * sin),
-    }
-}
-
-#[inline(always)]
-fn pass_4(pass: &Pass, from: (&mut [V], &mut [V]), mut to: (&mut [V], &mut [V])) {
-    let from = (&*from.0, &*from.1);
+fn pass_4(pass: &Pass, from: [&[V]; 2], to_re: &mut [V], to_im: &mut [V]) {
     let (m, s) = (pass.m, pass.s);
+    let quarter = s * m;
     for (p, w) in pass.twiddles.chunks_exact(3).enumerate() {
         for q in 0..s {
             let i = q + s * p;
-            let (a, b) = (get(from, i), get(from, i + s * m));
-            let (c, d) = (get(from, i + 2 * s * m), get(from, i + 3 * s * m));
-            let (ac, bd) = (a.plus(c), b.plus(d));
-            let (a_c, b_d) = (a.minus(c), b.minus(d));
-            // i (b − d)
-            let i_bd = C {
-                re: -b_d.im,
-                im: b_d.re,
-            };
+            let (re, im) = butterfly_4(four(from[0], i, quarter), four(from[1], i, quarter), w);
             let o = q + 4 * s * p;
-            put(&mut to, o, ac.plus(bd));
-            put(&mut to, o + s, turned(a_c.plus(i_bd), w[0]));
-            put(&mut to, o + 2 * s, turned(ac.minus(bd), w[1]));
-            put(&mut to, o + 3 * s, turned(a_c.minus(i_bd), w[2]));
+            for r in 0..4 {
+                to_re[o + r * s] = re[r];
+                to_im[o + r * s] = im[r];
+            }
         }
     }
 }
 
 #[inline(always)]
-fn pass_3(pass: &Pass, from: (&mut [V], &mut [V]), mut to: (&mut [V], &mut [V])) {
-    let from = (&*from.0, &*from.1);
+fn four(x: &[V], i: usize, step: usize) -> [V; 4] {
+    [x[i], x[i + step], x[i + 2 * step], x[i + 3 * step]]
+}
+
+#[inline(always)]
+fn three(x: &[V], i: usize, step: usize) -> [V; 3] {
+    [x[i], x[i + step], x[i + 2 * step]]
+}
+
+/// One radix-4 step. The loop over lanes is the outer one and its body is long, because only then does
+/// the compiler turn it into vectors: chains of whole-vector operations are unrolled into scalars first.
+#[inline(always)]
+fn butterfly_4(re: [V; 4], im: [V; 4], w: &[(f32, f32)]) -> ([V; 4], [V; 4]) {
+    let [V(ar), V(br), V(cr), V(dr)] = re;
+    let [V(ai), V(bi), V(ci), V(di)] = im;
+    let [(c1, s1), (c2, s2), (c3, s3)] = [w[0], w[1], w[2]];
+    let (mut r0, mut r1, mut r2, mut r3) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let (mut i0, mut i1, mut i2, mut i3) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for l in 0..LANES {
+        let (ac_r, ac_i) = (ar[l] + cr[l], ai[l] + ci[l]);
+        let (bd_r, bd_i) = (br[l] + dr[l], bi[l] + di[l]);
+        let (a_c_r, a_c_i) = (ar[l] - cr[l], ai[l] - ci[l]);
+        let (b_d_r, b_d_i) = (br[l] - dr[l], bi[l] - di[l]);
+        r0[l] = ac_r + bd_r;
+        i0[l] = ac_i + bd_i;
+        let (xr, xi) = (a_c_r - b_d_i, a_c_i + b_d_r);
+        r1[l] = xr.mul_add(c1, -(xi * s1));
+        i1[l] = xr.mul_add(s1, xi * c1);
+        let (xr, xi) = (ac_r - bd_r, ac_i - bd_i);
+        r2[l] = xr.mul_add(c2, -(xi * s2));
+        i2[l] = xr.mul_add(s2, xi * c2);
+        let (xr, xi) = (a_c_r + b_d_i, a_c_i - b_d_r);
+        r3[l] = xr.mul_add(c3, -(xi * s3));
+        i3[l] = xr.mul_add(s3, xi * c3);
+    }
+    ([V(r0), V(r1), V(r2), V(r3)], [V(i0), V(i1), V(i2), V(i3)])
+}
+
+#[inline(always)]
+fn pass_3(pass: &Pass, from: [&[V]; 2], to_re: &mut [V], to_im: &mut [V]) {
     let (m, s) = (pass.m, pass.s);
-    let (minus_half, sin_60) = (V::splat(-0.5), V::splat(0.75_f32.sqrt()));
+    let third = s * m;
     for (p, w) in pass.twiddles.chunks_exact(2).enumerate() {
         for q in 0..s {
             let i = q + s * p;
-            let a = get(from, i);
-            let (b, c) = (get(from, i + s * m), get(from, i + 2 * s * m));
-            let (sum, difference) = (b.plus(c), b.minus(c));
-            let centre = sum.fma(minus_half, a);
+            let (re, im) = butterfly_3(three(from[0], i, third), three(from[1], i, third), w);
             let o = q + 3 * s * p;
-            put(&mut to, o, a.plus(sum));
-            put(
-                &mut to,
-                o + s,
-                turned(difference.fma_i(sin_60, centre), w[0]),
-            );
-            put(
-                &mut to,
-                o + 2 * s,
-                turned(difference.fma_i(-sin_60, centre), w[1]),
-            );
+            for r in 0..3 {
+                to_re[o + r * s] = re[r];
+                to_im[o + r * s] = im[r];
+            }
         }
     }
 }
 
 #[inline(always)]
-fn pass_2(pass: &Pass, from: (&mut [V], &mut [V]), mut to: (&mut [V], &mut [V])) {
-    let from = (&*from.0, &*from.1);
+fn butterfly_3(re: [V; 3], im: [V; 3], w: &[(f32, f32)]) -> ([V; 3], [V; 3]) {
+    const SIN_60: f32 = 0.866_025_4;
+    let [V(ar), V(br), V(cr)] = re;
+    let [V(ai), V(bi), V(ci)] = im;
+    let [(c1, s1), (c2, s2)] = [w[0], w[1]];
+    let (mut r0, mut r1, mut r2) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let (mut i0, mut i1, mut i2) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for l in 0..LANES {
+        let (sum_r, sum_i) = (br[l] + cr[l], bi[l] + ci[l]);
+        let (turn_r, turn_i) = ((ci[l] - bi[l]) * SIN_60, (br[l] - cr[l]) * SIN_60);
+        let (mid_r, mid_i) = (sum_r.mul_add(-0.5, ar[l]), sum_i.mul_add(-0.5, ai[l]));
+        r0[l] = ar[l] + sum_r;
+        i0[l] = ai[l] + sum_i;
+        let (xr, xi) = (mid_r + turn_r, mid_i + turn_i);
+        r1[l] = xr.mul_add(c1, -(xi * s1));
+        i1[l] = xr.mul_add(s1, xi * c1);
+        let (xr, xi) = (mid_r - turn_r, mid_i - turn_i);
+        r2[l] = xr.mul_add(c2, -(xi * s2));
+        i2[l] = xr.mul_add(s2, xi * c2);
+    }
+    ([V(r0), V(r1), V(r2)], [V(i0), V(i1), V(i2)])
+}
+
+#[inline(always)]
+fn pass_2(pass: &Pass, from: [&[V]; 2], to_re: &mut [V], to_im: &mut [V]) {
+    // Always the last pass, whose twiddle is 1.
     let (m, s) = (pass.m, pass.s);
-    for (p, w) in pass.twiddles.iter().enumerate() {
+    for p in 0..m {
         for q in 0..s {
-            let i = q + s * p;
-            let (a, b) = (get(from, i), get(from, i + s * m));
-            let o = q + 2 * s * p;
-            put(&mut to, o, a.plus(b));
-            put(&mut to, o + s, turned(a.minus(b), *w));
+            let (i, o) = (q + s * p, q + 2 * s * p);
+            let (re, im) = (
+                [from[0][i], from[0][i + s * m]],
+                [from[1][i], from[1][i + s * m]],
+            );
+            to_re[o] = re[0] + re[1];
+            to_im[o] = im[0] + im[1];
+            to_re[o + s] = re[0] - re[1];
+            to_im[o + s] = im[0] - im[1];
         }
     }
 }
 
 dispatched! {
 /// Input `u + i v` of a transform of length `n` for two real fields u and v (`None`: 0), given by the
-/// first `width` modes that start at those places of `fields`.
+/// first `width` modes (a multiple of 16) that start at those places of `fields`.
 pub(super) fn pack_pair(
     n: usize,
     width: usize,
@@ -238,29 +263,51 @@ pub(super) fn pack_pair(
     out: &mut Lanes,
 ) {
     let modes = width.min(n / 2);
-    let line = |o: usize| (&fields.re[o..o + modes], &fields.im[o..o + modes]);
-    let (u_re, u_im) = line(u);
-    if let Some((v_re, v_im)) = v.map(line) {
-        for k in 0..modes {
-            out.re[k] = u_re[k] - v_im[k];
-            out.im[k] = u_im[k] + v_re[k];
-            out.re[(n - k) % n] = u_re[k] + v_im[k];
-            out.im[(n - k) % n] = v_re[k] - u_im[k];
+    for first in (0..modes).step_by(LANES) {
+        let [u_re, u_im] = [flat(&fields.re, u + first), flat(&fields.im, u + first)];
+        let [v_re, v_im] = match v {
+            Some(v) => [flat(&fields.re, v + first), flat(&fields.im, v + first)],
+            None => [[0.0; TILE]; 2],
+        };
+        let (mut re, mut im) = ([0.0; TILE], [0.0; TILE]);
+        let (mut mirror_re, mut mirror_im) = ([0.0; TILE], [0.0; TILE]);
+        for i in 0..TILE {
+            re[i] = u_re[i] - v_im[i];
+            im[i] = u_im[i] + v_re[i];
+            mirror_re[i] = u_re[i] + v_im[i];
+            mirror_im[i] = v_re[i] - u_im[i];
         }
-        // A real field has a real mean: what rounding left in its imaginary part goes.
-        (out.re[0], out.im[0]) = (u_re[0], v_re[0]);
-    } else {
-        for k in 0..modes {
-            out.re[k] = u_re[k];
-            out.im[k] = u_im[k];
-            out.re[(n - k) % n] = u_re[k];
-            out.im[(n - k) % n] = -u_im[k];
+        for l in 0..LANES.min(modes - first) {
+            let k = first + l;
+            out.re[k] = row(&re, l);
+            out.im[k] = row(&im, l);
+            out.re[(n - k) % n] = row(&mirror_re, l);
+            out.im[(n - k) % n] = row(&mirror_im, l);
         }
-        (out.re[0], out.im[0]) = (u_re[0], V::ZERO);
     }
+    // A real field has a real mean: what rounding left in its imaginary part goes.
+    out.re[0] = fields.re[u];
+    out.im[0] = v.map_or(V::ZERO, |v| fields.re[v]);
     out.re[modes..=n - modes].fill(V::ZERO);
     out.im[modes..=n - modes].fill(V::ZERO);
 }
+}
+
+/// Sixteen rows in a line.
+#[inline(always)]
+fn flat(x: &[V], o: usize) -> [f32; TILE] {
+    let mut out = [0.0; TILE];
+    for (row, v) in out.chunks_exact_mut(LANES).zip(&x[o..o + LANES]) {
+        row.copy_from_slice(&v.0);
+    }
+    out
+}
+
+#[inline(always)]
+fn row(x: &[f32; TILE], l: usize) -> V {
+    let mut v = V::ZERO;
+    v.0.copy_from_slice(&x[l * LANES..(l + 1) * LANES]);
+    v
 }
 
 #[cfg(test)]

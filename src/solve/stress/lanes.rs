@@ -9,6 +9,9 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 /// Number of lanes.
 pub(super) const LANES: usize = 16;
 
+/// Numbers of sixteen rows.
+pub(super) const TILE: usize = LANES * LANES;
+
 /// Sixteen numbers.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
@@ -49,24 +52,6 @@ impl V {
             out.0[l] = (-self.0[l]).mul_add(b.0[l], c.0[l]);
         }
         out
-    }
-
-    #[inline(always)]
-    pub(super) fn max(self, b: Self) -> Self {
-        let mut out = self;
-        for l in 0..LANES {
-            out.0[l] = if b.0[l] > self.0[l] {
-                b.0[l]
-            } else {
-                self.0[l]
-            };
-        }
-        out
-    }
-
-    /// Greatest lane.
-    pub(super) fn greatest(self) -> f32 {
-        self.0.into_iter().fold(f32::MIN, f32::max)
     }
 }
 
@@ -194,31 +179,38 @@ impl C {
 /// Rows become columns.
 #[inline(always)]
 pub(super) fn transpose(rows: &[V; LANES]) -> [V; LANES] {
-    // Four rounds of interleaving a row with the row half a block below: a perfect shuffle of the
-    // index bits (row, lane), after four of which row and lane have changed places.
-    let mut a = *rows;
-    for _ in 0..4 {
-        let mut b = [V::ZERO; LANES];
-        for r in 0..LANES / 2 {
-            let (low, high) = interleave(a[r], a[r + LANES / 2]);
-            b[2 * r] = low;
-            b[2 * r + 1] = high;
-        }
-        a = b;
+    let mut tile = [0.0; TILE];
+    for (r, row) in rows.iter().enumerate() {
+        tile[r * LANES..(r + 1) * LANES].copy_from_slice(&row.0);
     }
-    a
+    transpose_tile(&mut tile);
+    let mut out = [V::ZERO; LANES];
+    for (r, row) in out.iter_mut().enumerate() {
+        row.0.copy_from_slice(&tile[r * LANES..(r + 1) * LANES]);
+    }
+    out
+}
+
+/// Rows become columns, in place.
+#[inline(always)]
+pub(super) fn transpose_tile(a: &mut [f32; TILE]) {
+    // A perfect shuffle of the 256 numbers turns the bits of (row, lane) by one place; after four of
+    // them row and lane have changed places. Long plain loops become vector permutations; moves of
+    // single rows would become 256 scalar ones.
+    let mut b = [0.0; TILE];
+    shuffle(a, &mut b);
+    shuffle(&b, a);
+    shuffle(a, &mut b);
+    shuffle(&b, a);
 }
 
 #[inline(always)]
-fn interleave(a: V, b: V) -> (V, V) {
-    let (mut low, mut high) = (V::ZERO, V::ZERO);
-    for l in 0..LANES / 2 {
-        low.0[2 * l] = a.0[l];
-        low.0[2 * l + 1] = b.0[l];
-        high.0[2 * l] = a.0[l + LANES / 2];
-        high.0[2 * l + 1] = b.0[l + LANES / 2];
+fn shuffle(from: &[f32; TILE], to: &mut [f32; TILE]) {
+    let (low, high) = from.split_at(TILE / 2);
+    for i in 0..TILE / 2 {
+        to[2 * i] = low[i];
+        to[2 * i + 1] = high[i];
     }
-    (low, high)
 }
 
 #[cfg(test)]
@@ -228,15 +220,14 @@ mod tests {
     #[test]
     fn transpose_exchanges_row_and_lane() {
         let mut rows = [V::ZERO; LANES];
-        for r in 0..LANES {
-            for l in 0..LANES {
-                rows[r].0[l] = (100 * r + l) as f32;
+        for (r, row) in rows.iter_mut().enumerate() {
+            for (l, number) in row.0.iter_mut().enumerate() {
+                *number = (100 * r + l) as f32;
             }
         }
-        let turned = transpose(&rows);
-        for r in 0..LANES {
-            for l in 0..LANES {
-                assert_eq!(turned[l].0[r], rows[r].0[l]);
+        for (l, column) in transpose(&rows).iter().enumerate() {
+            for (r, number) in column.0.iter().enumerate() {
+                assert_eq!(*number, (100 * r + l) as f32);
             }
         }
     }

@@ -216,24 +216,22 @@ fn separate(
     let n = waves.n_x;
     let scale = V::splat(scale);
     for block in 0..waves.blocks {
-        let mut lines = [[V::ZERO; LANES]; 4];
-        for l in 0..LANES {
-            let kx = block * LANES + l;
-            if kx >= waves.modes_x {
-                break;
-            }
-            let minus = (n - kx) % n;
+        let [mut p_re, mut p_im] = [[V::ZERO; LANES]; 2];
+        let [mut q_re, mut q_im] = [[V::ZERO; LANES]; 2];
+        let first = block * LANES;
+        for kx in first..waves.modes_x.min(first + LANES) {
+            let (l, minus) = (kx - first, (n - kx) % n);
             let (re, im) = (z.re[kx], z.im[kx]);
             let (mate_re, mate_im) = (mate.re[minus], mate.im[minus]);
-            lines[0][l] = (re + mate_re) * scale;
-            lines[1][l] = (im - mate_im) * scale;
-            lines[2][l] = (im + mate_im) * scale;
-            lines[3][l] = (mate_re - re) * scale;
+            p_re[l] = (re + mate_re) * scale;
+            p_im[l] = (im - mate_im) * scale;
+            q_re[l] = (im + mate_im) * scale;
+            q_im[l] = (mate_re - re) * scale;
         }
         let from = block * waves.modes_y + ky_block * LANES;
         let count = (waves.modes_y - ky_block * LANES).min(LANES);
         let targets = [&mut half.p.re, &mut half.p.im, &mut half.q.re, &mut half.q.im];
-        for (line, to) in lines.iter().zip(targets) {
+        for (line, to) in [&p_re, &p_im, &q_re, &q_im].into_iter().zip(targets) {
             to[from..from + count].copy_from_slice(&transpose(line)[..count]);
         }
     }

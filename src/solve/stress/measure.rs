@@ -10,52 +10,77 @@
 use super::lanes::{LANES, V};
 use crate::scene::StressMeasure;
 
-/// The square of the measure.
+/// The square of the measure of d1, d2, xy, xz, yz in every lane, times `factor`, and the greatest so
+/// far of each lane.
 #[inline(always)]
-pub(super) fn squared(measure: StressMeasure, d1: V, d2: V, xy: V, xz: V, yz: V) -> V {
-    let d3 = d1 + d2;
-    let differences = d3.fma(d3, d2.fma(d2, d1 * d1));
-    let shears = yz.fma(yz, xz.fma(xz, xy * xy));
-    let mises = shears.fma(V::splat(3.0), differences * V::splat(0.5));
+pub(super) fn squared(
+    measure: StressMeasure,
+    five: [V; 5],
+    factor: &[f32; LANES],
+    out: &mut V,
+    top: &mut [f32; LANES],
+) {
+    let [d1, d2, xy, xz, yz] = five;
     match measure {
-        StressMeasure::VonMises => mises,
-        StressMeasure::Octahedral => mises * V::splat(2.0 / 9.0),
-        StressMeasure::MaxShear => shear_squared(mises * V::splat(1.0 / 3.0), d1, d2, [xy, xz, yz]),
+        StressMeasure::VonMises => {
+            for l in 0..LANES {
+                let s = factor[l] * mises(d1.0[l], d2.0[l], xy.0[l], xz.0[l], yz.0[l]);
+                top[l] = if s > top[l] { s } else { top[l] };
+                out.0[l] = s;
+            }
+        }
+        StressMeasure::Octahedral => {
+            for l in 0..LANES {
+                let s = mises(d1.0[l], d2.0[l], xy.0[l], xz.0[l], yz.0[l]);
+                let s = 2.0 / 9.0 * factor[l] * s;
+                top[l] = if s > top[l] { s } else { top[l] };
+                out.0[l] = s;
+            }
+        }
+        StressMeasure::MaxShear => {
+            for l in 0..LANES {
+                let s = factor[l] * shear(d1.0[l], d2.0[l], xy.0[l], xz.0[l], yz.0[l]);
+                top[l] = if s > top[l] { s } else { top[l] };
+                out.0[l] = s;
+            }
+        }
     }
 }
 
 #[inline(always)]
-fn shear_squared(j2: V, d1: V, d2: V, [xy, xz, yz]: [V; 3]) -> V {
-    let third = V::splat(1.0 / 3.0);
-    let x = (d1 + d1 + d2) * third;
-    let y = (d2 - d1) * third;
-    let z = -(d1 + d2 + d2) * third;
-    let two = V::splat(2.0);
-    let j3 = (x * y * z) + (two * xy * xz * yz) - (x * yz * yz) - (y * xz * xz) - (z * xy * xy);
-    let mut out = V::ZERO;
-    for l in 0..LANES {
-        let j2 = j2.0[l];
-        let scale = j2 * j2.sqrt();
-        // Where there is no shear the ratio is 0/0; J2 is 0 there and so is the result.
-        let c = 2.598_076_2 * j3.0[l] / if scale > 0.0 { scale } else { 1.0 };
-        let c = c.abs().min(1.0);
-        let cos = cosine((std::f32::consts::FRAC_PI_2 - acos(c)) / 3.0);
-        out.0[l] = j2 * cos * cos;
-    }
-    out
+fn mises(d1: f32, d2: f32, xy: f32, xz: f32, yz: f32) -> f32 {
+    let d3 = d1 + d2;
+    let differences = d3.mul_add(d3, d2.mul_add(d2, d1 * d1));
+    let shears = yz.mul_add(yz, xz.mul_add(xz, xy * xy));
+    shears.mul_add(3.0, 0.5 * differences)
+}
+
+/// In double precision: where two principal stresses meet (on the axis of a Hertz contact) the arc
+/// cosine of a single-precision ratio would be off by 3e-4.
+#[inline(always)]
+fn shear(d1: f32, d2: f32, xy: f32, xz: f32, yz: f32) -> f32 {
+    let [d1, d2, xy, xz, yz] = [d1, d2, xy, xz, yz].map(f64::from);
+    let (x, y, z) = ((d1 + d1 + d2) / 3.0, (d2 - d1) / 3.0, -(d1 + d2 + d2) / 3.0);
+    let j2 = 0.5 * (x * x + y * y + z * z) + xy * xy + xz * xz + yz * yz;
+    let j3 = x * y * z + 2.0 * xy * xz * yz - x * yz * yz - y * xz * xz - z * xy * xy;
+    let scale = j2 * j2.sqrt();
+    // Where there is no shear the ratio is 0/0; J2 is 0 there and so is the result.
+    let c = (2.598_076_211_353_316 * j3 / if scale > 0.0 { scale } else { 1.0 }).abs();
+    let cos = cosine((std::f64::consts::FRAC_PI_2 - acos(if c < 1.0 { c } else { 1.0 })) / 3.0);
+    (j2 * cos * cos) as f32
 }
 
 /// acos on [0, 1], 2e-8.
 #[inline(always)]
-fn acos(x: f32) -> f32 {
-    const A: [f32; 8] = [
-        1.570_796_3,
-        -0.214_598_8,
-        0.088_978_99,
-        -0.050_174_305,
-        0.030_891_88,
-        -0.017_088_126,
-        0.006_670_09,
+fn acos(x: f64) -> f64 {
+    const A: [f64; 8] = [
+        1.570_796_305_0,
+        -0.214_598_801_6,
+        0.088_978_987_4,
+        -0.050_174_304_6,
+        0.030_891_881_0,
+        -0.017_088_125_6,
+        0.006_670_090_1,
         -0.001_262_491_1,
     ];
     let mut sum = A[7];
@@ -65,9 +90,9 @@ fn acos(x: f32) -> f32 {
     (1.0 - x).sqrt() * sum
 }
 
-/// Cosine on [0, π/6].
+/// Cosine on [0, π/6], 1e-9.
 #[inline(always)]
-fn cosine(x: f32) -> f32 {
+fn cosine(x: f64) -> f64 {
     let x2 = x * x;
     1.0 - x2 * (0.5 - x2 * (1.0 / 24.0 - x2 * (1.0 / 720.0 - x2 / 40320.0)))
 }
@@ -75,22 +100,20 @@ fn cosine(x: f32) -> f32 {
 /// `Σ (v²/top²)^{h}`, `top² > 0`, over the lanes' whole length, into one lane sum.
 #[inline(always)]
 pub(super) fn power_sum(squares: &[V], top: f32, h: f32) -> V {
-    let inverse = V::splat(1.0 / top);
+    let inverse = 1.0 / top;
     let mut sum = V::ZERO;
     for v in squares {
-        sum += power(*v * inverse, h);
+        for l in 0..LANES {
+            sum.0[l] += power(v.0[l] * inverse, h);
+        }
     }
     sum
 }
 
 /// `x^h` for 0 ≤ x ≤ 1 and h > 0; below 2^−126 it is 2^−126 at most.
 #[inline(always)]
-fn power(x: V, h: f32) -> V {
-    let mut out = V::ZERO;
-    for l in 0..LANES {
-        out.0[l] = exp2(h * log2(x.0[l]));
-    }
-    out
+fn power(x: f32, h: f32) -> f32 {
+    exp2(h * log2(x))
 }
 
 /// Base-2 logarithm, 1e-7 absolute near 1; −127 at 0.
@@ -109,17 +132,18 @@ fn log2(x: f32) -> f32 {
 /// 2^t for t ≤ 0.
 #[inline(always)]
 fn exp2(t: f32) -> f32 {
-    // Adding 1.5 · 2^23 rounds to the nearest integer.
+    // Adding 1.5 · 2^23 rounds to the nearest integer and leaves it in the lowest bits (a cast of a float
+    // to an integer saturates, which does not vectorise).
     const ROUND: f32 = 12_582_912.0;
     let t = if t < -126.0 { -126.0 } else { t };
-    let n = (t + ROUND) - ROUND;
-    let f = (t - n) * std::f32::consts::LN_2;
+    let rounded = t + ROUND;
+    let f = (t - (rounded - ROUND)) * std::f32::consts::LN_2;
     let series = 1.0
         + f * (1.0
             + f * (0.5
                 + f * (1.0 / 6.0
                     + f * (1.0 / 24.0 + f * (1.0 / 120.0 + f * (1.0 / 720.0 + f / 5040.0))))));
-    series * f32::from_bits(((n as i32 + 127) << 23) as u32)
+    series * f32::from_bits(rounded.to_bits().wrapping_add(127) << 23)
 }
 
 #[cfg(test)]
@@ -134,7 +158,7 @@ mod tests {
             let x = i as f32 / 2000.0;
             for h in [1.0_f32, 5.17, 6.75] {
                 let exact = f64::from(x).powf(f64::from(h));
-                let got = f64::from(power(V::splat(x), h).0[0]);
+                let got = f64::from(power(x, h));
                 if exact > 1e-30 {
                     worst = worst.max((got / exact - 1.0).abs());
                 }
@@ -142,7 +166,7 @@ mod tests {
         }
         println!("power: relative error {worst:.1e}");
         assert!(worst < 1e-5);
-        assert!(power(V::ZERO, 5.0).0[0] < 1e-37);
+        assert!(power(0.0, 5.0) < 1e-37);
     }
 
     #[test]
@@ -168,7 +192,10 @@ mod tests {
                 (StressMeasure::Octahedral, s.octahedral_shear()),
                 (StressMeasure::MaxShear, s.max_shear()),
             ] {
-                let square = squared(measure, v(xx - yy), v(yy - zz), v(xy), v(xz), v(yz));
+                let five = [v(xx - yy), v(yy - zz), v(xy), v(xz), v(yz)];
+                let (mut square, mut top) = (V::ZERO, [0.0; LANES]);
+                squared(measure, five, &[1.0; LANES], &mut square, &mut top);
+                assert_eq!(square.0, top);
                 let got = f64::from(square.0[5]).sqrt();
                 assert!(
                     (got - exact).abs() < 3e-7 * (1.0 + exact),

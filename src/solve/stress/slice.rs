@@ -251,45 +251,46 @@ fn negative(c: C) -> C {
 /// Σ E c of the seven even columns: p̂, kD, D, A0/k², D/k, q̂, q̂/k.
 #[inline(always)]
 fn even_sums(e: &[V], columns: &[C], sheared: Sheared) -> [C; 7] {
-    // Named accumulators stay in registers; an array of them indexed in the loop does not.
-    let (mut s0, mut s1, mut s2, mut s3, mut s4) = (C::ZERO, C::ZERO, C::ZERO, C::ZERO, C::ZERO);
-    let (mut s5, mut s6) = (C::ZERO, C::ZERO);
+    let [p, kd, a0, d_by_k] = four_sums(e, columns, [0, 1, 3, 4]);
     match sheared {
+        Sheared::No => [p, kd, p, a0, d_by_k, C::ZERO, C::ZERO],
         Sheared::Yes => {
-            for (e, c) in e.iter().zip(columns.chunks_exact(COLUMNS)) {
-                s0 = c[0].fma(*e, s0);
-                s1 = c[1].fma(*e, s1);
-                s2 = c[2].fma(*e, s2);
-                s3 = c[3].fma(*e, s3);
-                s4 = c[4].fma(*e, s4);
-                s5 = c[5].fma(*e, s5);
-                s6 = c[6].fma(*e, s6);
-            }
-        }
-        Sheared::No => {
-            for (e, c) in e.iter().zip(columns.chunks_exact(COLUMNS)) {
-                s0 = c[0].fma(*e, s0);
-                s1 = c[1].fma(*e, s1);
-                s3 = c[3].fma(*e, s3);
-                s4 = c[4].fma(*e, s4);
-            }
-            s2 = s0;
+            let [d, x, x_by_k, _] = four_sums(e, columns, [2, 5, 6, 6]);
+            [p, kd, d, a0, d_by_k, x, x_by_k]
         }
     }
-    [s0, s1, s2, s3, s4, s5, s6]
 }
 
 /// Σ E c of the four odd columns: ny q̂, ny A0/k, ny D, ny kD.
 #[inline(always)]
 fn odd_sums(e: &[V], columns: &[C]) -> [C; 4] {
-    let (mut s0, mut s1, mut s2, mut s3) = (C::ZERO, C::ZERO, C::ZERO, C::ZERO);
+    four_sums(e, columns, [ODD, ODD + 1, ODD + 2, ODD + 3])
+}
+
+/// Σ E c of four columns. Eight accumulators of their own stay in registers; an array of them does not.
+#[inline(always)]
+fn four_sums(e: &[V], columns: &[C], which: [usize; 4]) -> [C; 4] {
+    let (mut r0, mut r1, mut r2, mut r3) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let (mut i0, mut i1, mut i2, mut i3) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let [c0, c1, c2, c3] = which;
     for (e, c) in e.iter().zip(columns.chunks_exact(COLUMNS)) {
-        s0 = c[ODD].fma(*e, s0);
-        s1 = c[ODD + 1].fma(*e, s1);
-        s2 = c[ODD + 2].fma(*e, s2);
-        s3 = c[ODD + 3].fma(*e, s3);
+        let (c0, c1, c2, c3) = (&c[c0], &c[c1], &c[c2], &c[c3]);
+        for l in 0..LANES {
+            let e = e.0[l];
+            r0[l] = c0.re.0[l].mul_add(e, r0[l]);
+            i0[l] = c0.im.0[l].mul_add(e, i0[l]);
+            r1[l] = c1.re.0[l].mul_add(e, r1[l]);
+            i1[l] = c1.im.0[l].mul_add(e, i1[l]);
+            r2[l] = c2.re.0[l].mul_add(e, r2[l]);
+            i2[l] = c2.im.0[l].mul_add(e, i2[l]);
+            r3[l] = c3.re.0[l].mul_add(e, r3[l]);
+            i3[l] = c3.im.0[l].mul_add(e, i3[l]);
+        }
     }
-    [s0, s1, s2, s3]
+    [(r0, i0), (r1, i1), (r2, i2), (r3, i3)].map(|(re, im)| C {
+        re: V(re),
+        im: V(im),
+    })
 }
 
 /// The windowed modes of block 0.
@@ -369,12 +370,15 @@ fn write_rows(spec: &StressSpec, first: usize, along_x: &mut [Lanes; 3], out: &m
 /// Effective stress of xx, yy, zz, xz, xy, yz.
 #[inline(always)]
 fn effective(measure: StressMeasure, [xx, yy, zz, xz, xy, yz]: [V; 6]) -> V {
-    let square = squared(measure, xx - yy, yy - zz, xy, xz, yz);
-    let mut root = V::ZERO;
-    for l in 0..LANES {
-        root.0[l] = square.0[l].sqrt();
-    }
-    root
+    let (mut square, mut top) = (V::ZERO, [0.0; LANES]);
+    squared(
+        measure,
+        [xx - yy, yy - zz, xy, xz, yz],
+        &[1.0; LANES],
+        &mut square,
+        &mut top,
+    );
+    V(square.0.map(f32::sqrt))
 }
 
 #[inline(always)]

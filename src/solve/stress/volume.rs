@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::assemble::{Loads, block_inputs};
 use super::engine::{StressEngine, StressSpec, Symmetry};
 use super::fft::{LaneFft, Lanes, pack_pair};
-use super::lanes::{LANES, V, transpose};
+use super::lanes::{LANES, TILE, V, transpose_tile};
 use super::layer::{Layer, Waves};
 use super::load::{Sheared, Spectrum};
 use super::measure::{power_sum, squared};
@@ -128,7 +128,7 @@ impl StressEngine {
                     if task >= loadings * depths {
                         break;
                     }
-                    let loads = if task % loadings == 0 {
+                    let loads = if task.is_multiple_of(loadings) {
                         Loads::Normal
                     } else {
                         Loads::Both
@@ -197,11 +197,10 @@ impl Job<'_> {
             );
             for (which, input) in worker.along_y.iter_mut().enumerate() {
                 self.plans[layer.fft_y].inverse(input, &mut worker.other);
+                let fields = &mut worker.fields;
                 match self.spec.symmetry {
-                    Symmetry::MirrorY => {
-                        unfold_rows(layer, block, which, input, &mut worker.fields)
-                    }
-                    Symmetry::General => turn_rows(layer, block, which, input, &mut worker.fields),
+                    Symmetry::MirrorY => unfold_rows(layer, block, which, input, fields),
+                    Symmetry::General => turn_rows(layer, block, which, input, fields),
                 }
             }
         }
@@ -301,30 +300,41 @@ fn wrapped(layer: &Layer, row: usize) -> usize {
 }
 
 #[inline(always)]
-fn store(fields: &mut [V], layer: &Layer, block: usize, slot: usize, rows: &[V; LANES]) {
+fn store(fields: &mut [V], layer: &Layer, block: usize, slot: usize, tile: &mut [f32; TILE]) {
+    transpose_tile(tile);
     let o = slot * layer.blocks * LANES + block * LANES;
-    fields[o..o + LANES].copy_from_slice(&transpose(rows));
+    for (v, row) in fields[o..o + LANES]
+        .iter_mut()
+        .zip(tile.chunks_exact(LANES))
+    {
+        v.0.copy_from_slice(row);
+    }
 }
 
 dispatched! {
 /// Even and odd field of buffer `which` at y ≥ 0 apart, rows into the lanes.
 fn unfold_rows(layer: &Layer, block: usize, which: usize, z: &Lanes, fields: &mut Lanes) {
-    let (n, half) = (layer.n_y, V::splat(0.5));
-    for row_block in 0..layer.row_blocks() {
+    let n = layer.n_y;
+    // Buffers hold d1 + xy, d2 + yz, xz; fields are d1, d2, xy, xz, yz.
+    let (even_field, odd_field) = [(0, Some(2)), (1, Some(4)), (3, None)][which];
+    let blocks = layer.row_blocks();
+    for row_block in 0..blocks {
         for (from, to) in [(&z.re, &mut fields.re), (&z.im, &mut fields.im)] {
-            let (mut even, mut odd) = ([V::ZERO; LANES], [V::ZERO; LANES]);
+            let (mut even, mut odd) = ([0.0; TILE], [0.0; TILE]);
             for l in 0..LANES {
                 let y = (row_block * LANES + l) % n;
-                let (a, b) = (from[y], from[(n - y) % n]);
-                even[l] = (a + b) * half;
-                odd[l] = (a - b) * half;
+                let o = l * LANES;
+                even[o..o + LANES].copy_from_slice(&from[y].0);
+                odd[o..o + LANES].copy_from_slice(&from[(n - y) % n].0);
             }
-            // Buffers hold d1 + xy, d2 + yz, xz; fields are d1, d2, xy, xz, yz.
-            let (even_field, odd_field) = [(0, Some(2)), (1, Some(4)), (3, None)][which];
-            let blocks = layer.row_blocks();
-            store(to, layer, block, even_field * blocks + row_block, &even);
+            for i in 0..TILE {
+                let (a, b) = (even[i], odd[i]);
+                even[i] = 0.5 * (a + b);
+                odd[i] = 0.5 * (a - b);
+            }
+            store(to, layer, block, even_field * blocks + row_block, &mut even);
             if let Some(field) = odd_field {
-                store(to, layer, block, field * blocks + row_block, &odd);
+                store(to, layer, block, field * blocks + row_block, &mut odd);
             }
         }
     }
@@ -337,11 +347,11 @@ fn turn_rows(layer: &Layer, block: usize, which: usize, z: &Lanes, fields: &mut 
     let blocks = layer.row_blocks();
     for row_block in 0..blocks {
         for (from, to) in [(&z.re, &mut fields.re), (&z.im, &mut fields.im)] {
-            let mut rows = [V::ZERO; LANES];
-            for (l, row) in rows.iter_mut().enumerate() {
-                *row = from[wrapped(layer, row_block * LANES + l)];
+            let mut rows = [0.0; TILE];
+            for (l, row) in rows.chunks_exact_mut(LANES).enumerate() {
+                row.copy_from_slice(&from[wrapped(layer, row_block * LANES + l)].0);
             }
-            store(to, layer, block, which * blocks + row_block, &rows);
+            store(to, layer, block, which * blocks + row_block, &mut rows);
         }
     }
 }
@@ -356,14 +366,13 @@ fn reduce(
     weights: V,
     half_exponent: f32,
 ) -> (f32, f64) {
-    let inside = V(weights.0.map(|w| if w > 0.0 { 1.0 } else { 0.0 }));
     let [a, b, c] = fields;
-    let mut top = V::ZERO;
+    let inside = weights.0.map(|w| if w > 0.0 { 1.0 } else { 0.0 });
+    let mut top = [0.0_f32; LANES];
     for (i, square) in squares.iter_mut().enumerate() {
-        *square = inside * squared(measure, a.re[i], a.im[i], b.re[i], b.im[i], c.re[i]);
-        top = top.max(*square);
+        squared(measure, [a.re[i], a.im[i], b.re[i], b.im[i], c.re[i]], &inside, square, &mut top);
     }
-    let top = top.greatest();
+    let top = top.into_iter().fold(0.0, f32::max);
     if top <= 0.0 {
         return (0.0, 0.0);
     }

@@ -30,13 +30,16 @@ const KINDS: usize = 14;
 /// The spectrum is the number itself for even-even harmonics (1, nx²) and `nx ny`, and i times it for
 /// the odd ones (`i nx`, `i ny`, `i nx² ny`, `i nx ny²`).
 pub(super) struct LowModes {
-    sums: Vec<[[f64; LOW]; LOW]>,
+    sums: Vec<Table>,
 }
+
+/// Numbers of the modes, `[ky][kx]`.
+type Table = [f64; LOW * LOW];
 
 impl LowModes {
     /// Harmonics of mode (mx, my), in the order of the component tables.
     pub(super) fn at(&self, mx: usize, my: usize) -> Harmonics {
-        let number = |h: usize| self.sums[h][my][mx];
+        let number = |h: usize| self.sums[h][my * LOW + mx];
         let family = |o: usize| Directions {
             one: number(o),
             inx: number(o + 1),
@@ -72,7 +75,7 @@ pub(super) fn low_modes((lx, ly): (f64, f64), edge: f64, depths: &[f64]) -> Vec<
     depths
         .par_iter()
         .map(|&z| {
-            let mut sums = vec![[[0.0; LOW]; LOW]; KINDS];
+            let mut sums = vec![[0.0; LOW * LOW]; KINDS];
             accumulate(&points, z, &mut sums);
             LowModes { sums }
         })
@@ -169,34 +172,45 @@ fn erfc(x: f64) -> f64 {
 
 dispatched! {
 /// Adds every point's kernel times its waves.
-fn accumulate(points: &[Point], z: f64, sums: &mut [[[f64; LOW]; LOW]]) {
+fn accumulate(points: &[Point], z: f64, sums: &mut [Table]) {
+    let mut waves = [[0.0; LOW * LOW]; 4];
     for p in points {
         let r = p.x.hypot(p.y);
         let (f, g) = point_radial(r, z);
         let families = [f, g].map(|radial| Directions::from_radial(radial, p.x / r, p.y / r));
-        for (family, d) in families.iter().enumerate() {
-            let sums = &mut sums[7 * family..7 * family + 7];
+        let [even, odd_x, odd_y, odd] = &mut waves;
+        products(even, &p.cos_x, &p.cos_y);
+        products(odd_x, &p.sin_x, &p.cos_y);
+        products(odd_y, &p.cos_x, &p.sin_y);
+        products(odd, &p.sin_x, &p.sin_y);
+        for (sums, d) in sums.chunks_exact_mut(7).zip(&families) {
             let w = p.weight;
             // ∫ e^{−ikx} of an odd kernel is −i times its sine integral: the sign goes here.
-            add_waves(&mut sums[0], w * d.one, &p.cos_x, &p.cos_y);
-            add_waves(&mut sums[1], -w * d.inx, &p.sin_x, &p.cos_y);
-            add_waves(&mut sums[2], -w * d.iny, &p.cos_x, &p.sin_y);
-            add_waves(&mut sums[3], w * d.nx2, &p.cos_x, &p.cos_y);
-            add_waves(&mut sums[4], -w * d.nxny, &p.sin_x, &p.sin_y);
-            add_waves(&mut sums[5], -w * d.inx2ny, &p.cos_x, &p.sin_y);
-            add_waves(&mut sums[6], -w * d.inxny2, &p.sin_x, &p.cos_y);
+            add(&mut sums[0], w * d.one, even);
+            add(&mut sums[1], -w * d.inx, odd_x);
+            add(&mut sums[2], -w * d.iny, odd_y);
+            add(&mut sums[3], w * d.nx2, even);
+            add(&mut sums[4], -w * d.nxny, odd);
+            add(&mut sums[5], -w * d.inx2ny, odd_y);
+            add(&mut sums[6], -w * d.inxny2, odd_x);
         }
     }
 }
 }
 
 #[inline(always)]
-fn add_waves(sum: &mut [[f64; LOW]; LOW], kernel: f64, along_x: &[f64; LOW], along_y: &[f64; LOW]) {
-    for (row, wave_y) in sum.iter_mut().zip(along_y) {
-        let factor = kernel * wave_y;
+fn products(out: &mut Table, along_x: &[f64; LOW], along_y: &[f64; LOW]) {
+    for (row, wave_y) in out.chunks_exact_mut(LOW).zip(along_y) {
         for l in 0..LOW {
-            row[l] += factor * along_x[l];
+            row[l] = wave_y * along_x[l];
         }
+    }
+}
+
+#[inline(always)]
+fn add(sum: &mut Table, kernel: f64, waves: &Table) {
+    for i in 0..LOW * LOW {
+        sum[i] = waves[i].mul_add(kernel, sum[i]);
     }
 }
 

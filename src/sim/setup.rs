@@ -1,0 +1,213 @@
+//! Making a simulation: everything is allocated here.
+
+use rayon::ThreadPoolBuilder;
+
+use super::door::Door;
+use super::drive::Drive;
+use super::fatigue_stage::{Counting, LifeStage};
+use super::motion::Motion;
+use super::simulation::{Phase, Simulation};
+use super::stepping::Attempted;
+use super::stress_stage::StressStage;
+use super::terrain::Terrain;
+use super::{Knob, Metrics, SimError, Stats};
+use crate::math::grid::{Grid, Symmetry};
+use crate::physics::fatigue::LifeLaw;
+use crate::plan::Plan;
+use crate::scene::{Cavitation, Scene};
+use crate::solve::march::{Flow, March, Shape};
+use crate::solve::newton::Tolerance;
+use crate::solve::traction::{FilmShear, TractionLaw};
+
+/// Nodes per side of the first grid.
+pub(super) const COARSEST: usize = 65;
+
+impl Simulation {
+    /// Makes all memory for `scene` by `plan`; `threads` workers of its own.
+    ///
+    /// # Errors
+    /// [`SimError`] when the workers cannot be started or the stress engine refuses the plan.
+    pub fn new(scene: &Scene, plan: Plan, threads: usize) -> Result<Self, SimError> {
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|i| format!("asperity-{i}"))
+            .build()
+            .map_err(|error| SimError::Threads {
+                threads,
+                reason: error.to_string(),
+            })?;
+        let door = Door::new(scene);
+        let flow = scene
+            .lubricant
+            .as_ref()
+            .map_or(Flow::Dry, |oil| match oil.cavitation {
+                Cavitation::Reynolds => Flow::Film,
+                Cavitation::Jfo => Flow::MassConserving,
+            });
+        let shape = Shape {
+            kappa: door.kappa,
+            curvature_y: door.curvature_y,
+            b_over_a: door.b_over_a,
+            kappa_s: plan
+                .traction_deflection
+                .map_or(0.0, |t| door.kappa_s(t.mismatch_per_pa)),
+        };
+        let first = COARSEST.min(plan.domain.nodes);
+        let grid = grid_of(&plan, first, door.b_over_a);
+        let film = plan.film.map_or(0.0, |film| film.central);
+        let nodes = scene.time.step_nodes;
+        let march = pool.install(|| March::from_hertz(grid, &shape, film, nodes, flow));
+        let fine = grid_of(&plan, plan.domain.nodes, door.b_over_a);
+        let stress = match &plan.stress {
+            Some(stress) => Some(
+                pool.install(|| {
+                    let depths = (stress.depths, stress.depth_max_m / door.a_m);
+                    let measure = scene
+                        .stress
+                        .as_ref()
+                        .map_or(crate::scene::StressMeasure::VonMises, |s| s.measure);
+                    StressStage::new(&fine, scene.body_1.poisson, depths, measure)
+                })
+                .map_err(|error| SimError::Stress(error.to_string()))?,
+            ),
+            None => None,
+        };
+        let life = scene.life.as_ref().zip(plan.life).map(|(life, life_plan)| {
+            let steps = plan.steps_per_passage.max(1) as f64;
+            let phases = life_plan.phases_per_passage.max(1) as usize + 1;
+            let law = LifeLaw {
+                stress_exponent: life.stress_exponent,
+                weibull_slope: life.weibull_slope,
+            };
+            LifeStage::new(law, steps, phases)
+        });
+        let counting = scene.stress.as_ref().map(|_| {
+            let depths = stress.as_ref().map_or(&[][..], |stress| stress.depths());
+            let exponent = scene.life.as_ref().map_or(9.0, |life| life.stress_exponent);
+            Counting::new(&fine, depths, exponent)
+        });
+        let wanted = Drive::new(|knob| initial(scene, &plan, knob));
+        let mut drive = wanted.clone();
+        for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
+            drive.jump(knob, 0.0);
+        }
+        let tolerance = Tolerance {
+            pressure: scene.numerics.tolerance,
+            mass: if flow == Flow::Dry {
+                f64::INFINITY
+            } else {
+                0.1 * scene.numerics.tolerance
+            },
+            load: 1e-5,
+            max_iterations: scene.numerics.max_iterations,
+        };
+        let terrain = Terrain::new(&fine, scene.surfaces(), door.a_m);
+        let law = traction_law(scene, &door);
+        let mut motion = Motion::new(nodes);
+        motion.shear_rate = scene.lubricant.as_ref().map_or(0.0, |oil| {
+            oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
+        });
+        let composite = [0, 1].map(|body| {
+            let surface = scene.surfaces()[body];
+            if surface.amplitude_m() > 0.0 {
+                surface.rq_m() / surface.amplitude_m()
+            } else {
+                0.0
+            }
+        });
+        let mut this = Self {
+            traction: vec![0.0; fine.len()],
+            counting,
+            stress_error: stress_error(&plan),
+            plan,
+            door,
+            march,
+            terrain,
+            drive,
+            motion,
+            watched: [0.0; 2],
+            stress,
+            life,
+            law,
+            shape,
+            flow,
+            tolerance,
+            pool,
+            phase: Phase::Smooth { left: 0 },
+            wanted,
+            metrics: Metrics::default(),
+            stats: Stats::default(),
+            totals: super::totals::Totals::default(),
+            smooth_film: 0.0,
+            composite,
+            step: 0,
+            time_s: 0.0,
+            start_up_steps: (0, 1),
+        };
+        this.phase = Phase::Smooth {
+            left: this.smooth_steps(first),
+        };
+        this.start_up_steps.1 = this.all_start_up_steps(first);
+        this.publish(&Attempted::default());
+        Ok(this)
+    }
+}
+
+fn initial(scene: &Scene, plan: &Plan, knob: Knob) -> (f64, f64) {
+    let amplitude = |m: f64| (m, m.max(1e-7));
+    match knob {
+        Knob::SlideRoll => (scene.motion.slide_roll, 1.0),
+        Knob::ForceN => (plan.force_n, 0.5 * plan.force_n),
+        Knob::Amplitude1M => amplitude(scene.body_1.surface.amplitude_m()),
+        Knob::Amplitude2M => amplitude(scene.body_2.surface.amplitude_m()),
+        Knob::EntrainmentMS => (
+            scene.motion.entrainment_m_s,
+            0.5 * scene.motion.entrainment_m_s,
+        ),
+    }
+}
+
+pub(super) fn grid_of(plan: &Plan, nodes: usize, b_over_a: f64) -> Grid {
+    let symmetry = match plan.symmetry {
+        crate::plan::Symmetry::MirrorY => Symmetry::MirrorY,
+        crate::plan::Symmetry::General => Symmetry::General,
+    };
+    let domain = &plan.domain;
+    Grid::new(
+        nodes,
+        domain.x_min_a,
+        domain.x_max_a,
+        domain.y_half_b * b_over_a,
+        symmetry,
+    )
+}
+
+fn traction_law(scene: &Scene, door: &Door) -> TractionLaw {
+    let film = scene.lubricant.as_ref().map(|oil| FilmShear {
+        rate: 0.0,
+        eyring: (oil.rheology == crate::scene::Rheology::Eyring)
+            .then_some(oil.eyring_stress_pa / door.p_hertz_pa),
+        limit: oil.limiting_shear_ratio,
+    });
+    TractionLaw {
+        film,
+        viscosity: door.medium(1.0, 0.0).viscosity,
+        boundary: scene.friction.boundary,
+        contact_film: door.h_from_m(scene.friction.contact_film_m),
+        direction: 0.0,
+    }
+}
+
+/// Relative error of stress by sampling: that of Hertz's edge, measured at 64 nodes a half-width (4e-4 of
+/// the integral, a tenth of it in stress), and of the shortest wave, (2π/nodes)²/12 of a ripple as high as
+/// the mean. An estimate, not a bound.
+fn stress_error(plan: &Plan) -> f64 {
+    let wave = |nodes: f64| (std::f64::consts::TAU / nodes).powi(2) / 12.0;
+    let waves = plan.waves.iter().flatten();
+    let worst = waves
+        .flat_map(|w| w.nodes)
+        .filter(|nodes| nodes.is_finite())
+        .map(wave)
+        .fold(0.0, f64::max);
+    4e-5 + 0.5 * worst
+}

@@ -1,0 +1,86 @@
+//! From Hertz to the developed rough contact.
+
+use super::setup::{COARSEST, grid_of};
+use super::simulation::{DEVELOP, Phase, Simulation};
+use super::{Knob, StepError};
+use crate::solve::march::{Flow, March};
+
+impl Simulation {
+    /// The next finer grid, or the reference and the development.
+    pub(super) fn refine_or_develop(&mut self) -> Result<(), StepError> {
+        let nx = self.march.grid.nx;
+        if nx < self.plan.domain.nodes {
+            let next = 2 * (nx - 1) + 1;
+            let grid = grid_of(&self.plan, next, self.door.b_over_a);
+            let nodes = self.motion.nodes;
+            self.march = self
+                .pool
+                .install(|| March::refined(&self.march, grid, &self.shape, nodes, self.flow));
+            self.phase = Phase::Smooth {
+                left: self.smooth_steps(next),
+            };
+            return self.step_within();
+        }
+        let measured = self.measure();
+        self.smooth_film = measured.h_central;
+        if let (Some(stress), Some(life)) = (&mut self.stress, &mut self.life) {
+            let (p, q) = (&self.march.state.pressure, &self.traction);
+            self.pool.install(|| {
+                stress.slice(p, q, 0.0);
+                life.set_reference(&stress.volume(life.exponent()));
+            });
+        }
+        for knob in Knob::ALL {
+            self.drive.aim(knob, self.wanted.get(knob).target);
+        }
+        let developing = self.terrain.is_rough(0)
+            || self.terrain.is_rough(1)
+            || self.wanted.get(Knob::SlideRoll).target != 0.0;
+        let left = if developing {
+            self.steps_of(DEVELOP)
+        } else {
+            0
+        };
+        self.motion.flush();
+        if developing {
+            self.motion.disturb(DEVELOP);
+        }
+        self.phase = Phase::Develop { left };
+        self.step_within()
+    }
+
+    fn step_within(&mut self) -> Result<(), StepError> {
+        self.stats.steps -= 1;
+        self.step()
+    }
+
+    fn steps_of(&self, time: f64) -> u64 {
+        (time / (self.motion.nodes * self.march.grid.dx)).ceil() as u64
+    }
+
+    /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, the
+    /// finer ones lose the error of interpolation. Without a film one solve is enough.
+    pub(super) fn smooth_steps(&self, nodes: usize) -> u64 {
+        if self.flow == Flow::Dry {
+            return 2;
+        }
+        let length = self.plan.domain.x_max_a - self.plan.domain.x_min_a;
+        let share = if nodes == COARSEST.min(self.plan.domain.nodes) {
+            1.0
+        } else {
+            0.75
+        };
+        let dx = length / (nodes - 1) as f64;
+        (share * length / (self.motion.nodes * dx)).ceil() as u64
+    }
+
+    pub(super) fn all_start_up_steps(&self, first: usize) -> u64 {
+        let (mut nodes, mut total) = (first, 0);
+        while nodes <= self.plan.domain.nodes {
+            total += self.smooth_steps(nodes);
+            nodes = 2 * (nodes - 1) + 1;
+        }
+        let dx = self.plan.domain.dx_a();
+        total + (DEVELOP / (self.motion.nodes * dx)).ceil() as u64
+    }
+}

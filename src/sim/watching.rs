@@ -1,0 +1,141 @@
+//! What is looked at after each step: traction, stress, counts, life, scalars.
+
+use super::fatigue_stage::contacts;
+use super::measure::{Measured, measure};
+use super::simulation::{Phase, Simulation};
+use super::stepping::Attempted;
+use super::{Knob, LifeEstimate};
+use crate::solve::traction::TractionLaw;
+
+impl Simulation {
+    /// Traction, stress, life and scalars of the committed step.
+    pub(super) fn watch(&mut self, attempted: &Attempted) {
+        let before = self.watched;
+        self.watched = self.motion.travelled;
+        let on_fine = self.march.grid.nx == self.plan.domain.nodes;
+        if on_fine && !matches!(self.phase, Phase::Smooth { .. }) {
+            self.measure_stress();
+        }
+        if on_fine
+            && self.phase == Phase::Passage
+            && let Some(counting) = &mut self.counting
+        {
+            let travel = [0, 1].map(|body: usize| self.watched[body] - before[body]);
+            let tau_xz = self.stress.as_ref().map(|stress| &stress.slice.sxz[..]);
+            let pressure = &self.march.state.pressure;
+            counting.step(&self.march.grid, travel, pressure, tau_xz);
+        }
+        self.publish(attempted);
+    }
+
+    fn measure_stress(&mut self) {
+        let measured = self.measure();
+        let Some(stress) = &mut self.stress else {
+            return;
+        };
+        let (p, q) = (&self.march.state.pressure, &self.traction);
+        let every = self
+            .plan
+            .life
+            .map_or(u64::MAX, |life| life.volume_every_steps);
+        self.pool.install(|| {
+            stress.slice(p, q, measured.friction);
+            if let Some(life) = &mut self.life
+                && self.phase == Phase::Passage
+                && self.step.is_multiple_of(every)
+            {
+                life.push(every as f64, &stress.volume(life.exponent()));
+                self.stats.stress_volumes += 1;
+            }
+        });
+    }
+
+    /// The traction law at the knobs' present values.
+    pub(super) fn law_now(&self) -> TractionLaw {
+        let s = self.drive.get(Knob::SlideRoll).now;
+        let u = self.drive.get(Knob::EntrainmentMS).now;
+        let mut law = self.law;
+        law.direction = if s == 0.0 { 0.0 } else { s.signum() };
+        if let Some(film) = &mut law.film {
+            film.rate = self.motion.shear_rate * (s * u).abs();
+        }
+        law
+    }
+
+    pub(super) fn measure(&mut self) -> Measured {
+        let law = self.law_now();
+        let scale = (self.drive.get(Knob::ForceN).now / self.plan.force_n).cbrt();
+        let state = &self.march.state;
+        self.traction.resize(self.march.grid.len(), 0.0);
+        measure(
+            &self.march.grid,
+            &law,
+            &state.pressure,
+            &state.film,
+            (scale, scale * self.door.b_over_a),
+            &mut self.traction,
+        )
+    }
+
+    pub(super) fn publish(&mut self, attempted: &Attempted) {
+        let measured = self.measure();
+        let has_stress = self.stage_has_stress();
+        let door = &self.door;
+        let m = &mut self.metrics;
+        m.converged = attempted.converged;
+        m.residual = attempted.residual;
+        m.newton_iterations = attempted.newton;
+        m.linear_iterations = attempted.linear;
+        m.retries = attempted.retries;
+        m.mass_error = attempted.mass_error;
+        m.load_error = attempted.load_error;
+        let (s, force) = (
+            self.drive.get(Knob::SlideRoll),
+            self.drive.get(Knob::ForceN),
+        );
+        (m.slide_roll, m.slide_roll_target) = (s.now, self.wanted.get(Knob::SlideRoll).target);
+        (m.load_n, m.load_target_n) = (force.now, self.wanted.get(Knob::ForceN).target);
+        m.entrainment_m_s = self.drive.get(Knob::EntrainmentMS).now;
+        m.amplitude_1_m = self.drive.get(Knob::Amplitude1M).now;
+        m.amplitude_2_m = self.drive.get(Knob::Amplitude2M).now;
+        m.p_max_pa = door.pa_from_p(measured.p_max);
+        m.h_central_m = door.m_from_h(measured.h_central);
+        m.h_min_m = door.m_from_h(measured.h_min);
+        m.h_mean_m = door.m_from_h(measured.h_mean);
+        m.contact_ratio = measured.contact_ratio;
+        m.contact_load_ratio = measured.contact_load_ratio;
+        m.friction_coefficient = measured.friction.abs();
+        let rq = (m.amplitude_1_m * self.composite[0]).hypot(m.amplitude_2_m * self.composite[1]);
+        // Smooth film at the knobs' present values by the exponents of Hamrock and Dowson (1977).
+        let speed = m.entrainment_m_s / (0.5 * (self.plan.speeds_m_s[0] + self.plan.speeds_m_s[1]));
+        let film = door.m_from_h(self.smooth_film)
+            * speed.powf(0.67)
+            * (m.load_n / self.plan.force_n).powf(-0.067);
+        m.lambda_ratio = (rq > 0.0 && film > 0.0).then(|| film / rq);
+        if let Some(stress) = self.stress.as_ref().filter(|_| has_stress) {
+            let peak = stress.slice.peak;
+            m.sigma_eff_max_pa = Some(door.pa_from_p(peak.value));
+            m.sigma_eff_max_depth_m = Some(door.m_from_x(peak.z));
+            m.sigma_eff_max_x_m = Some(door.m_from_x(peak.x));
+        }
+        let n = contacts(&self.plan, m.entrainment_m_s, m.slide_roll);
+        (m.n_body_1, m.n_body_2) = (n[0], n[1]);
+        if let Some(counting) = &self.counting {
+            let counted = counting.counted();
+            (m.n_counted_body_1, m.n_counted_body_2) = (counted[0], counted[1]);
+        }
+        self.metrics.life = self.life_estimate();
+    }
+
+    /// Whether the slice belongs to the present step.
+    pub(super) fn stage_has_stress(&self) -> bool {
+        !matches!(self.phase, Phase::Smooth { .. })
+    }
+
+    pub(super) fn life_estimate(&self) -> Option<LifeEstimate> {
+        self.life.as_ref()?.estimate(
+            [self.metrics.n_body_1, self.metrics.n_body_2],
+            self.stress_error,
+        )
+    }
+}

@@ -1,0 +1,73 @@
+//! Normal deflection by traction, u^s: zero for bodies of equal elastic constants.
+//!
+//! ```text
+//! u^s_ij = Σ_kl S_(i−k)(j−l) q_kl,   S = κ_s [½ y ln(x² + y²) + x atan(y/x)] at the four corners of a cell
+//! κ_s = (Rx p_h/a) [(1+ν1)(1−2ν1)/E1 − (1+ν2)(1−2ν2)/E2]/(2π)
+//! ```
+//! | symbol | meaning | shape |
+//! |---|---|---|
+//! | q | traction on body 1 along +x (body 2 carries −q) | ny × nx |
+//! | S | odd in x, even in y | |
+//!
+//! The gap opens ahead of and closes behind a loaded patch. Sources: Johnson, Contact Mechanics (1985),
+//! eq. 3.71 ff. (Cerruti); the frequency response is −2βQ/(E*k), β Dundurs' constant.
+
+use crate::math::filter::{Filter, Padding, odd_kernel_symbol};
+use crate::math::grid::Grid;
+
+/// The filter q → u^s.
+pub struct Tangential {
+    filter: Filter<f64>,
+}
+
+/// `∬ x/(x² + y²) dx dy` over a cell `dx` x `dy` seen from distance (x, y): the bracket at the corners.
+fn cell(x: f64, y: f64, dx: f64, dy: f64) -> f64 {
+    let corner = |u: f64, v: f64| {
+        let r2 = u * u + v * v;
+        let log = if v == 0.0 { 0.0 } else { 0.5 * v * r2.ln() };
+        let turn = if u == 0.0 { 0.0 } else { u * (v / u).atan() };
+        log + turn
+    };
+    let (xp, xm, yp, ym) = (x + dx / 2.0, x - dx / 2.0, y + dy / 2.0, y - dy / 2.0);
+    corner(xp, yp) + corner(xm, ym) - corner(xp, ym) - corner(xm, yp)
+}
+
+impl Tangential {
+    /// Plans the filter with stiffness `kappa_s`.
+    pub fn new(grid: &Grid, kappa_s: f64) -> Self {
+        let mut filter = Filter::new(grid, Padding::Doubled, 1).odd_in_x();
+        let (dx, dy) = (grid.dx, grid.dy);
+        let symbol = odd_kernel_symbol(filter.lx(), filter.ly(), |i, j| {
+            kappa_s * cell(i as f64 * dx, j as f64 * dy, dx, dy)
+        });
+        let nky = filter.ly() / 2 + 1;
+        filter.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
+        Self { filter }
+    }
+
+    /// `out = S q`, the opening of the gap.
+    pub fn deflect(&mut self, q: &[f64], out: &mut [f64]) {
+        self.filter.apply(q, out);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cell_integral_is_the_integral() {
+        let (x, y, dx, dy) = (0.3, -0.2, 0.15, 0.11);
+        let n = 400;
+        let mut sum = 0.0;
+        for i in 0..n {
+            for j in 0..n {
+                let u = x - dx / 2.0 + dx * (i as f64 + 0.5) / n as f64;
+                let v = y - dy / 2.0 + dy * (j as f64 + 0.5) / n as f64;
+                sum += u / (u * u + v * v);
+            }
+        }
+        let numeric = sum * dx * dy / (n * n) as f64;
+        assert!((cell(x, y, dx, dy) / numeric - 1.0).abs() < 1e-5);
+    }
+}

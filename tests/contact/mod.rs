@@ -1,0 +1,160 @@
+//! A contact given by Moes' groups, marched by the solver alone: what the tables are made of.
+
+#![allow(dead_code, reason = "each test uses its part")]
+
+use std::f64::consts::PI;
+
+use asperity::math::grid::{Grid, Symmetry};
+use asperity::physics::fluid::{Density, Viscosity};
+use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
+use asperity::solve::newton::{NewtonReport, Tolerance, Verdict};
+use asperity::solve::reynolds::Medium;
+
+/// Fluids of the reference tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fluid {
+    BarusIncompressible,
+    /// η0 = 0.04 Pa s, α = 2.2e-8 1/Pa.
+    RoelandsDowsonHigginson,
+}
+
+/// A circular contact.
+pub(crate) struct Case {
+    pub(crate) medium: Medium,
+    pub(crate) lambda: f64,
+    pub(crate) domain: (f64, f64, f64),
+}
+
+pub(crate) const CIRCLE: Shape = Shape {
+    kappa: 2.0 / (PI * PI),
+    curvature_y: 1.0,
+    b_over_a: 1.0,
+    kappa_s: 0.0,
+};
+
+pub(crate) const LOAD: f64 = 2.0 * PI / 3.0;
+
+pub(crate) const TOLERANCE: Tolerance = Tolerance {
+    pressure: 1e-4,
+    mass: 1e-4,
+    load: 1e-5,
+    max_iterations: 20,
+};
+
+/// A step under the unit load.
+pub(crate) fn conditions(medium: &Medium, tolerance: Tolerance) -> Conditions<'_> {
+    Conditions {
+        medium,
+        law: None,
+        load: LOAD,
+        tolerance,
+    }
+}
+
+impl Case {
+    /// Moes M, L: λ = (128π³/(3M⁴))^{1/3}, α p_h = (L/π)(3M/2)^{1/3}.
+    pub(crate) fn moes(m: f64, l: f64, fluid: Fluid, domain: (f64, f64, f64)) -> Self {
+        let lambda = (128.0 * PI.powi(3) / (3.0 * m.powi(4))).cbrt();
+        let alpha = 2.2e-8;
+        let p_hertz = l / PI * (1.5 * m).cbrt() / alpha;
+        let (viscosity, density) = match fluid {
+            Fluid::BarusIncompressible => {
+                (Viscosity::barus(alpha, p_hertz), Density::Incompressible)
+            }
+            Fluid::RoelandsDowsonHigginson => (
+                Viscosity::roelands(0.04, alpha, p_hertz),
+                Density::DowsonHigginson {
+                    p_hertz_gpa: p_hertz * 1e-9,
+                },
+            ),
+        };
+        Self {
+            medium: Medium {
+                viscosity,
+                density,
+                lambda,
+                sliding: 0.0,
+            },
+            lambda,
+            domain,
+        }
+    }
+
+    /// Film in Moes units.
+    pub(crate) fn film(&self, h: f64) -> f64 {
+        h * (6.0 * PI / self.lambda).sqrt()
+    }
+
+    fn grid(&self, nodes: usize) -> Grid {
+        let (x_min, x_max, y_half) = self.domain;
+        Grid::new(nodes, x_min, x_max, y_half, Symmetry::MirrorY)
+    }
+
+    /// The steady smooth contact on `nodes` per side, through 65², 129² ...; `each` sees every grid's.
+    pub(crate) fn steady(&self, nodes: usize, mut each: impl FnMut(&March)) -> March {
+        let guess = 1.2 * self.lambda.powf(0.67);
+        let mut march = March::from_hertz(self.grid(65), &CIRCLE, guess, 1.0, Flow::Film);
+        loop {
+            let length = (self.domain.1 - self.domain.0) / march.grid.dx;
+            for _ in 0..length as usize {
+                self.step(&mut march, 1.0);
+            }
+            each(&march);
+            if march.grid.nx >= nodes {
+                return march;
+            }
+            let finer = self.grid(2 * (march.grid.nx - 1) + 1);
+            march = March::refined(&march, finer, &CIRCLE, 1.0, Flow::Film);
+        }
+    }
+
+    /// One committed step that must converge.
+    pub(crate) fn step(&self, march: &mut March, nodes: f64) -> NewtonReport {
+        let report = march.attempt(
+            &conditions(&self.medium, TOLERANCE),
+            nodes,
+            Guess::Extrapolated,
+        );
+        assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+        assert!(march.state.pressure.iter().all(|&p| p >= 0.0));
+        assert!(march.state.film.iter().all(|&h| h > 0.0 && h.is_finite()));
+        march.commit(nodes);
+        report
+    }
+}
+
+/// H at the origin.
+pub(crate) fn central(march: &March) -> f64 {
+    let grid = &march.grid;
+    let i = (-grid.x_min / grid.dx).round() as usize;
+    assert!(grid.x(i).abs() < 1e-12, "the origin is a node");
+    march.state.film[grid.axis_row() * grid.nx + i]
+}
+
+/// Least H inside r < 1.1, by a parabola through the lowest node along y and x.
+pub(crate) fn minimum(march: &March) -> f64 {
+    let grid = &march.grid;
+    let film = &march.state.film;
+    let mut best = (f64::INFINITY, 0, 0);
+    for j in grid.interior_rows() {
+        for i in 1..grid.nx - 1 {
+            let inside = grid.x(i).hypot(grid.y(j)) < 1.1;
+            let h = film[j * grid.nx + i];
+            if inside && h < best.0 {
+                best = (h, i, j);
+            }
+        }
+    }
+    let (h, i, j) = best;
+    let vertex = |low: f64, high: f64| {
+        let curvature = low - 2.0 * h + high;
+        if curvature > 0.0 {
+            (low - high).powi(2) / (8.0 * curvature)
+        } else {
+            0.0
+        }
+    };
+    let row = j * grid.nx;
+    let south = grid.row_below(j) * grid.nx + i;
+    h - vertex(film[row + i - 1], film[row + i + 1]) - vertex(film[south], film[row + grid.nx + i])
+}
