@@ -37,7 +37,7 @@ fn the_default_scene() {
     );
     assert_eq!((plan.steps, plan.steps_per_passage), (256, 128));
     assert!(
-        (plan.dt_s * 1.0 / plan.dx_m - 1.0).abs() < 1e-12,
+        (plan.dt_s * 0.2 / plan.dx_m - 1.0).abs() < 1e-12,
         "one node a step at U"
     );
     let life = plan.life.unwrap();

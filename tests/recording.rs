@@ -100,7 +100,7 @@ impl Contents {
         for chunk in &self.data {
             if chunk.entity_path().to_string() == format!("/{entity}") {
                 for part in chunk.iter_slices::<String>(component) {
-                    text.extend(part.iter().map(|part| part.to_string()));
+                    text.extend(part.iter().map(std::string::ToString::to_string));
                 }
             }
         }

@@ -358,9 +358,9 @@ mod tests {
             };
             let plus = residual_of(&grid, &mut elastic, &medium, &shift(1.0), h0 + step * dh0).0;
             let minus = residual_of(&grid, &mut elastic, &medium, &shift(-1.0), h0 - step * dh0).0;
-            for n in 0..n {
+            for (n, &ours) in out.iter().enumerate() {
                 let exact = (plus.residual[n] - minus.residual[n]) / (2.0 * step);
-                let ours = f64::from(out[n]) * reynolds.row_scale[n];
+                let ours = f64::from(ours) * reynolds.row_scale[n];
                 let size = exact.abs().max(reynolds.diagonal[n]);
                 assert!(
                     (exact - ours).abs() < 2e-5 * size,

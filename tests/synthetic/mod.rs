@@ -89,12 +89,11 @@ fn depths(n: usize) -> Arc<[f64]> {
 
 fn roughness(body: u8, x: f64, y: f64, t: f64) -> f64 {
     let k = std::f64::consts::TAU / WAVELENGTH;
-    match body {
-        1 => AMPLITUDE * (k * (x - ENTRAINMENT * (1.0 - 0.5 * SLIDE_ROLL) * t)).cos(),
-        _ => {
-            let wave = (k * (x - ENTRAINMENT * (1.0 + 0.5 * SLIDE_ROLL) * t)).cos();
-            AMPLITUDE * wave * (k * y).cos()
-        }
+    if body == 1 {
+        AMPLITUDE * (k * (x - ENTRAINMENT * (1.0 - 0.5 * SLIDE_ROLL) * t)).cos()
+    } else {
+        let wave = (k * (x - ENTRAINMENT * (1.0 + 0.5 * SLIDE_ROLL) * t)).cos();
+        AMPLITUDE * wave * (k * y).cos()
     }
 }
 
@@ -106,7 +105,7 @@ pub(crate) fn frame(n: usize, step: u64) -> Arc<Frame> {
     let at = |k: usize| (x_min + dx * (k % n) as f64, y_min + dx * (k / n) as f64);
     let field = |value: &dyn Fn(f64, f64) -> f64| -> Vec<f32> {
         (0..n * n)
-            .map(|k| at(k))
+            .map(&at)
             .map(|(x, y)| value(x, y) as f32)
             .collect()
     };

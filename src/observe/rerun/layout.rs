@@ -5,29 +5,24 @@
 //! `view/<id>/<Property>`, and the lot is sent to the recording. That path is a convention of the
 //! viewer and not of its interface: `tests/screenshots` shows whether it still holds.
 
+mod views;
+
 use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
-use rerun::blueprint::components::{
-    BackgroundKind, Corner2D, Enabled, LoopMode, PanelState, PlayState, VisualBounds2D as Bounds,
-};
+use rerun::blueprint::components::{LoopMode, PanelState, PlayState};
 use rerun::blueprint::{
     Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Grid, Horizontal,
-    SelectionPanel, Spatial2DView, Spatial3DView, Tabs, TextDocumentView, TextLogView, TimePanel,
-    TimeSeriesView, Vertical,
+    SelectionPanel, Tabs, TextLogView, TimePanel, Vertical,
 };
-use rerun::datatypes::{Range1D, Range2D};
-use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, TextDocumentFormat, VisualBounds2D,
-};
-use rerun::{AsComponents, Color, RecordingStream, RecordingStreamBuilder};
+use rerun::external::re_sdk_types::blueprint::archetypes::PlotLegend;
+use rerun::{RecordingStream, RecordingStreamBuilder};
 
+use self::views::{Property, Views};
 use super::centre_line::CENTRE_LINE;
-use super::colour::BACKGROUND;
 use super::interferogram::INTERFEROGRAM;
 use super::kymograph;
 use super::maps;
 use super::plot::{Margin, PlotBox};
 use super::slice;
-use super::space::SPACE;
 use super::stream::{APPLICATION, STEP, Stream};
 use super::text;
 use super::trace::TRACE;
@@ -45,94 +40,6 @@ pub(super) struct Shown {
     pub(super) camera: Option<[[f64; 3]; 2]>,
     pub(super) rough: [bool; 2],
     pub(super) life: bool,
-}
-
-/// A property of a view and the path it goes to.
-struct Property {
-    path: String,
-    value: Box<dyn AsComponents>,
-}
-
-/// Views under construction, with their properties.
-#[derive(Default)]
-struct Views {
-    properties: Vec<Property>,
-}
-
-impl Views {
-    /// Notes a property of a view that has just been made.
-    fn set(&mut self, view: &ContainerLike, name: &str, value: impl AsComponents + 'static) {
-        if let ContainerLike::View(view) = view {
-            self.properties.push(Property {
-                path: format!("{}/{name}", view.blueprint_path()),
-                value: Box::new(value),
-            });
-        }
-    }
-
-    /// A view of a plot: its own entity, what is drawn over it, and bounds with room for the axes.
-    fn plot(
-        &mut self,
-        name: &str,
-        contents: &[&str],
-        plot: &PlotBox,
-        right: Margin,
-    ) -> ContainerLike {
-        let contents = contents.iter().map(|entity| format!("/{entity}/**"));
-        let view = Spatial2DView::new(name)
-            .with_origin("/")
-            .with_contents(contents)
-            .into();
-        let [x, y] = plot.bounds(right);
-        let range = Range2D {
-            x_range: Range1D(x),
-            y_range: Range1D(y),
-        };
-        self.set(&view, "VisualBounds2D", VisualBounds2D::new(Bounds(range)));
-        view
-    }
-
-    fn map(&mut self, name: &str, entity: &str, over: &[&str], plot: &PlotBox) -> ContainerLike {
-        let mut contents = vec![entity, maps::HERTZ];
-        contents.extend_from_slice(over);
-        self.plot(name, &contents, plot, Margin::Legend)
-    }
-
-    fn space(&mut self, name: &str, [target, eye]: [[f64; 3]; 2]) -> ContainerLike {
-        let view = Spatial3DView::new(name)
-            .with_origin(format!("/{SPACE}"))
-            .into();
-        let controls = EyeControls3D::new()
-            .with_position(eye.map(|v| v as f32))
-            .with_look_target(target.map(|v| v as f32))
-            .with_eye_up([0.0_f32, 0.0, 1.0]);
-        self.set(&view, "EyeControls3D", controls);
-        let background =
-            Background::new(BackgroundKind::SolidColor).with_color(Color::from(BACKGROUND));
-        self.set(&view, "Background", background);
-        self.set(&view, "LineGrid3D", LineGrid3D::new().with_visible(false));
-        view
-    }
-
-    fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
-        let contents = entities.iter().map(|entity| format!("/{entity}/**"));
-        let view = TimeSeriesView::new(name)
-            .with_origin("/")
-            .with_contents(contents)
-            .into();
-        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
-        self.set(&view, "PlotLegend", legend);
-        view
-    }
-
-    fn document(&mut self, name: &str, entity: &str) -> ContainerLike {
-        let view = TextDocumentView::new(name)
-            .with_origin(format!("/{entity}"))
-            .into();
-        let format = TextDocumentFormat::new().with_monospace(Enabled::from(true));
-        self.set(&view, "TextDocumentFormat", format);
-        view
-    }
 }
 
 /// Sends the layout to a recording.

@@ -1,0 +1,115 @@
+//! Views and their properties, which the layout's stream carries apart.
+
+use rerun::blueprint::components::{BackgroundKind, Corner2D, Enabled, VisualBounds2D as Bounds};
+use rerun::blueprint::{
+    ContainerLike, Spatial2DView, Spatial3DView, TextDocumentView, TimeSeriesView,
+};
+use rerun::datatypes::{Range1D, Range2D};
+use rerun::external::re_sdk_types::blueprint::archetypes::{
+    Background, EyeControls3D, LineGrid3D, PlotLegend, TextDocumentFormat, VisualBounds2D,
+};
+use rerun::{AsComponents, Color};
+
+use super::super::colour::BACKGROUND;
+use super::super::maps;
+use super::super::plot::{Margin, PlotBox};
+use super::super::space::SPACE;
+
+/// A property of a view and the path it goes to.
+pub(super) struct Property {
+    pub(super) path: String,
+    pub(super) value: Box<dyn AsComponents>,
+}
+
+/// Views under construction, with their properties.
+#[derive(Default)]
+pub(super) struct Views {
+    pub(super) properties: Vec<Property>,
+}
+
+impl Views {
+    /// Notes a property of a view that has just been made.
+    pub(super) fn set(
+        &mut self,
+        view: &ContainerLike,
+        name: &str,
+        value: impl AsComponents + 'static,
+    ) {
+        if let ContainerLike::View(view) = view {
+            self.properties.push(Property {
+                path: format!("{}/{name}", view.blueprint_path()),
+                value: Box::new(value),
+            });
+        }
+    }
+
+    /// A view of a plot: its own entity, what is drawn over it, and bounds with room for the axes.
+    pub(super) fn plot(
+        &mut self,
+        name: &str,
+        contents: &[&str],
+        plot: &PlotBox,
+        right: Margin,
+    ) -> ContainerLike {
+        let contents = contents.iter().map(|entity| format!("/{entity}/**"));
+        let view = Spatial2DView::new(name)
+            .with_origin("/")
+            .with_contents(contents)
+            .into();
+        let [x, y] = plot.bounds(right);
+        let range = Range2D {
+            x_range: Range1D(x),
+            y_range: Range1D(y),
+        };
+        self.set(&view, "VisualBounds2D", VisualBounds2D::new(Bounds(range)));
+        view
+    }
+
+    pub(super) fn map(
+        &mut self,
+        name: &str,
+        entity: &str,
+        over: &[&str],
+        plot: &PlotBox,
+    ) -> ContainerLike {
+        let mut contents = vec![entity, maps::HERTZ];
+        contents.extend_from_slice(over);
+        self.plot(name, &contents, plot, Margin::Legend)
+    }
+
+    pub(super) fn space(&mut self, name: &str, [target, eye]: [[f64; 3]; 2]) -> ContainerLike {
+        let view = Spatial3DView::new(name)
+            .with_origin(format!("/{SPACE}"))
+            .into();
+        let controls = EyeControls3D::new()
+            .with_position(eye.map(|v| v as f32))
+            .with_look_target(target.map(|v| v as f32))
+            .with_eye_up([0.0_f32, 0.0, 1.0]);
+        self.set(&view, "EyeControls3D", controls);
+        let background =
+            Background::new(BackgroundKind::SolidColor).with_color(Color::from(BACKGROUND));
+        self.set(&view, "Background", background);
+        self.set(&view, "LineGrid3D", LineGrid3D::new().with_visible(false));
+        view
+    }
+
+    pub(super) fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
+        let contents = entities.iter().map(|entity| format!("/{entity}/**"));
+        let view = TimeSeriesView::new(name)
+            .with_origin("/")
+            .with_contents(contents)
+            .into();
+        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
+        self.set(&view, "PlotLegend", legend);
+        view
+    }
+
+    pub(super) fn document(&mut self, name: &str, entity: &str) -> ContainerLike {
+        let view = TextDocumentView::new(name)
+            .with_origin(format!("/{entity}"))
+            .into();
+        let format = TextDocumentFormat::new().with_monospace(Enabled::from(true));
+        self.set(&view, "TextDocumentFormat", format);
+        view
+    }
+}

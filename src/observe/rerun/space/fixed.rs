@@ -1,0 +1,178 @@
+//! What of the 3-D view never changes: triangles, smooth bodies, the cut, legends, labels.
+
+use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
+
+use super::super::colour::{GREY, Ramp, WHITE, faded};
+use super::super::geometry::{number, ticks};
+use super::super::maps::GPA;
+use super::super::mesh::triangles;
+use super::super::stream::Stream;
+use super::{SPACE, Space, steel};
+use crate::observe::ObserveError;
+
+impl Space {
+    pub(super) fn log_static(&mut self, stream: &Stream) -> Result<(), ObserveError> {
+        let triangles = self.window.triangles();
+        let sheet = |name: &str, colour: [u8; 4]| {
+            let albedo = AlbedoFactor::from(Rgba32::from_unmultiplied_rgba(
+                colour[0], colour[1], colour[2], colour[3],
+            ));
+            let mesh = Mesh3D::update_fields()
+                .with_triangle_indices(triangles.iter().copied())
+                .with_albedo_factor(albedo);
+            stream.log_static(&format!("{SPACE}/{name}"), &mesh)
+        };
+        sheet("film_coloured_by_pressure", [255, 255, 255, 255])?;
+        sheet("body_1_surface", [200, 222, 245, 255])?;
+        sheet("body_2_surface", [250, 222, 190, 150])?;
+        self.log_smooth_bodies(stream)?;
+        self.log_cut(stream)?;
+        self.log_legends(stream)?;
+        self.log_labels(stream)
+    }
+
+    /// The sheets of smooth bodies never change.
+    fn log_smooth_bodies(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let bodies = [
+            (0, "body_1_surface", self.levels.body_1),
+            (1, "body_2_surface", self.levels.body_2),
+        ];
+        for (body, name, level) in bodies {
+            if !self.tops.rough[body] {
+                let n = self.window.nodes().len();
+                let sheet = self
+                    .window
+                    .sheet(&vec![level as f32; n], &vec![steel(1.0); n]);
+                stream.log_static(&format!("{SPACE}/{name}"), &sheet)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The cut plane: its mesh, its outline and its depths.
+    fn log_cut(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let Some(sheet) = &self.slice else {
+            return Ok(());
+        };
+        let g = self.geometry;
+        let level = self.levels.slice;
+        let positions = (0..sheet.rows.len()).flat_map(|row| {
+            let z = (level - sheet.rows.depth_mm(row)) as f32;
+            let xs = sheet.columns.iter().map(move |&i| g.x(i) as f32);
+            xs.map(move |x| [x, 0.0, z])
+        });
+        let mesh = Mesh3D::new(positions)
+            .with_triangle_indices(triangles(sheet.columns.len(), sheet.rows.len()));
+        let entity = format!("{SPACE}/effective_stress_slice");
+        stream.log_static(
+            &entity,
+            // Colours come with every frame: static ones would hide them.
+            &Mesh3D {
+                vertex_colors: None,
+                ..mesh
+            },
+        )?;
+        let (left, right) = sheet.edges(g);
+        let bottom = level - sheet.rows.depth_mm(sheet.rows.len() - 1);
+        let edge = [
+            [left, level],
+            [right, level],
+            [right, bottom],
+            [left, bottom],
+            [left, level],
+        ];
+        let outline = LineStrips3D::new([edge.map(|[x, z]| [x as f32, 0.0, z as f32])])
+            .with_radii([Radius::new_ui_points(0.75)])
+            .with_colors([faded(GREY, 255)]);
+        stream.log_static(&format!("{SPACE}/cut/outline"), &outline)?;
+        let mut depths = ticks(0.0, level - bottom, 3);
+        // The surface needs no number, and its place is taken by the arrow.
+        depths.retain(|&z| z > 0.0);
+        let labels = Points3D::new(
+            depths
+                .iter()
+                .map(|z| [(left - 0.1 * g.a) as f32, 0.0, (level - z) as f32]),
+        )
+        .with_radii([Radius::new_scene_units(0.0)])
+        .with_colors([Color::from(GREY)])
+        .with_labels(depths.iter().map(|&z| format!("{} mm", number(z))))
+        .with_show_labels(true);
+        stream.log_static(&format!("{SPACE}/cut/depths"), &labels)
+    }
+
+    /// Colour bars of pressure and stress at the right of the bodies.
+    fn log_legends(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let a = self.geometry.a;
+        let pressure = (Ramp::Inferno, self.tops.pressure_pa, "p, GPa");
+        self.log_legend(stream, "pressure", pressure, [-0.1 * a, 0.85 * a])?;
+        if let Some(top) = self.tops.effective_pa {
+            let stress = (Ramp::Magma, top, "σ_eff, GPa");
+            let bottom = self.levels.slice - 1.4 * a;
+            self.log_legend(
+                stream,
+                "effective_stress",
+                stress,
+                [bottom, bottom + 1.1 * a],
+            )?;
+        }
+        Ok(())
+    }
+
+    fn log_legend(
+        &self,
+        stream: &Stream,
+        name: &str,
+        (ramp, top_pa, title): (Ramp, f64, &str),
+        [low, high]: [f64; 2],
+    ) -> Result<(), ObserveError> {
+        const ROWS: usize = 33;
+        let a = self.geometry.a;
+        let (left, right) = (1.72 * a, 1.82 * a);
+        let share = |row: usize| row as f64 / (ROWS - 1) as f64;
+        let positions = (0..ROWS).flat_map(|row| {
+            let z = low + (high - low) * share(row);
+            [left, right].map(|x| [x as f32, 0.0, z as f32])
+        });
+        let colours = (0..ROWS).flat_map(|row| [ramp.colour(share(row) as f32, 1.0); 2]);
+        let mesh = Mesh3D::new(positions)
+            .with_triangle_indices(triangles(2, ROWS))
+            .with_vertex_colors(colours);
+        stream.log_static(&format!("{SPACE}/legend/{name}"), &mesh)?;
+        let top = top_pa * GPA.1;
+        let mut at = vec![[left, 0.0, high + 0.27 * a]];
+        let mut texts = vec![title.to_owned()];
+        for value in [0.0, 0.5 * top, top] {
+            at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
+            texts.push(number(value));
+        }
+        let labels = Points3D::new(at.iter().map(|at| at.map(|v| v as f32)))
+            .with_radii([Radius::new_scene_units(0.0)])
+            .with_colors([Color::from(WHITE)])
+            .with_labels(texts)
+            .with_show_labels(true);
+        stream.log_static(&format!("{SPACE}/legend/{name}/labels"), &labels)
+    }
+
+    /// What the sheets are, and how much their heights are exaggerated.
+    fn log_labels(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let g = self.geometry;
+        let right = 1.0 * g.a;
+        let factor = number(self.exaggeration);
+        let texts = [
+            (self.levels.body_2 + 0.2 * g.a, "body 2 (above)".to_owned()),
+            (
+                self.levels.body_2 + 0.48 * g.a,
+                format!("heights × {factor}; x, y and depth to scale"),
+            ),
+        ];
+        let labels = Points3D::new(texts.iter().enumerate().map(|(k, (z, _))| {
+            let x = if k == 0 { right } else { 0.0 };
+            [x as f32, (1.2 * g.b) as f32, *z as f32]
+        }))
+        .with_radii([Radius::new_scene_units(0.0)])
+        .with_colors([Color::from(WHITE)])
+        .with_labels(texts.iter().map(|(_, text)| text.as_str()))
+        .with_show_labels(true);
+        stream.log_static(&format!("{SPACE}/labels"), &labels)
+    }
+}
