@@ -1,22 +1,26 @@
 //! From the scene to what the closed-form estimate needs.
 
-use crate::physics::estimate::EstimateBasis;
+use crate::physics::estimate::{EstimateBasis, load_factor};
 use crate::physics::waviness::Waviness;
 use crate::scene::Surface;
 use crate::tui::app::Setup;
 
 /// The fixed part of the estimate for a scene.
 pub fn basis(setup: &Setup) -> EstimateBasis {
-    let life = setup.scene.life.clone().unwrap_or_default();
     EstimateBasis {
         crests_1_per_m: crests_per_m(&setup.scene.body_1.surface),
         crests_2_per_m: crests_per_m(&setup.scene.body_2.surface),
         load_n: setup.load_n,
         half_width_m: setup.half_width_m,
         p_hertz_pa: setup.p_hertz_pa,
-        stress_exponent: life.stress_exponent,
-        weibull_slope: life.weibull_slope,
     }
+}
+
+/// What a change of Hertz pressure by `ratio` does to life, by the scene's life model (or, where the
+/// scene computes no life, by the default one).
+pub fn life_at_pressure(setup: &Setup, ratio: f64) -> f64 {
+    let life = setup.scene.life.clone().unwrap_or_default();
+    load_factor(ratio, life.stress_exponent, life.weibull_slope)
 }
 
 /// Crests that a streamline along x meets per metre.

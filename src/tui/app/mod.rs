@@ -9,12 +9,12 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, OperatingPoint, load_factor};
+use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, OperatingPoint};
 use crate::run::Command;
 use crate::scene::Scene;
 use crate::sim::{Frame, Knob, LifeEstimate};
 use crate::tui::dial::{Dial, dials};
-use crate::tui::estimate::basis;
+use crate::tui::estimate::{basis, life_at_pressure};
 use crate::tui::lessons::TourState;
 use crate::tui::theme::Theme;
 use crate::tui::trace::Trace;
@@ -268,7 +268,7 @@ impl App {
     /// Relative life at a load, on the scale of the scene's own load.
     pub fn comparable(&self, life_relative: f64, p_hertz_pa: f64) -> f64 {
         let ratio = p_hertz_pa / self.setup.p_hertz_pa;
-        life_relative * load_factor(ratio, self.basis.stress_exponent, self.basis.weibull_slope)
+        life_relative * life_at_pressure(&self.setup, ratio)
     }
 
     /// Life now over life pinned.

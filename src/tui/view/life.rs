@@ -1,11 +1,12 @@
 //! Right: relative life, large, with its band, and the mechanisms that make it.
 
+mod mechanisms;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
-use crate::sim::LifeEstimate;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
@@ -47,7 +48,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     if roomy {
         rows.skip();
     }
-    mechanisms(app, &mut rows, buffer);
+    mechanisms::mechanisms(app, &mut rows, buffer);
     if roomy {
         rows.skip();
     }
@@ -273,101 +274,6 @@ fn scale(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
         &Line::styled("10", theme.style(Role::Dim)),
         buffer,
     );
-}
-
-/// The factors one under the other on one logarithmic scale: each bar begins where the one above
-/// ended, so that the last ends at the life.
-fn mechanisms(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
-    let (cycles, peaks, traction) = match (app.leading(), app.life()) {
-        (
-            Leading::Simulated,
-            Some(LifeEstimate {
-                cycle_factor,
-                peak_factor,
-                traction_factor,
-                ..
-            }),
-        ) => (Some(cycle_factor), Some(peak_factor), traction_factor),
-        _ => (
-            app.estimate.cycle_factor,
-            app.estimate.peak_factor,
-            app.estimate.traction_factor,
-        ),
-    };
-    let factors = [
-        ("cycles", cycles, Role::Cycles),
-        ("peaks", peaks, Role::Peaks),
-        ("traction", Some(traction), Role::Traction),
-    ];
-    let decades = waterfall_decades(factors.map(|(_, factor, _)| factor));
-    let mut from = 1.0;
-    for (name, factor, role) in factors {
-        let row = rows.take(1);
-        let to = from * factor.unwrap_or(1.0);
-        waterfall_value(app, row, (name, factor, role), buffer);
-        waterfall_bar(app, row, decades, [from, to], role, buffer);
-        from = to;
-    }
-}
-
-/// Whole decades that hold every end of a bar.
-fn waterfall_decades(factors: [Option<f64>; 3]) -> [f64; 2] {
-    let (mut decade, mut low, mut high) = (0.0, -1.0_f64, 0.0_f64);
-    for factor in factors.into_iter().flatten() {
-        decade += factor.max(1e-12).log10();
-        low = low.min(decade.floor());
-        high = high.max(decade.ceil());
-    }
-    [low, high]
-}
-
-fn waterfall_value(
-    app: &App,
-    row: Rect,
-    (name, factor, role): (&'static str, Option<f64>, Role),
-    buffer: &mut Buffer,
-) {
-    let theme = app.theme;
-    put(row, 0, &Line::styled(name, theme.style(role)), buffer);
-    let value = ascii_text(theme, &format!("×{}", sig_or_dash(factor, 2)));
-    let style = theme.style(Role::Strong);
-    put_right(row, 0, &Line::styled(value, style), buffer);
-}
-
-fn waterfall_bar(
-    app: &App,
-    row: Rect,
-    decades: [f64; 2],
-    [from, to]: [f64; 2],
-    role: Role,
-    buffer: &mut Buffer,
-) {
-    let theme = app.theme;
-    let (before, after) = (9, 7);
-    if row.is_empty() || row.width < before + after + 3 {
-        return;
-    }
-    let track = Rect {
-        x: row.x + before,
-        width: row.width - before - after,
-        ..row
-    };
-    let column = |value: f64| {
-        let part = (value.max(1e-300).log10() - decades[0]) / (decades[1] - decades[0]);
-        (part.clamp(0.0, 1.0) * f64::from(track.width - 1)).round() as u16
-    };
-    let (a, b) = (column(from), column(to));
-    for offset in 0..track.width {
-        let filled = offset >= a.min(b) && offset <= a.max(b);
-        let (symbol, role) = if filled {
-            (theme.pick("█", "#"), role)
-        } else {
-            (theme.pick("·", "."), Role::Border)
-        };
-        if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
-            cell.set_symbol(symbol).set_style(theme.style(role));
-        }
-    }
 }
 
 /// n by formula beside n counted, for both bodies.

@@ -3,6 +3,8 @@
 //! Lengths are drawn in half-widths, x/a along and y/b across, so that the Hertz ellipse is a
 //! circle. A cell holds two pixels (half blocks); without colour one character of more or less ink.
 
+mod motion;
+mod paint;
 mod raster;
 
 use ratatui::buffer::Buffer;
@@ -12,21 +14,14 @@ use ratatui::text::{Line, Span};
 use crate::sim::Frame;
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, Zoom};
-use crate::tui::theme::{Ramp, Role, Theme};
-use crate::tui::units::{Unit, sig, tick};
-use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
-use raster::{Raster, Window, rasterize};
+use crate::tui::theme::{Role, Theme};
+use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, title};
+use motion::motion;
+use paint::{color_bar, look, paint};
+use raster::{Window, rasterize};
 
 /// Columns of the colour bar with its numbers.
 const BAR: u16 = 8;
-
-/// What a map shows: scale, unit and colours.
-struct Look {
-    ramp: Ramp,
-    low: f64,
-    high: f64,
-    unit: Unit,
-}
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
@@ -191,106 +186,6 @@ fn image_area(window: &Window, picture: Rect) -> Rect {
     }
 }
 
-fn look(app: &App) -> Look {
-    let ranges = &app.ranges;
-    let (ramp, low, high, unit) = match app.map {
-        MapKind::Pressure | MapKind::Contact => {
-            (Ramp::Heat, 0.0, ranges.pressure_pa, app.units.pressure())
-        }
-        MapKind::Film => (Ramp::Depth, 0.0, ranges.film_m, app.units.film()),
-        MapKind::Roughness => (
-            Ramp::Diverging,
-            -ranges.height_m,
-            ranges.height_m,
-            app.units.height(),
-        ),
-        MapKind::Stress => (Ramp::Heat, 0.0, ranges.stress_pa, app.units.pressure()),
-    };
-    Look {
-        ramp,
-        low,
-        high: if high > low { high } else { low + 1.0 },
-        unit,
-    }
-}
-
-impl Look {
-    /// Place of a value on the colour map. Deep film is dark, so that where it collapses shines.
-    fn part(&self, value: f64) -> f32 {
-        let part = ((value - self.low) / (self.high - self.low)) as f32;
-        match self.ramp {
-            Ramp::Depth => 1.0 - part,
-            Ramp::Heat | Ramp::Diverging => part,
-        }
-    }
-}
-
-fn paint(
-    theme: Theme,
-    raster: &Raster,
-    look: &Look,
-    window: &Window,
-    kind: MapKind,
-    image: Rect,
-    buffer: &mut Buffer,
-) {
-    let pixel = |column: usize, row: usize| {
-        let t = look.part(f64::from(raster.at(column, row)));
-        let spot = kind == MapKind::Contact && raster.spot(column, row);
-        let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
-        if spot {
-            theme.rgb([120, 214, 255])
-        } else if kind == MapKind::Contact {
-            theme.map_color(look.ramp, 0.45 * t)
-        } else if ring {
-            theme.map_color_lit(look.ramp, t, 0.35)
-        } else {
-            theme.map_color(look.ramp, t)
-        }
-    };
-    for row in 0..usize::from(image.height) {
-        for column in 0..usize::from(image.width) {
-            let at = (image.x + column as u16, image.y + row as u16);
-            let Some(cell) = buffer.cell_mut(at) else {
-                continue;
-            };
-            if theme.paints() {
-                cell.set_symbol("▀")
-                    .set_fg(pixel(column, 2 * row))
-                    .set_bg(pixel(column, 2 * row + 1));
-            } else {
-                let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
-                cell.set_symbol(ink(look, raster, kind, ring, column, row));
-            }
-        }
-    }
-}
-
-fn ink(
-    look: &Look,
-    raster: &Raster,
-    kind: MapKind,
-    ring: bool,
-    column: usize,
-    row: usize,
-) -> &'static str {
-    let t = look.part(f64::from(raster.at(column, row)));
-    match kind {
-        MapKind::Contact if raster.spot(column, row) => "#",
-        MapKind::Contact if ring => "o",
-        MapKind::Contact => Theme::map_ink(0.3 * t),
-        _ => Theme::map_ink(t),
-    }
-}
-
-/// Whether the Hertz ellipse passes through a pixel.
-fn on_ellipse(window: &Window, raster: &Raster, column: usize, row: usize) -> bool {
-    let x = window.x_at((column as f64 + 0.5) / raster.columns as f64);
-    let y = window.y_at((row as f64 + 0.5) / raster.rows as f64);
-    let pixel = (window.x[1] - window.x[0]) / raster.columns as f64;
-    (x.hypot(y) - 1.0).abs() < 0.5 * pixel
-}
-
 /// Where the material point is: on the centre line, or at its depth.
 fn marker(app: &App, frame: &Frame, window: &Window, image: Rect, buffer: &mut Buffer) {
     let Some(point) = &frame.material_point else {
@@ -370,137 +265,5 @@ fn probe(
             ..picture
         };
         put(row, 0, &line, buffer);
-    }
-}
-
-fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut Buffer) {
-    if bar.width < 4 || bar.height < 3 {
-        return;
-    }
-    let pixels = f64::from(2 * bar.height - 1);
-    for row in 0..bar.height {
-        let part = |half: u16| {
-            let down = f64::from(2 * row + half) / pixels;
-            look.part(look.high - (look.high - look.low) * down)
-        };
-        if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
-            if theme.paints() {
-                let dim = if kind == MapKind::Contact { 0.45 } else { 1.0 };
-                cell.set_symbol("▀")
-                    .set_fg(theme.map_color(look.ramp, dim * part(0)))
-                    .set_bg(theme.map_color(look.ramp, dim * part(1)));
-            } else {
-                cell.set_symbol(Theme::map_ink(part(0)));
-            }
-        }
-    }
-    let text = Rect {
-        x: bar.x + 3,
-        width: bar.width - 3,
-        ..bar
-    };
-    let dim = theme.style(Role::Dim);
-    let number = |value: f64| Line::styled(tick(look.unit.of(value)), dim);
-    put(text, 0, &number(look.high), buffer);
-    put(
-        text,
-        1,
-        &Line::styled(ascii_text(theme, look.unit.name), dim),
-        buffer,
-    );
-    if bar.height >= 7 {
-        put(
-            text,
-            bar.height / 2,
-            &number(0.5 * (look.low + look.high)),
-            buffer,
-        );
-    }
-    put(text, bar.height - 1, &number(look.low), buffer);
-    if kind == MapKind::Contact && bar.height >= 9 {
-        let spot = Line::from(vec![
-            Span::styled(theme.pick("█", "#"), theme.style(Role::Film)),
-            Span::styled("spot", dim),
-        ]);
-        put(text, bar.height - 3, &spot, buffer);
-    }
-}
-
-/// Both bodies' motion: chevrons that travel as far as the body does, in the picture's scale.
-fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, buffer: &mut Buffer) {
-    let metrics = &frame.metrics;
-    let mean = metrics.entrainment_m_s;
-    let slide = 0.5 * metrics.slide_roll;
-    let bodies = [
-        ("2", mean * (1.0 + slide), Role::Body2),
-        ("1", mean * (1.0 - slide), Role::Body1),
-    ];
-    let last = inner.height.saturating_sub(1);
-    if areas.density == Density::Full {
-        for ((name, speed, role), row) in bodies.into_iter().zip([0, last]) {
-            let row = Rect {
-                y: inner.y + row,
-                height: 1,
-                ..inner
-            };
-            strip(app, frame, name, speed, role, row, buffer);
-        }
-        return;
-    }
-    let half = inner.width / 2;
-    for ((name, speed, role), x) in bodies.into_iter().zip([0, half + 1]) {
-        let row = Rect {
-            x: inner.x + x,
-            y: inner.y + last,
-            width: half.saturating_sub(1),
-            height: 1,
-        };
-        strip(app, frame, name, speed, role, row, buffer);
-    }
-}
-
-/// Columns from one chevron to the next.
-const PITCH: i64 = 4;
-
-fn strip(
-    app: &App,
-    frame: &Frame,
-    name: &str,
-    speed_m_s: f64,
-    role: Role,
-    row: Rect,
-    buffer: &mut Buffer,
-) {
-    let theme = app.theme;
-    let style = theme.style(role);
-    let body = if row.width >= 30 { "body " } else { "" };
-    let label = Line::styled(format!("{body}{name} "), style);
-    let unit = app.units.speed();
-    let value = if row.width >= 30 {
-        format!(" {}", unit.show(speed_m_s, 3))
-    } else {
-        format!(" {}", sig(unit.of(speed_m_s), 3))
-    };
-    let value = Line::styled(value, style);
-    let (before, after) = (label.width() as u16, value.width() as u16);
-    put(row, 0, &label, buffer);
-    put_right(row, 0, &value, buffer);
-    let columns = row.width.saturating_sub(before + after);
-    // One column is about a tenth of a half-width: slow enough to follow, and both bodies alike.
-    let travelled = speed_m_s * frame.time_s / (0.1 * frame.a_m.max(1e-12));
-    let shift = (travelled.rem_euclid(PITCH as f64)) as i64;
-    let arrow = if speed_m_s > 0.0 {
-        theme.pick("›", ">")
-    } else if speed_m_s < 0.0 {
-        theme.pick("‹", "<")
-    } else {
-        theme.pick("·", ".")
-    };
-    for column in 0..columns {
-        if (i64::from(column) - shift).rem_euclid(PITCH) == 0
-            && let Some(cell) = buffer.cell_mut((row.x + before + column, row.y))
-        {
-            cell.set_symbol(arrow).set_style(style);
-        }
     }
 }

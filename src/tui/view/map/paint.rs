@@ -1,0 +1,172 @@
+//! From values to colours or characters, and the bar that says which is which.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use super::raster::{Raster, Window};
+use crate::tui::app::{App, MapKind};
+use crate::tui::theme::{Ramp, Role, Theme};
+use crate::tui::units::{Unit, tick};
+use crate::tui::view::{ascii_text, put};
+
+/// What a map shows: scale, unit and colours.
+pub(super) struct Look {
+    ramp: Ramp,
+    low: f64,
+    high: f64,
+    unit: Unit,
+}
+
+pub(super) fn look(app: &App) -> Look {
+    let ranges = &app.ranges;
+    let (ramp, low, high, unit) = match app.map {
+        MapKind::Pressure | MapKind::Contact => {
+            (Ramp::Heat, 0.0, ranges.pressure_pa, app.units.pressure())
+        }
+        MapKind::Film => (Ramp::Depth, 0.0, ranges.film_m, app.units.film()),
+        MapKind::Roughness => (
+            Ramp::Diverging,
+            -ranges.height_m,
+            ranges.height_m,
+            app.units.height(),
+        ),
+        MapKind::Stress => (Ramp::Heat, 0.0, ranges.stress_pa, app.units.pressure()),
+    };
+    Look {
+        ramp,
+        low,
+        high: if high > low { high } else { low + 1.0 },
+        unit,
+    }
+}
+
+impl Look {
+    /// Place of a value on the colour map. Deep film is dark, so that where it collapses shines.
+    fn part(&self, value: f64) -> f32 {
+        let part = ((value - self.low) / (self.high - self.low)) as f32;
+        match self.ramp {
+            Ramp::Depth => 1.0 - part,
+            Ramp::Heat | Ramp::Diverging => part,
+        }
+    }
+}
+
+pub(super) fn paint(
+    theme: Theme,
+    raster: &Raster,
+    look: &Look,
+    window: &Window,
+    kind: MapKind,
+    image: Rect,
+    buffer: &mut Buffer,
+) {
+    let pixel = |column: usize, row: usize| {
+        let t = look.part(f64::from(raster.at(column, row)));
+        let spot = kind == MapKind::Contact && raster.spot(column, row);
+        let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
+        if spot {
+            theme.rgb([120, 214, 255])
+        } else if kind == MapKind::Contact {
+            theme.map_color(look.ramp, 0.45 * t)
+        } else if ring {
+            theme.map_color_lit(look.ramp, t, 0.35)
+        } else {
+            theme.map_color(look.ramp, t)
+        }
+    };
+    for row in 0..usize::from(image.height) {
+        for column in 0..usize::from(image.width) {
+            let at = (image.x + column as u16, image.y + row as u16);
+            let Some(cell) = buffer.cell_mut(at) else {
+                continue;
+            };
+            if theme.paints() {
+                cell.set_symbol("▀")
+                    .set_fg(pixel(column, 2 * row))
+                    .set_bg(pixel(column, 2 * row + 1));
+            } else {
+                let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
+                cell.set_symbol(ink(look, raster, kind, ring, column, row));
+            }
+        }
+    }
+}
+
+fn ink(
+    look: &Look,
+    raster: &Raster,
+    kind: MapKind,
+    ring: bool,
+    column: usize,
+    row: usize,
+) -> &'static str {
+    let t = look.part(f64::from(raster.at(column, row)));
+    match kind {
+        MapKind::Contact if raster.spot(column, row) => "#",
+        MapKind::Contact if ring => "o",
+        MapKind::Contact => Theme::map_ink(0.3 * t),
+        _ => Theme::map_ink(t),
+    }
+}
+
+/// Whether the Hertz ellipse passes through a pixel.
+fn on_ellipse(window: &Window, raster: &Raster, column: usize, row: usize) -> bool {
+    let x = window.x_at((column as f64 + 0.5) / raster.columns as f64);
+    let y = window.y_at((row as f64 + 0.5) / raster.rows as f64);
+    let pixel = (window.x[1] - window.x[0]) / raster.columns as f64;
+    (x.hypot(y) - 1.0).abs() < 0.5 * pixel
+}
+
+pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut Buffer) {
+    if bar.width < 4 || bar.height < 3 {
+        return;
+    }
+    let pixels = f64::from(2 * bar.height - 1);
+    for row in 0..bar.height {
+        let part = |half: u16| {
+            let down = f64::from(2 * row + half) / pixels;
+            look.part(look.high - (look.high - look.low) * down)
+        };
+        if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
+            if theme.paints() {
+                let dim = if kind == MapKind::Contact { 0.45 } else { 1.0 };
+                cell.set_symbol("▀")
+                    .set_fg(theme.map_color(look.ramp, dim * part(0)))
+                    .set_bg(theme.map_color(look.ramp, dim * part(1)));
+            } else {
+                cell.set_symbol(Theme::map_ink(part(0)));
+            }
+        }
+    }
+    let text = Rect {
+        x: bar.x + 3,
+        width: bar.width - 3,
+        ..bar
+    };
+    let dim = theme.style(Role::Dim);
+    let number = |value: f64| Line::styled(tick(look.unit.of(value)), dim);
+    put(text, 0, &number(look.high), buffer);
+    put(
+        text,
+        1,
+        &Line::styled(ascii_text(theme, look.unit.name), dim),
+        buffer,
+    );
+    if bar.height >= 7 {
+        put(
+            text,
+            bar.height / 2,
+            &number(0.5 * (look.low + look.high)),
+            buffer,
+        );
+    }
+    put(text, bar.height - 1, &number(look.low), buffer);
+    if kind == MapKind::Contact && bar.height >= 9 {
+        let spot = Line::from(vec![
+            Span::styled(theme.pick("█", "#"), theme.style(Role::Film)),
+            Span::styled("spot", dim),
+        ]);
+        put(text, bar.height - 3, &spot, buffer);
+    }
+}
