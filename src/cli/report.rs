@@ -44,7 +44,14 @@ fn run_line(outcome: &Outcome) -> String {
         (_, 0) => "converged".to_owned(),
         (_, n) => format!("{n} steps did not converge"),
     };
-    format!("{how}; {} steps in {:.1} s", outcome.steps, outcome.wall_s)
+    let pace = outcome
+        .steps_per_s
+        .map(|pace| format!(", {pace:.1} steps a second after the start-up"))
+        .unwrap_or_default();
+    format!(
+        "{how}; {} steps in {:.1} s{pace}",
+        outcome.steps, outcome.wall_s
+    )
 }
 
 fn push_results(text: &mut String, s: &Summary) {
@@ -114,6 +121,10 @@ fn push_life(text: &mut String, s: &Summary) {
         _ => String::new(),
     };
     line(text, "relative life", &format!("{life:.4}{band}{factors}"));
+    if let Some(ratio) = s.survival_ratio.filter(|ratio| *ratio != 1.0) {
+        let what = format!("at the scene's survival every life is {ratio:.3} of that at 50 %");
+        line(text, "", &what);
+    }
     line(
         text,
         "",

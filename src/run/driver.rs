@@ -42,6 +42,8 @@ pub(super) struct Driver {
     unconverged: Vec<Unconverged>,
     n_unconverged: u64,
     output_errors: Vec<ObserveError>,
+    /// When the first step of the passage was done.
+    passage_began: Option<Instant>,
 }
 
 impl Driver {
@@ -68,6 +70,7 @@ impl Driver {
             unconverged: Vec::new(),
             n_unconverged: 0,
             output_errors: Vec::new(),
+            passage_began: None,
         }
     }
 
@@ -86,6 +89,7 @@ impl Driver {
         }
         let mut summary = None;
         let mut steps = 0;
+        let mut steps_per_s = None;
         let end = if self.must_end_for_outputs() {
             End::OutputFailed
         } else {
@@ -94,6 +98,10 @@ impl Driver {
                 Ok(mut sim) => {
                     let end = self.drive(&mut sim);
                     steps = sim.passage_steps();
+                    steps_per_s = self
+                        .passage_began
+                        .filter(|_| steps > 1)
+                        .map(|began| (steps - 1) as f64 / began.elapsed().as_secs_f64().max(1e-9));
                     summary = (steps > 0).then(|| sim.summary());
                     end
                 }
@@ -105,6 +113,7 @@ impl Driver {
         if let Some(summary) = &mut summary {
             name.clone_into(&mut summary.scene);
             summary.wall_s = wall_s;
+            summary.steps_per_s = steps_per_s;
             summary.steps = steps;
             summary.steps_not_converged = self.n_unconverged;
             summary.converged = self.n_unconverged == 0 && !matches!(end, End::Stalled(_));
@@ -119,6 +128,7 @@ impl Driver {
             reports,
             output_errors: self.output_errors,
             wall_s,
+            steps_per_s,
         }
     }
 
@@ -230,7 +240,8 @@ impl Driver {
 
     fn judge_step<S: Stepper>(&mut self, sim: &S) {
         let metrics = sim.metrics();
-        if metrics.converged || sim.stage() == Stage::StartUp {
+        // A start-up that did not converge is told too: what follows stands on it.
+        if metrics.converged {
             return;
         }
         let residual = metrics.residual;
@@ -249,6 +260,7 @@ impl Driver {
     fn hand_out<S: Stepper>(&mut self, sim: &S) {
         let frame = self.pool.fill(|frame| sim.fill(frame));
         if sim.stage() == Stage::Passage {
+            self.passage_began.get_or_insert_with(Instant::now);
             for index in 0..self.watchers.len() {
                 let written = self.watchers[index].frame(&frame);
                 self.note_output(written);

@@ -62,6 +62,8 @@ pub struct Outcome {
     pub output_errors: Vec<ObserveError>,
     /// Time taken, s.
     pub wall_s: f64,
+    /// Steps a second in the passage, outputs included; `None` with fewer than two steps.
+    pub steps_per_s: Option<f64>,
 }
 
 impl Outcome {

@@ -98,6 +98,7 @@ pub(super) fn contacts(plan: &Plan, u_m_s: f64, s: f64) -> [Option<f64>; 2] {
 /// The life meter, once there is a reference.
 pub(super) struct LifeStage {
     law: LifeLaw,
+    survival: f64,
     period: f64,
     capacity: usize,
     ln_reference: f64,
@@ -105,10 +106,11 @@ pub(super) struct LifeStage {
 }
 
 impl LifeStage {
-    /// A meter over `period` steps.
-    pub(super) fn new(law: LifeLaw, period: f64, capacity: usize) -> Self {
+    /// A meter over `period` steps, for lives at probability `survival`.
+    pub(super) fn new(law: LifeLaw, survival: f64, period: f64, capacity: usize) -> Self {
         Self {
             law,
+            survival,
             period,
             capacity,
             ln_reference: f64::NEG_INFINITY,
@@ -119,6 +121,12 @@ impl LifeStage {
     /// m = c e.
     pub(super) fn exponent(&self) -> f64 {
         self.law.integral_exponent()
+    }
+
+    /// Life at the scene's probability of survival over that at 50 %. The relative life is the same at
+    /// any one probability.
+    pub(super) fn survival_ratio(&self) -> f64 {
+        self.law.survival_ratio(self.survival, 0.5)
     }
 
     /// Takes the reference's integral.

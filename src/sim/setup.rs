@@ -79,7 +79,7 @@ impl Simulation {
                 stress_exponent: life.stress_exponent,
                 weibull_slope: life.weibull_slope,
             };
-            LifeStage::new(law, steps, phases)
+            LifeStage::new(law, life.survival, steps, phases)
         });
         let counting = scene.stress.as_ref().map(|_| {
             let depths = stress.as_ref().map_or(&[][..], |stress| stress.depths());

@@ -19,6 +19,8 @@ pub struct Summary {
     pub steps_not_converged: u64,
     /// Time taken, s.
     pub wall_s: f64,
+    /// Steps a second in the passage, outputs included.
+    pub steps_per_s: Option<f64>,
     /// Hertz half-width along x, m.
     pub a_m: f64,
     /// Maximum Hertz pressure, Pa.
@@ -65,6 +67,8 @@ pub struct Summary {
     pub life_relative_low: Option<f64>,
     /// Upper end of its band.
     pub life_relative_high: Option<f64>,
+    /// Life at the scene's probability of survival over that at 50 %.
+    pub survival_ratio: Option<f64>,
     /// Greatest effective stress, Pa.
     pub sigma_eff_max_pa: Option<f64>,
     /// Its depth, m.

@@ -56,6 +56,7 @@ pub(super) fn summary(
         steps: sim.passage_steps(),
         steps_not_converged: totals.not_converged,
         wall_s: 0.0,
+        steps_per_s: None,
         a_m: sim.plan.hertz.a_m,
         p_hertz_pa: sim.plan.hertz.p_max_pa,
         h_central_m: totals.mean(0),
@@ -79,6 +80,10 @@ pub(super) fn summary(
         life_relative: life.map(|l| l.life_relative),
         life_relative_low: life.map(|l| l.life_relative_low),
         life_relative_high: life.map(|l| l.life_relative_high),
+        survival_ratio: sim
+            .life
+            .as_ref()
+            .map(super::fatigue_stage::LifeStage::survival_ratio),
         sigma_eff_max_pa: m.sigma_eff_max_pa,
         sigma_eff_max_depth_m: m.sigma_eff_max_depth_m,
         sigma_eff_max_x_m: m.sigma_eff_max_x_m,
