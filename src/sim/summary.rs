@@ -69,7 +69,7 @@ pub struct Summary {
     pub life_relative_high: Option<f64>,
     /// Life at the scene's probability of survival over that at 50 %.
     pub survival_ratio: Option<f64>,
-    /// Greatest effective stress, Pa.
+    /// Greatest effective stress of the last passage, Pa.
     pub sigma_eff_max_pa: Option<f64>,
     /// Its depth, m.
     pub sigma_eff_max_depth_m: Option<f64>,

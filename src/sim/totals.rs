@@ -8,6 +8,8 @@ use super::{LifeEstimate, Metrics, Simulation, Stats, Summary};
 #[derive(Debug, Clone, Default)]
 pub(super) struct Totals {
     recent: VecDeque<[f64; 8]>,
+    /// Greatest effective stress of each step: value, depth, x.
+    stress: VecDeque<[f64; 3]>,
     not_converged: u64,
 }
 
@@ -16,6 +18,7 @@ impl Totals {
     pub(super) fn push(&mut self, m: &Metrics, most: u64) {
         if self.recent.capacity() == 0 {
             self.recent.reserve_exact(most.max(1) as usize + 1);
+            self.stress.reserve_exact(most.max(1) as usize + 1);
         }
         while self.recent.len() >= most.max(1) as usize {
             self.recent.pop_front();
@@ -30,11 +33,26 @@ impl Totals {
             m.mass_error,
             m.load_n,
         ]);
+        if let (Some(value), Some(depth), Some(x)) = (
+            m.sigma_eff_max_pa,
+            m.sigma_eff_max_depth_m,
+            m.sigma_eff_max_x_m,
+        ) {
+            while self.stress.len() >= most.max(1) as usize {
+                self.stress.pop_front();
+            }
+            self.stress.push_back([value, depth, x]);
+        }
         self.not_converged += u64::from(!m.converged);
     }
 
     fn mean(&self, k: usize) -> f64 {
         self.recent.iter().map(|row| row[k]).sum::<f64>() / self.recent.len().max(1) as f64
+    }
+
+    fn greatest_stress(&self) -> Option<[f64; 3]> {
+        let by_value = |a: &&[f64; 3], b: &&[f64; 3]| a[0].total_cmp(&b[0]);
+        self.stress.iter().max_by(by_value).copied()
     }
 
     fn greatest(&self, k: usize) -> f64 {
@@ -50,6 +68,7 @@ pub(super) fn summary(
     counters: Stats,
 ) -> Summary {
     let m = sim.metrics();
+    let stress = totals.greatest_stress();
     Summary {
         scene: String::new(),
         converged: totals.not_converged == 0,
@@ -84,9 +103,9 @@ pub(super) fn summary(
             .life
             .as_ref()
             .map(super::fatigue_stage::LifeStage::survival_ratio),
-        sigma_eff_max_pa: m.sigma_eff_max_pa,
-        sigma_eff_max_depth_m: m.sigma_eff_max_depth_m,
-        sigma_eff_max_x_m: m.sigma_eff_max_x_m,
+        sigma_eff_max_pa: stress.map(|s| s[0]),
+        sigma_eff_max_depth_m: stress.map(|s| s[1]),
+        sigma_eff_max_x_m: stress.map(|s| s[2]),
         counters,
     }
 }
