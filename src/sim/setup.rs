@@ -1,6 +1,6 @@
 //! Making a simulation: everything is allocated here.
 
-use rayon::ThreadPoolBuilder;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::door::Door;
 use super::drive::Drive;
@@ -14,7 +14,7 @@ use super::{Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
-use crate::scene::{Cavitation, Scene};
+use crate::scene::{Cavitation, Scene, Surface};
 use crate::solve::march::{Flow, March, Shape};
 use crate::solve::newton::Tolerance;
 use crate::solve::traction::{FilmShear, TractionLaw};
@@ -28,22 +28,9 @@ impl Simulation {
     /// # Errors
     /// [`SimError`] when the workers cannot be started or the stress engine refuses the plan.
     pub fn new(scene: &Scene, plan: Plan, threads: usize) -> Result<Self, SimError> {
-        let pool = ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|i| format!("asperity-{i}"))
-            .build()
-            .map_err(|error| SimError::Threads {
-                threads,
-                reason: error.to_string(),
-            })?;
+        let pool = thread_pool(threads)?;
         let door = Door::new(scene);
-        let flow = scene
-            .lubricant
-            .as_ref()
-            .map_or(Flow::Dry, |oil| match oil.cavitation {
-                Cavitation::Reynolds => Flow::Film,
-                Cavitation::Jfo => Flow::MassConserving,
-            });
+        let flow = flow_of(scene);
         let shape = Shape {
             kappa: door.kappa,
             curvature_y: door.curvature_y,
@@ -58,29 +45,8 @@ impl Simulation {
         let nodes = scene.time.step_nodes;
         let march = pool.install(|| March::from_hertz(grid, &shape, film, nodes, flow));
         let fine = grid_of(&plan, plan.domain.nodes, door.b_over_a);
-        let stress = match &plan.stress {
-            Some(stress) => Some(
-                pool.install(|| {
-                    let depths = (stress.depths, stress.depth_max_m / door.a_m);
-                    let measure = scene
-                        .stress
-                        .as_ref()
-                        .map_or(crate::scene::StressMeasure::VonMises, |s| s.measure);
-                    StressStage::new(&fine, scene.body_1.poisson, depths, measure)
-                })
-                .map_err(|error| SimError::Stress(error.to_string()))?,
-            ),
-            None => None,
-        };
-        let life = scene.life.as_ref().zip(plan.life).map(|(life, life_plan)| {
-            let steps = plan.steps_per_passage.max(1) as f64;
-            let phases = life_plan.phases_per_passage.max(1) as usize + 1;
-            let law = LifeLaw {
-                stress_exponent: life.stress_exponent,
-                weibull_slope: life.weibull_slope,
-            };
-            LifeStage::new(law, life.survival, steps, phases)
-        });
+        let stress = pool.install(|| stress_stage(scene, &plan, &fine, &door))?;
+        let life = life_stage(scene, &plan);
         let counting = scene.stress.as_ref().map(|_| {
             let depths = stress.as_ref().map_or(&[][..], |stress| stress.depths());
             let exponent = scene.life.as_ref().map_or(9.0, |life| life.stress_exponent);
@@ -91,30 +57,14 @@ impl Simulation {
         for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
             drive.jump(knob, 0.0);
         }
-        let tolerance = Tolerance {
-            pressure: scene.numerics.tolerance,
-            mass: if flow == Flow::Dry {
-                f64::INFINITY
-            } else {
-                0.1 * scene.numerics.tolerance
-            },
-            load: 1e-5,
-            max_iterations: scene.numerics.max_iterations,
-        };
+        let tolerance = tolerance_of(scene, flow);
         let terrain = Terrain::new(&fine, scene.surfaces(), door.a_m);
         let law = traction_law(scene, &door);
         let mut motion = Motion::new(nodes);
         motion.shear_rate = scene.lubricant.as_ref().map_or(0.0, |oil| {
             oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
         });
-        let composite = [0, 1].map(|body| {
-            let surface = scene.surfaces()[body];
-            if surface.amplitude_m() > 0.0 {
-                surface.rq_m() / surface.amplitude_m()
-            } else {
-                0.0
-            }
-        });
+        let composite = scene.surfaces().map(rms_share);
         let mut this = Self {
             traction: vec![0.0; fine.len()],
             counting,
@@ -150,6 +100,74 @@ impl Simulation {
         this.start_up_steps.1 = this.all_start_up_steps(first);
         this.publish(&Attempted::default());
         Ok(this)
+    }
+}
+
+fn thread_pool(threads: usize) -> Result<ThreadPool, SimError> {
+    ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .thread_name(|i| format!("asperity-{i}"))
+        .build()
+        .map_err(|error| SimError::Threads {
+            threads,
+            reason: error.to_string(),
+        })
+}
+
+fn flow_of(scene: &Scene) -> Flow {
+    let oil = scene.lubricant.as_ref();
+    oil.map_or(Flow::Dry, |oil| match oil.cavitation {
+        Cavitation::Reynolds => Flow::Film,
+        Cavitation::Jfo => Flow::MassConserving,
+    })
+}
+
+fn tolerance_of(scene: &Scene, flow: Flow) -> Tolerance {
+    Tolerance {
+        pressure: scene.numerics.tolerance,
+        // A dry contact has no mass to balance.
+        mass: if flow == Flow::Dry {
+            f64::INFINITY
+        } else {
+            0.1 * scene.numerics.tolerance
+        },
+        load: 1e-5,
+        max_iterations: scene.numerics.max_iterations,
+    }
+}
+
+fn stress_stage(
+    scene: &Scene,
+    plan: &Plan,
+    grid: &Grid,
+    door: &Door,
+) -> Result<Option<StressStage>, SimError> {
+    let Some((asked, planned)) = scene.stress.as_ref().zip(plan.stress.as_ref()) else {
+        return Ok(None);
+    };
+    let depths = (planned.depths, planned.depth_max_m / door.a_m);
+    StressStage::new(grid, scene.body_1.poisson, depths, asked.measure)
+        .map(Some)
+        .map_err(|error| SimError::Stress(error.to_string()))
+}
+
+fn life_stage(scene: &Scene, plan: &Plan) -> Option<LifeStage> {
+    let (life, life_plan) = scene.life.as_ref().zip(plan.life)?;
+    let steps = plan.steps_per_passage.max(1) as f64;
+    let phases = life_plan.phases_per_passage.max(1) as usize + 1;
+    let law = LifeLaw {
+        stress_exponent: life.stress_exponent,
+        weibull_slope: life.weibull_slope,
+    };
+    Some(LifeStage::new(law, life.survival, steps, phases))
+}
+
+/// Root-mean-square height over amplitude; 0 for a surface without height.
+fn rms_share(surface: &Surface) -> f64 {
+    if surface.amplitude_m() > 0.0 {
+        surface.rq_m() / surface.amplitude_m()
+    } else {
+        0.0
     }
 }
 

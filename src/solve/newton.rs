@@ -262,23 +262,13 @@ impl Newton {
         }
     }
 
-    /// Linearises, solves, leaves the step in `v`; returns the change of H0.
-    fn linear_step(
-        &mut self,
-        problem: &Problem,
-        iterate: &Iterate,
-        load: f64,
-        report: &mut NewtonReport,
-    ) -> f64 {
-        let grid = problem.grid;
-        let (p, f, d) = (
-            &*iterate.p,
-            &self.reynolds.residual,
-            &self.reynolds.diagonal,
-        );
+    /// Marks the active nodes, P − F/D > 0, and notes v = −P of the others; whether any of them carries
+    /// pressure.
+    fn split(&mut self, grid: &Grid, p: &[f64]) -> bool {
+        let (f, d) = (&self.reynolds.residual, &self.reynolds.diagonal);
         self.active.fill(false);
-        let mut any_fixed = false;
         self.fixed.fill(0.0);
+        let mut any_fixed = false;
         for j in grid.interior_rows() {
             for n in j * grid.nx + 1..(j + 1) * grid.nx - 1 {
                 self.active[n] = p[n] - f[n] / d[n] > 0.0;
@@ -288,10 +278,23 @@ impl Newton {
                 }
             }
         }
+        any_fixed
+    }
+
+    /// Linearises, solves, leaves the step in `v`; returns the change of H0.
+    fn linear_step(
+        &mut self,
+        problem: &Problem,
+        iterate: &Iterate,
+        load: f64,
+        report: &mut NewtonReport,
+    ) -> f64 {
+        let grid = problem.grid;
+        let any_fixed = self.split(grid, iterate.p);
         self.reynolds.linearise(
             grid,
             problem.medium.lambda,
-            p,
+            iterate.p,
             iterate.h,
             problem.s,
             &self.active,
