@@ -134,7 +134,14 @@ fn other_materials_and_mass_conservation_converge() {
 fn a_dry_rough_scene_converges_and_slides_with_boundary_friction() {
     let sets = ["grid.nodes=65", "lubricant=none", "life=none"];
     let mut sim = simulation("demonstration", &sets, 2);
-    run(&mut sim, 8, |frame| assert!(frame.metrics.converged));
+    run(&mut sim, 8, |frame| {
+        assert!(frame.metrics.converged);
+        let deepest = frame.film_m.iter().copied().fold(f32::INFINITY, f32::min);
+        assert!(
+            deepest > -1e-12,
+            "less than a picometre of overlap: {deepest}"
+        );
+    });
     let summary = sim.summary();
     println!("dry: friction {:.4}", summary.friction_coefficient);
     assert!((summary.friction_coefficient - 0.10).abs() < 1e-9);

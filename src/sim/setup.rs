@@ -124,8 +124,13 @@ fn flow_of(scene: &Scene) -> Flow {
 
 fn tolerance_of(scene: &Scene, flow: Flow) -> Tolerance {
     Tolerance {
-        pressure: scene.numerics.tolerance,
-        // A dry contact has no mass to balance.
+        // A dry contact has no mass to balance; its gap is judged by a tighter change of pressure instead,
+        // which costs one iteration and leaves less than a picometre of overlap.
+        pressure: if flow == Flow::Dry {
+            1e-3 * scene.numerics.tolerance
+        } else {
+            scene.numerics.tolerance
+        },
         mass: if flow == Flow::Dry {
             f64::INFINITY
         } else {
