@@ -107,8 +107,9 @@ fn waviness_in_pure_rolling() {
 
 #[test]
 fn waviness_on_the_slower_body() {
-    // u1 = 0.5 u_m: bound 0.045, convected wave of 1.0 a 0.615; tolerance 5 % (the bound part is small:
-    // 0.02 of the initial amplitude, which is 3 % of the whole).
+    // u1 = 0.5 u_m: convected wave of 1.0 a 0.615, tolerance 5 %. The bound part, 0.045, is found at 0.054
+    // on both grids and in any window of the fit: 0.9 % of the initial amplitude off, but 20 % of itself. The
+    // cause is not known; its bound here is 2 % of the initial amplitude, so that a change shows.
     let case = Case::moes(200.0, 10.0, Fluid::RoelandsDowsonHigginson, DOMAIN);
     let k = TAU / 0.5;
     let waves = |nodes| {
