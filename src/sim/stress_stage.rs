@@ -27,7 +27,8 @@ impl StressStage {
         use crate::solve::stress::Symmetry as Rows;
         let symmetry = match grid.symmetry {
             Symmetry::MirrorY => Rows::MirrorY,
-            Symmetry::General => Rows::General,
+            // The engine refuses a single row: a line has a stress of its own.
+            Symmetry::General | Symmetry::Line => Rows::General,
         };
         let mut spec = StressSpec::new(
             (grid.nx, grid.ny),
