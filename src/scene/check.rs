@@ -74,11 +74,15 @@ fn check_presence(section: &Section, root: &Table) -> Result<(), SceneError> {
             Ok(())
         };
     };
-    let is_smooth = table.get("kind").and_then(Value::as_str) == Some("smooth");
+    let kind = table.get("kind").and_then(Value::as_str);
+    let is_smooth = kind == Some("smooth");
+    let of_a_point =
+        |key: &Key| section.path == "contact" && key.name == "ry_m" && kind == Some("point");
     let missing = section
         .keys
         .iter()
-        .filter(|key| key.need == Need::Required && !(is_smooth && key.name != "kind"))
+        .filter(|key| key.need == Need::Required || of_a_point(key))
+        .filter(|key| !(is_smooth && key.name != "kind"))
         .find(|key| !table.contains_key(key.name));
     match missing {
         Some(key) => Err(SceneError::Missing {
