@@ -123,6 +123,13 @@ fn flow_of(scene: &Scene) -> Flow {
 }
 
 fn tolerance_of(scene: &Scene, flow: Flow) -> Tolerance {
+    let wet = |share: f64| {
+        if flow == Flow::Dry {
+            f64::INFINITY
+        } else {
+            share * scene.numerics.tolerance
+        }
+    };
     Tolerance {
         // A dry contact has no mass to balance; its gap is judged by a tighter change of pressure instead,
         // which costs one iteration and leaves less than a picometre of overlap.
@@ -131,11 +138,10 @@ fn tolerance_of(scene: &Scene, flow: Flow) -> Tolerance {
         } else {
             scene.numerics.tolerance
         },
-        mass: if flow == Flow::Dry {
-            f64::INFINITY
-        } else {
-            0.1 * scene.numerics.tolerance
-        },
+        // What a step leaves of its film equation the next one takes over, so it need not be small against
+        // the pressure's tolerance: at 5e-3 films are within 6e-4, pressure within 1e-5 of the limit.
+        film: wet(5.0),
+        mass: wet(0.1),
         load: 1e-5,
         max_iterations: scene.numerics.max_iterations,
     }

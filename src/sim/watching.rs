@@ -87,6 +87,7 @@ impl Simulation {
         m.newton_iterations = attempted.newton;
         m.linear_iterations = attempted.linear;
         m.retries = attempted.retries;
+        m.film_error = attempted.film_error;
         m.mass_error = attempted.mass_error;
         m.load_error = attempted.load_error;
         let (s, force) = (
