@@ -30,7 +30,7 @@ const MAX_HALVINGS: u32 = 4;
 
 /// Part of a node's film that a step may leave unbalanced and hand on to the next one. Steps that leave
 /// more are not trusted with their own residual: a loose step that hands on all of it blows up near dry.
-pub const CARRIED: f64 = 0.02;
+pub const CARRIED: f64 = 0.1;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
