@@ -8,6 +8,7 @@ pub mod fluid;
 pub mod groups;
 pub mod hertz;
 pub mod invariants;
+pub mod line;
 pub mod rainflow;
 pub mod stress_exact;
 pub mod stress_exact_patch;

@@ -36,6 +36,7 @@ mod engine;
 mod fft;
 mod lanes;
 mod layer;
+mod line;
 mod load;
 mod measure;
 mod peak;
@@ -45,6 +46,7 @@ mod window;
 
 pub use depth::{DEPTH_SCALE_A, depth_rule, gauss_legendre};
 pub use engine::{StressEngine, StressError, StressSpec, Symmetry};
+pub use line::LineStress;
 pub use peak::Peak;
 pub use slice::SliceOut;
 pub use volume::{Integral, VolumeOut};
