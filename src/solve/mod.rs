@@ -1,5 +1,6 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
 
+pub mod dry;
 pub mod film;
 pub mod history;
 pub mod jacobian;
