@@ -150,10 +150,10 @@ fn bad_values_are_refused_with_key_value_and_range() {
             "\"point\" (more in later versions)",
         ),
         (
-            "body_1.surface.kind=height_map",
+            "body_1.surface.kind=fractal",
             "body_1.surface.kind",
-            "\"height_map\"",
-            "\"smooth\" or \"sinusoid\"",
+            "\"fractal\"",
+            "\"smooth\" or \"sinusoid\" or \"height_map\"",
         ),
         (
             "numerics.max_iterations=0",

@@ -84,8 +84,13 @@ const BODY: &[Key] = &[
 
 #[rustfmt::skip]
 const SURFACE: &[Key] = &[
-    key("kind", "", Choice(&["smooth", "sinusoid"]), Required, "micro-geometry that moves with the body"),
-    key("amplitude_m", "m", Number(0.0, 1e-4), Required, "A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy); peak to valley is 2 A"),
+    key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
+    key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file"),
+    key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
+    key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean taken off), or once (mean of the rim taken off, tapered to 0)"),
+    key("unit_m", "m", Number(1e-12, 1e3), Defaulted, "height that a value of 1 stands for"),
+    key("start_x_m", "m", Number(-1e3, 1e3), Optional("just upstream of the domain"), "where the middle of a windowed map is at t = 0"),
+    key("amplitude_m", "m", Number(0.0, 1e-4), Required, "sinusoid: A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy), peak to valley is 2 A; height map: greatest departure from its level, left out: as in the file"),
     key("wavelength_x_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wx, at least 4 nodes; inf: longitudinal ridges"),
     key("wavelength_y_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wy, at least 4 nodes; inf: transverse ridges"),
     key("angle_deg", "degrees", Number(-360.0, 360.0), Defaulted, "angle of x' from the rolling direction x"),
@@ -284,6 +289,38 @@ impl Key {
                     list.join(" or ")
                 }
             }
+        }
+    }
+}
+
+impl Key {
+    /// Whether the key may be left out of a `table` of that `kind` (its key `kind`); `None`: it has no
+    /// place there.
+    pub fn need_in(&self, table: &str, kind: Option<&str>) -> Option<Need> {
+        if !table.ends_with(".surface") || self.name == "kind" {
+            return Some(self.need);
+        }
+        let of_map = matches!(
+            self.name,
+            "file" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
+        );
+        match (kind, self.name) {
+            (Some("smooth"), _) => None,
+            (Some("height_map"), "amplitude_m") => Some(Optional("as in the file")),
+            (Some("height_map"), _) => of_map.then_some(self.need),
+            _ => (!of_map).then_some(self.need),
+        }
+    }
+
+    /// The kinds of surface that take the key, for messages.
+    pub(super) fn kinds(&self) -> &'static str {
+        match (
+            self.need_in(".surface", Some("sinusoid")),
+            self.need_in(".surface", Some("height_map")),
+        ) {
+            (Some(_), None) => "\"sinusoid\"",
+            (None, Some(_)) => "\"height_map\"",
+            _ => "\"sinusoid\" or \"height_map\"",
         }
     }
 }

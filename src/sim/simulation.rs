@@ -86,6 +86,7 @@ impl Simulation {
             Phase::Develop { left: 0 } => {
                 self.phase = Phase::Passage;
                 self.time_s = 0.0;
+                self.motion.launch();
                 self.forget_passage();
                 self.passage_step()
             }

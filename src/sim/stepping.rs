@@ -191,8 +191,7 @@ impl Mover<'_> {
             self.march.gap.copy_from_slice(&self.march.macroscopic);
             return;
         }
-        for (body, (way, amplitude)) in self.motion.travelled.into_iter().zip(amplitude).enumerate()
-        {
+        for (body, (way, amplitude)) in self.motion.ways().into_iter().zip(amplitude).enumerate() {
             self.terrain.place(grid, body, way, amplitude);
         }
         self.terrain

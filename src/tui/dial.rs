@@ -221,7 +221,7 @@ fn load(home: f64, p_hertz_pa: f64) -> Dial {
 fn amplitude(knob: Knob, surface: &Surface) -> Dial {
     let (home, life) = match surface {
         Surface::Smooth {} => (0.0, Life::Dead("smooth")),
-        Surface::Sinusoid { amplitude_m, .. } => (*amplitude_m, Life::Live),
+        Surface::Sinusoid { .. } | Surface::HeightMap { .. } => (surface.amplitude_m(), Life::Live),
     };
     let max = (2.0 * home / 1e-7).ceil().max(6.0) * 1e-7;
     Dial {

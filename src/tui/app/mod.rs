@@ -314,20 +314,14 @@ impl App {
 }
 
 fn put(scene: &mut Scene, dial: &Dial) {
-    use crate::scene::Surface;
-    let amplitude = |surface: &mut Surface| {
-        if let Surface::Sinusoid { amplitude_m, .. } = surface {
-            *amplitude_m = dial.target;
-        }
-    };
     match dial.knob {
         Knob::SlideRoll => scene.motion.slide_roll = dial.target,
         Knob::ForceN => {
             scene.load.force_n = Some(dial.target);
             scene.load.hertz_pressure_pa = None;
         }
-        Knob::Amplitude1M => amplitude(&mut scene.body_1.surface),
-        Knob::Amplitude2M => amplitude(&mut scene.body_2.surface),
+        Knob::Amplitude1M => scene.body_1.surface.set_amplitude_m(dial.target),
+        Knob::Amplitude2M => scene.body_2.surface.set_amplitude_m(dial.target),
         Knob::EntrainmentMS => scene.motion.entrainment_m_s = dial.target,
     }
 }
