@@ -163,15 +163,16 @@ fn check_settings(path: &str, value: &mut Value) -> Result<(), SceneError> {
 }
 
 fn check_value(full: &str, key: &Key, value: &mut Value) -> Result<(), SceneError> {
-    if let (Kind::Number(..) | Kind::NumberOrInf(..), Value::Integer(whole)) = (key.kind, &*value) {
+    let is_number = matches!(
+        key.kind,
+        Kind::Number(..) | Kind::EitherSign(..) | Kind::NumberOrInf(..)
+    );
+    if let (true, Value::Integer(whole)) = (is_number, &*value) {
         *value = Value::Float(*whole as f64);
     }
     let fits = match (key.kind, &*value) {
         (Kind::Text(longest), Value::String(text)) => text.chars().count() <= longest,
-        (Kind::Number(min, max), Value::Float(number)) => (min..=max).contains(number),
-        (Kind::NumberOrInf(min, max), Value::Float(number)) => {
-            (min..=max).contains(number) || *number == f64::INFINITY
-        }
+        (kind, Value::Float(number)) => kind.takes(*number),
         (Kind::Integer(min, max), Value::Integer(whole)) => (min..=max).contains(whole),
         (Kind::IntegerOf(values), Value::Integer(whole)) => values.contains(whole),
         (Kind::Choice(words), Value::String(text)) => words.contains(&text.as_str()),

@@ -8,6 +8,8 @@ pub enum Kind {
     Text(usize),
     /// A finite number between two bounds, both included.
     Number(f64, f64),
+    /// A finite number of either sign whose size lies between two bounds, both included and above 0.
+    EitherSign(f64, f64),
     /// A finite number between two bounds, or `inf`.
     NumberOrInf(f64, f64),
     /// A whole number between two bounds, both included.
@@ -73,7 +75,7 @@ const fn key(
     }
 }
 
-use Kind::{Choice, Integer, IntegerOf, Number, NumberOrInf, Text};
+use Kind::{Choice, EitherSign, Integer, IntegerOf, Number, NumberOrInf, Text};
 use Need::{Defaulted, Optional, Required};
 
 #[rustfmt::skip]
@@ -170,9 +172,9 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "motion",
         need: Required,
-        doc: "U = (U1 + U2)/2 and S = (U2 - U1)/U, so U1 = U (1 - S/2), U2 = U (1 + S/2).",
+        doc: "U = (U1 + U2)/2 and S = (U2 - U1)/U, so U1 = U (1 - S/2), U2 = U (1 + S/2). U1 = -U2 is no scene: it entrains no oil, and S has no value.",
         keys: &[
-            key("entrainment_m_s", "m/s", Number(1e-6, 200.0), Required, "entrainment speed U along +x"),
+            key("entrainment_m_s", "m/s", EitherSign(1e-6, 200.0), Required, "entrainment speed U along +x; below 0 the oil flows towards -x"),
             key("slide_roll", "", Number(-2.0, 2.0), Defaulted, "slide-to-roll ratio S; 0: pure rolling"),
         ],
     },
@@ -191,8 +193,8 @@ pub const SECTIONS: &[Section] = &[
         doc: "Nodes and domain, in Hertz half-widths along x and along y.",
         keys: &[
             key("nodes", "", IntegerOf(&[33, 65, 129, 257, 513, 1025]), Defaulted, "nodes per side, 2^k + 1"),
-            key("x_min_a", "a", Number(-20.0, -1.2), Optional("chosen by the plan"), "inlet edge"),
-            key("x_max_a", "a", Number(1.1, 10.0), Optional("chosen by the plan"), "outlet edge"),
+            key("x_min_a", "a", Number(-20.0, -1.2), Optional("chosen by the plan"), "inlet edge, x along the flow"),
+            key("x_max_a", "a", Number(1.1, 10.0), Optional("chosen by the plan"), "outlet edge, x along the flow"),
             key("y_half_a", "b", Number(1.1, 10.0), Optional("chosen by the plan"), "half-width across, in half-widths along y"),
         ],
     },
@@ -264,6 +266,18 @@ pub const KNOB_KEYS: &[&str] = &[
     "motion.entrainment_m_s",
 ];
 
+impl Kind {
+    /// Whether it takes that number.
+    pub fn takes(&self, number: f64) -> bool {
+        match *self {
+            Number(min, max) => (min..=max).contains(&number),
+            EitherSign(min, max) => (min..=max).contains(&number.abs()),
+            NumberOrInf(min, max) => (min..=max).contains(&number) || number == f64::INFINITY,
+            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) => false,
+        }
+    }
+}
+
 impl Key {
     /// What the key takes, in words, with its unit.
     pub fn allowed(&self) -> String {
@@ -275,6 +289,13 @@ impl Key {
         match self.kind {
             Text(longest) => format!("a text of at most {longest} characters"),
             Number(min, max) => format!("{} to {}{unit}", short(min), short(max)),
+            EitherSign(min, max) => format!(
+                "{} to {}{unit}, or {} to {}{unit}; never 0",
+                short(min),
+                short(max),
+                short(-max),
+                short(-min)
+            ),
             NumberOrInf(min, max) => format!("{} to {}{unit}, or inf", short(min), short(max)),
             Integer(min, max) => format!("a whole number, {min} to {max}{unit}"),
             IntegerOf(values) => {

@@ -160,10 +160,19 @@ impl Simulation {
             allowed,
         };
         if let Some(key) = crate::scene::keys::find(knob.key())
-            && let crate::scene::keys::Kind::Number(min, max) = key.kind
-            && !(min..=max).contains(&value)
+            && !key.kind.takes(value)
         {
             return Err(refuse(key.allowed()));
+        }
+        let mut value = value;
+        if knob == Knob::EntrainmentMS {
+            value *= self.door.heading.sign();
+            if value < 0.0 {
+                return Err(refuse(
+                    "a speed of the sign that the run began with: to turn the flow round is another run"
+                        .to_owned(),
+                ));
+            }
         }
         let body = match knob {
             Knob::Amplitude1M => Some(0),

@@ -164,7 +164,7 @@ impl Mover<'_> {
             let grid = &self.march.grid;
             let (i, j) = (report.worst_node % grid.nx, report.worst_node / grid.nx);
             done.failure = Some(Failure::Hopeless {
-                x_m: self.door.m_from_x(grid.x(i)),
+                x_m: self.door.place_m(grid.x(i)),
                 y_m: self.door.m_from_x(grid.y(j)),
             });
         } else {

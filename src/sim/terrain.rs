@@ -10,6 +10,7 @@
 
 use std::sync::Arc;
 
+use super::door::Heading;
 use super::motion::Way;
 use crate::math::grid::Grid;
 use crate::physics::height_map::{Beyond, HeightMap};
@@ -38,7 +39,7 @@ struct Drawn {
     map: Arc<HeightMap>,
     /// The map at the grid's rows, shape ny × pixels along x.
     rows: Vec<f32>,
-    /// Pixel, in a.
+    /// Pixel along x, in a; negative: mirrored.
     pixel: f64,
     /// Where the middle stands at the start, in a.
     start: f64,
@@ -62,9 +63,9 @@ pub(super) struct Terrain {
 }
 
 impl Terrain {
-    /// The surfaces of a scene on `grid` (lengths over `a_m`).
-    pub(super) fn new(grid: &Grid, surfaces: [&Surface; 2], a_m: f64) -> Self {
-        let reliefs = surfaces.map(|surface| Relief::new(grid, surface, a_m));
+    /// The surfaces of a scene on `grid` (lengths over `a_m`), mirrored where the flow goes backward.
+    pub(super) fn new(grid: &Grid, surfaces: [&Surface; 2], a_m: f64, heading: Heading) -> Self {
+        let reliefs = surfaces.map(|surface| Relief::new(grid, surface, a_m, heading));
         let heights = [0, 1].map(|body| {
             let n = if reliefs[body as usize].is_some() {
                 grid.len()
@@ -103,34 +104,41 @@ impl Terrain {
 }
 
 impl Relief {
-    fn new(grid: &Grid, surface: &Surface, a_m: f64) -> Option<Self> {
+    fn new(grid: &Grid, surface: &Surface, a_m: f64, heading: Heading) -> Option<Self> {
         match surface {
             Surface::Smooth {} => None,
-            Surface::Sinusoid { .. } => Waves::new(grid, surface, a_m).map(Self::Waves),
+            Surface::Sinusoid { .. } => Waves::new(grid, surface, a_m, heading).map(Self::Waves),
             Surface::HeightMap {
                 pixel_m,
                 start_x_m,
                 map,
                 ..
             } => map.as_ref().map(|map| {
-                let start = start_x_m.map(|x_m| x_m / a_m);
-                Self::Map(Drawn::new(grid, map, pixel_m / a_m, start))
+                let start = start_x_m.map(|x_m| heading.sign() * x_m / a_m);
+                // Columns that run the other way are a pixel of the opposite sign.
+                let pixels = [heading.sign() * pixel_m / a_m, pixel_m / a_m];
+                Self::Map(Drawn::new(grid, map, pixels, start))
             }),
         }
     }
 }
 
 impl Drawn {
-    fn new(grid: &Grid, map: &Arc<HeightMap>, pixel: f64, start: Option<f64>) -> Self {
+    fn new(
+        grid: &Grid,
+        map: &Arc<HeightMap>,
+        [pixel, pixel_y]: [f64; 2],
+        start: Option<f64>,
+    ) -> Self {
         let mut rows = vec![0.0; grid.ny * map.nx()];
         for (j, row) in rows.chunks_exact_mut(map.nx()).enumerate() {
-            map.row_into(grid.y(j) / pixel, row);
+            map.row_into(grid.y(j) / pixel_y, row);
         }
         let start = match map.beyond() {
             Beyond::Repeated => 0.0,
             // Its downstream edge, and the reach of the interpolation, at the inlet.
             Beyond::Nothing => {
-                start.unwrap_or(grid.x_min - (0.5 * (map.nx() - 1) as f64 + 2.0) * pixel)
+                start.unwrap_or(grid.x_min - (0.5 * (map.nx() - 1) as f64 + 2.0) * pixel_y)
             }
         };
         Self {
@@ -176,7 +184,7 @@ impl Drawn {
 }
 
 impl Waves {
-    fn new(grid: &Grid, surface: &Surface, a_m: f64) -> Option<Self> {
+    fn new(grid: &Grid, surface: &Surface, a_m: f64, heading: Heading) -> Option<Self> {
         use std::f64::consts::TAU;
         let Surface::Sinusoid {
             wavelength_x_m,
@@ -189,13 +197,17 @@ impl Waves {
             return None;
         };
         let (kx, ky) = (TAU * a_m / wavelength_x_m, TAU * a_m / wavelength_y_m);
+        // A right angle has no component of 6e-17.
+        let exact = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
         let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let (sin, cos) = (exact(sin), exact(cos));
         let plane = |sign: f64| Plane {
-            a: kx * cos - sign * ky * sin,
+            a: heading.sign() * (kx * cos - sign * ky * sin),
             b: kx * sin + sign * ky * cos,
         };
         let mut waves = Self {
-            planes: [plane(1.0), plane(-1.0)],
+            // In the mirror the two change places: summed in the same order, to the last bit.
+            planes: [plane(heading.sign()), plane(-heading.sign())],
             phase: phase_deg.to_radians(),
             along: [vec![(0.0, 0.0); grid.nx], vec![(0.0, 0.0); grid.nx]],
             across: [vec![(0.0, 0.0); grid.ny], vec![(0.0, 0.0); grid.ny]],
@@ -243,7 +255,12 @@ mod tests {
             angle_deg: 25.0,
             phase_deg: 40.0,
         };
-        let mut terrain = Terrain::new(&grid, [&surface, &Surface::Smooth {}], 1e-3);
+        let mut terrain = Terrain::new(
+            &grid,
+            [&surface, &Surface::Smooth {}],
+            1e-3,
+            Heading::Forward,
+        );
         let way = Way {
             travelled: 0.3,
             in_passage: None,
@@ -276,7 +293,12 @@ mod tests {
                 start_x_m: Some(-0.5e-3),
                 map: Some(Arc::clone(&map)),
             };
-            let mut terrain = Terrain::new(&grid, [&Surface::Smooth {}, &surface], 1e-3);
+            let mut terrain = Terrain::new(
+                &grid,
+                [&Surface::Smooth {}, &surface],
+                1e-3,
+                Heading::Forward,
+            );
             let way = Way {
                 travelled: 0.4,
                 in_passage: Some(0.9),

@@ -164,7 +164,13 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
 
 /// No dial reaches where the run would refuse to go.
 fn within_the_scenes_range(mut dial: Dial) -> Dial {
-    if let Some(Kind::Number(least, most)) = keys::find(dial.knob.key()).map(|key| key.kind) {
+    let bounds = match keys::find(dial.knob.key()).map(|key| key.kind) {
+        Some(Kind::Number(least, most)) => Some((least, most)),
+        Some(Kind::EitherSign(least, most)) if dial.home < 0.0 => Some((-most, -least)),
+        Some(Kind::EitherSign(least, most)) => Some((least, most)),
+        _ => None,
+    };
+    if let Some((least, most)) = bounds {
         dial.min = dial.min.max(least);
         dial.max = dial.max.min(most);
         let (min, max) = (dial.min, dial.max);
@@ -249,7 +255,8 @@ fn amplitude(knob: Knob, surface: &Surface) -> Dial {
 }
 
 fn speed(home: f64) -> Dial {
-    let (min, max) = (home / 10.0, home * 10.0);
+    let (slow, fast) = (home / 10.0, home * 10.0);
+    let (min, max) = (slow.min(fast), slow.max(fast));
     Dial {
         knob: Knob::EntrainmentMS,
         label: "U entrainment",
@@ -262,6 +269,7 @@ fn speed(home: f64) -> Dial {
         target: home,
         typical: [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0]
             .into_iter()
+            .map(|value| value * home.signum())
             .filter(|value| (min..=max).contains(value))
             .collect(),
         life: Life::Live,
