@@ -164,6 +164,61 @@ fn what_is_wrong_is_named() {
     }
 }
 
+/// Deterministic roughness: 40 waves of 8 to 30 pixels in golden directions and phases.
+fn rough(n: usize) -> Shape {
+    let golden = |k: usize| (0.618_033_988_749_895 * k as f64).fract();
+    let waves: Vec<[f64; 3]> = (1..=40)
+        .map(|k| {
+            // Whole waves in the map, so that it repeats.
+            let (count, angle) = (n as f64 / 30.0 + k as f64 * 0.2, TAU * golden(3 * k));
+            [
+                (count * angle.cos()).round(),
+                (count * angle.sin()).round(),
+                TAU * golden(7 * k),
+            ]
+        })
+        .collect();
+    Shape::new(n, n, |i, j| {
+        let (x, y) = (i as f64 / n as f64, j as f64 / n as f64);
+        let wave = |w: &[f64; 3]| (TAU * (w[0] * x + w[1] * y) + w[2]).cos();
+        3e-8 * waves.iter().map(wave).sum::<f64>()
+    })
+}
+
+#[test]
+fn random_roughness_on_both_bodies_converges_and_is_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    npy_f8(&folder.path().join("rough.npy"), &rough(128));
+    let table = map_table("rough.npy", 1.5e-5, "amplitude_m = 2e-7");
+    let mut scene = Scene::load(&scene_file(folder.path(), &table)).unwrap();
+    scene.body_1.surface = scene.body_2.surface.clone();
+    scene.motion.slide_roll = 0.5;
+    let plan = Plan::new(&scene).unwrap();
+    assert_eq!(plan.symmetry, Symmetry::General);
+    let wave = plan.waves[0].unwrap();
+    println!(
+        "shortest significant wave {:.1} and {:.1} nodes, crests {:.0} /m, warnings {:?}",
+        wave.nodes[0], wave.nodes[1], wave.crests_per_m, plan.warnings
+    );
+    // Rice: upcrossings of a Gaussian surface, √(m2/m0)/2π, here by differences of the heights.
+    let shape = rough(128);
+    let level = shape.heights_m.iter().sum::<f64>() / shape.heights_m.len() as f64;
+    let (mut m0, mut m2) = (0.0, 0.0);
+    for row in shape.heights_m.chunks_exact(128) {
+        for i in 0..128 {
+            m0 += (row[i] - level).powi(2);
+            m2 += ((row[(i + 1) % 128] - row[i]) / 1.5e-5).powi(2);
+        }
+    }
+    let rice = (m2 / m0).sqrt() / TAU;
+    println!("crests by Rice's formula {rice:.0} /m");
+    assert!((wave.crests_per_m / rice - 1.0).abs() < 0.15);
+    let steps = films(&scene, 16);
+    assert_eq!(steps.len(), 16);
+    scene.lubricant = None;
+    films(&scene, 4);
+}
+
 /// Frames of the first passage steps.
 fn films(scene: &Scene, steps: u64) -> Vec<Vec<f32>> {
     let plan = Plan::new(scene).unwrap();

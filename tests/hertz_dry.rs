@@ -5,9 +5,11 @@ mod contact;
 
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::physics::fluid::{Density, Viscosity};
-use asperity::solve::march::{Flow, Guess, March};
+use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
+use asperity::solve::tangential::{Shear, Tangential};
+use asperity::solve::traction::TractionLaw;
 use contact::{CIRCLE, LOAD, conditions};
 
 const DRY: Medium = Medium {
@@ -142,4 +144,59 @@ fn conjugate_gradients_and_newton_agree_on_a_rough_contact() {
     assert!(moved < 1e-5, "{moved}");
     // A truly rough contact: part of the nominal area is empty.
     assert!(area(&p) < 0.8 * std::f64::consts::PI);
+}
+
+/// Unlike bodies under friction: the deflection by traction, by both paths.
+#[test]
+fn unlike_bodies_slide_alike_by_both_paths() {
+    let nodes = 65;
+    let shape = Shape {
+        kappa_s: 0.3 * CIRCLE.kappa,
+        ..CIRCLE
+    };
+    let grid = Grid::new(nodes, -1.5, 1.5, 1.5, Symmetry::MirrorY);
+    let law = TractionLaw {
+        film: None,
+        viscosity: DRY.viscosity,
+        boundary: 0.3,
+        contact_film: 0.0,
+        direction: 1.0,
+    };
+    let asked = Conditions {
+        law: Some(&law),
+        ..conditions(&DRY, tolerance(1e-7))
+    };
+    let mut march = March::from_hertz(grid, &shape, 0.0, 1.0, Flow::Dry);
+    let report = march.attempt(&asked, 1.0, Guess::Last);
+    assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+    let grid = &march.grid;
+    let mut newton = Newton::new(grid, shape.kappa, 2.0 / 3.0 * grid.dx);
+    newton.shear = Some(Shear::new(grid, Tangential::new(grid, shape.kappa_s)));
+    let zero = vec![0.0; grid.len()];
+    let (mut p, mut h, mut h0) = (march.state.history.pressure_1.clone(), zero.clone(), -1.0);
+    let newton_report = newton.solve(
+        &Problem {
+            grid,
+            medium: &DRY,
+            law: Some(&law),
+            gap: &march.gap,
+            c_star: &zero,
+            s: &zero,
+            load: LOAD,
+            tolerance: asked.tolerance,
+        },
+        &mut Iterate {
+            p: &mut p,
+            h: &mut h,
+            h0: &mut h0,
+        },
+    );
+    println!("{report:?}\n{newton_report:?}");
+    assert_eq!(newton_report.verdict, Verdict::Converged);
+    let moved = grid.integrate(|n| (p[n] - march.state.pressure[n]).abs()) / LOAD;
+    // Traction moves the load along x.
+    let moment = grid.integrate(|n| p[n] * grid.x(n % nodes)) / LOAD;
+    println!("difference {moved:.2e}, centre of load at {moment:.4}");
+    assert!(moved < 1e-5, "{moved}");
+    assert!(moment.abs() > 1e-3);
 }

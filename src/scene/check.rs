@@ -317,6 +317,13 @@ fn check_event_fits(scene: &Scene, index: usize, event: &Event) -> Result<(), Sc
                 check_force(scene, &full, value)?;
                 continue;
             }
+            "motion.entrainment_m_s" if value * scene.motion.entrainment_m_s < 0.0 => {
+                return Err(SceneError::value(
+                    full,
+                    short(value),
+                    "a speed of the scene's own sign: to turn the flow round is another run",
+                ));
+            }
             _ => continue,
         };
         if matches!(surface, Surface::Smooth {}) {

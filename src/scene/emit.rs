@@ -50,16 +50,15 @@ fn push_section(text: &mut String, section: &Section, table: Option<&Table>) {
     }
     let kind = table.get("kind").and_then(Value::as_str);
     for key in section.keys {
-        match table.get(key.name) {
-            Some(value) => push_key(text, key, value),
-            None => {
-                let need = key.need_in(section.path, kind);
-                push_left_out(text, key, need);
-                // The keys of other surfaces are told once.
-                if need.is_none() && section.path == "body_1.surface" {
-                    push_of_other_kind(text, key);
-                }
-            }
+        if let Some(value) = table.get(key.name) {
+            push_key(text, key, value);
+            continue;
+        }
+        let need = key.need_in(section.path, kind);
+        push_left_out(text, key, need);
+        // The keys of other surfaces are told once.
+        if need.is_none() && section.path == "body_1.surface" {
+            push_of_other_kind(text, key);
         }
     }
 }

@@ -22,7 +22,8 @@
 //! and made anew in double precision before the result is believed.
 //!
 //! The preconditioned residual z is nearly the Newton step, so that `∬_C |z|/load` is the relative error
-//! of the pressure: what [`Tolerance::pressure`] bounds. Sums run in fixed order: the result is the same
+//! of the pressure: what [`Tolerance::pressure`] bounds. It bounds the greatest overlap or gap on C too, in
+//! units of K00, the film that a pressure of 1 on one node makes. Sums run in fixed order: the result is the same
 //! on any number of threads. Order of the discretisation: 2 in the mean, 1.5 in the maximum at a node,
 //! where the sampled edge of the contact rules. Tests: `tests/hertz_dry.rs`, `tests/dry_periodic.rs`.
 
@@ -44,7 +45,7 @@ pub struct DryProblem<'a> {
     pub gap: &'a [f64],
     /// ∬P.
     pub load: f64,
-    /// Tolerances: `pressure` bounds ∬|z|/load, `max_iterations` the directions, 25 to a Newton iteration;
+    /// Tolerances: `pressure` bounds ∬|z|/load and max |r|/K00, `max_iterations` the directions, 25 to a Newton iteration;
     /// `mass` and `load` are not read, the load holds by construction.
     pub tolerance: Tolerance,
 }
@@ -116,7 +117,10 @@ impl Dry {
                 report.verdict = Verdict::NotFinite;
                 break;
             }
-            let small = report.change <= problem.tolerance.pressure;
+            let worst;
+            (report.worst_node, worst) = self.worst();
+            let allowed = problem.tolerance.pressure;
+            let small = report.change <= allowed && worst <= allowed * elastic.k00;
             if small && since == 0 {
                 report.verdict = Verdict::Converged;
                 break;
@@ -269,6 +273,17 @@ impl Dry {
         grid.integrate(|n| f64::from(self.z[n].abs()))
     }
 
+    /// The node where contact or complementarity is missed most, and by how much film.
+    fn worst(&self) -> (usize, f64) {
+        let mut worst = (0, 0.0_f32);
+        for (n, r) in self.residual.iter().enumerate() {
+            if r.abs() > worst.1 {
+                worst = (n, r.abs());
+            }
+        }
+        (worst.0, f64::from(worst.1))
+    }
+
     /// The next direction; `anew`: steepest descent.
     fn turn(&mut self, grid: &Grid, anew: bool) {
         let beta = if anew {
@@ -322,18 +337,12 @@ impl Dry {
         cut
     }
 
-    /// The film, the load error and the worst node.
+    /// The film and the load error.
     fn finish(&self, problem: &DryProblem, iterate: &mut Iterate, report: &mut NewtonReport) {
         for ((h, &g), &u) in iterate.h.iter_mut().zip(problem.gap).zip(&self.deflection) {
             *h = *iterate.h0 + g + u;
         }
         let load = self.total(problem.grid, iterate.p);
         report.load_error = (load / problem.load - 1.0).abs();
-        let mut largest = 0.0;
-        for (n, z) in self.z.iter().enumerate() {
-            if z.abs() > largest {
-                (report.worst_node, largest) = (n, z.abs());
-            }
-        }
     }
 }

@@ -165,9 +165,8 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
 /// No dial reaches where the run would refuse to go.
 fn within_the_scenes_range(mut dial: Dial) -> Dial {
     let bounds = match keys::find(dial.knob.key()).map(|key| key.kind) {
-        Some(Kind::Number(least, most)) => Some((least, most)),
         Some(Kind::EitherSign(least, most)) if dial.home < 0.0 => Some((-most, -least)),
-        Some(Kind::EitherSign(least, most)) => Some((least, most)),
+        Some(Kind::Number(least, most) | Kind::EitherSign(least, most)) => Some((least, most)),
         _ => None,
     };
     if let Some((least, most)) = bounds {
