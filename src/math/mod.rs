@@ -6,3 +6,4 @@ pub mod filter;
 pub mod grid;
 pub mod kernel_symbol;
 pub mod root;
+pub mod spectrum;

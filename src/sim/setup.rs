@@ -58,7 +58,7 @@ impl Simulation {
             drive.jump(knob, 0.0);
         }
         let tolerance = tolerance_of(scene, flow);
-        let terrain = Terrain::new(&fine, scene.surfaces(), door.a_m);
+        let terrain = Terrain::new(&fine, scene.surfaces(), door.a_m, door.heading);
         let law = traction_law(scene, &door);
         let mut motion = Motion::new(nodes);
         motion.shear_rate = scene.lubricant.as_ref().map_or(0.0, |oil| {
@@ -191,8 +191,8 @@ fn initial(scene: &Scene, plan: &Plan, knob: Knob) -> (f64, f64) {
         Knob::Amplitude1M => amplitude(scene.body_1.surface.amplitude_m()),
         Knob::Amplitude2M => amplitude(scene.body_2.surface.amplitude_m()),
         Knob::EntrainmentMS => (
-            scene.motion.entrainment_m_s,
-            0.5 * scene.motion.entrainment_m_s,
+            scene.motion.entrainment_m_s.abs(),
+            0.5 * scene.motion.entrainment_m_s.abs(),
         ),
     }
 }

@@ -168,7 +168,7 @@ impl Mover<'_> {
             let grid = &self.march.grid;
             let (i, j) = (report.worst_node % grid.nx, report.worst_node / grid.nx);
             done.failure = Some(Failure::Hopeless {
-                x_m: self.door.m_from_x(grid.x(i)),
+                x_m: self.door.place_m(grid.x(i)),
                 y_m: self.door.m_from_x(grid.y(j)),
             });
         } else {
@@ -195,8 +195,7 @@ impl Mover<'_> {
             self.march.gap.copy_from_slice(&self.march.macroscopic);
             return;
         }
-        for (body, (way, amplitude)) in self.motion.travelled.into_iter().zip(amplitude).enumerate()
-        {
+        for (body, (way, amplitude)) in self.motion.ways().into_iter().zip(amplitude).enumerate() {
             self.terrain.place(grid, body, way, amplitude);
         }
         self.terrain

@@ -11,6 +11,7 @@ macro_rules! dispatched {
     };
 }
 
+pub mod dry;
 mod faces;
 pub mod film;
 pub mod history;
