@@ -18,6 +18,17 @@
 //! * [`run`]: a session: threads, commands, outcome.
 //! * `tui` (feature `tui`): the live screen. The engine never names it.
 
+/// Compiles a function for the wide vector units too, and picks one at run time.
+macro_rules! dispatched {
+    ($function:item) => {
+        #[multiversion::multiversion(targets(
+            "x86_64+avx512f+avx512vl+avx512dq+avx512bw+fma",
+            "x86_64+avx2+fma"
+        ))]
+        $function
+    };
+}
+
 pub mod math;
 pub mod observe;
 pub mod physics;
