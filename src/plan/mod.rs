@@ -12,7 +12,7 @@ mod surfaces;
 use thiserror::Error;
 
 pub use cost::Cost;
-pub use domain::{Domain, inlet_error, mesh_error};
+pub use domain::{Domain, inlet_error, mesh_error, side_error};
 pub use surfaces::WavePlan;
 
 use crate::physics::groups::Groups;
@@ -50,6 +50,10 @@ pub struct Plan {
     pub steps: u64,
     /// Time steps of one length of 4 a at U.
     pub steps_per_passage: u64,
+    /// One length of 4 a at U, in a: what means are taken over.
+    pub passage_a: f64,
+    /// Length of the run after the start-up, in a at U.
+    pub length_a: f64,
     /// The waves of body 1 and 2; `None`: smooth.
     pub waves: [Option<WavePlan>; 2],
     /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
@@ -222,6 +226,8 @@ pub enum PlanError {
     },
 }
 
+/// A passage, in a.
+const PASSAGE_A: f64 = 4.0;
 /// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
 const PHASES: u64 = 16;
 /// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
@@ -235,7 +241,7 @@ impl Plan {
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
-        let domain = Domain::choose(&scene.grid, film.map(|film| film.central));
+        let domain = Domain::choose(&scene.grid, film.map(|film| (film.central, film.groups.l)));
         let (dx_m, dy_m) = (domain.dx_a() * hertz.a_m, domain.dy_b() * hertz.b_m);
         let mut warnings = decide::domain_warnings(&domain, film.as_ref());
         let step_m = scene.time.step_nodes * dx_m;
@@ -261,6 +267,8 @@ impl Plan {
             dt_s: step_m / scene.motion.entrainment_m_s,
             steps,
             steps_per_passage,
+            passage_a: PASSAGE_A,
+            length_a: scene.time.passages * PASSAGE_A,
             waves,
             traction_deflection: decide::traction_deflection(scene),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),

@@ -50,6 +50,12 @@ impl Terrain {
         Self { waves, heights }
     }
 
+    /// Wavenumbers along x of body `body`'s two plane waves, rad/a; 0: none, or it does not vary along x.
+    pub(super) fn wavenumbers(&self, body: usize) -> [f64; 2] {
+        let waves = self.waves[body].as_ref();
+        waves.map_or([0.0; 2], |waves| waves.planes.map(|plane| plane.a))
+    }
+
     /// Whether body `body` (0 or 1) has waves.
     pub(super) fn is_rough(&self, body: usize) -> bool {
         self.waves[body].is_some()

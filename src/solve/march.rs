@@ -3,6 +3,8 @@
 //! One attempt of a step: predict, convect, solve; nothing is committed until the caller has seen the
 //! verdict. `State` is what a restart needs; everything else can be made again.
 
+use serde::{Deserialize, Serialize};
+
 use super::film::macroscopic_gap;
 use super::history::History;
 use super::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance};
@@ -12,7 +14,7 @@ use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 
 /// What a restart needs.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// P, shape ny × nx.
     pub pressure: Vec<f64>,
@@ -22,6 +24,19 @@ pub struct State {
     pub h0: f64,
     /// Past masses and pressures.
     pub history: History,
+}
+
+impl State {
+    /// Whether every field has `len` nodes.
+    pub fn fits(&self, len: usize) -> bool {
+        let Self {
+            pressure,
+            film,
+            h0: _,
+            history,
+        } = self;
+        pressure.len() == len && film.len() == len && history.fits(len)
+    }
 }
 
 /// Where a step's first guess comes from.
@@ -49,6 +64,9 @@ pub struct March {
     s: Vec<f64>,
     mass: Vec<f64>,
     flow: Flow,
+    kappa: f64,
+    /// The step that the preconditioner is made for.
+    usual_nodes: f64,
 }
 
 /// Constants of a contact.
@@ -160,6 +178,8 @@ impl March {
             s: zero.clone(),
             mass: zero,
             flow,
+            kappa: shape.kappa,
+            usual_nodes: nodes,
             grid,
         }
     }
@@ -200,8 +220,54 @@ impl March {
         )
     }
 
+    /// A last try of a step of `nodes` nodes, with everything on the safe side: backward Euler, whose C* is
+    /// never extrapolated; the last pressure as first guess; the preconditioner's symbols made for this very
+    /// step, not for the usual one; three times the iterations.
+    pub fn attempt_safely(&mut self, conditions: &Conditions, nodes: f64) -> NewtonReport {
+        let dx = self.grid.dx;
+        self.set_symbols(nodes * dx);
+        let last_nodes = std::mem::replace(&mut self.state.history.last_nodes, 0.0);
+        let mut patient = *conditions;
+        patient.tolerance.max_iterations *= 3;
+        let report = self.attempt(&patient, nodes, Guess::Last);
+        self.state.history.last_nodes = last_nodes;
+        self.set_symbols(2.0 / 3.0 * self.usual_nodes * dx);
+        report
+    }
+
+    /// Makes the preconditioner for an effective step `s`.
+    fn set_symbols(&mut self, s: f64) {
+        let Newton {
+            elastic,
+            precondition,
+            ..
+        } = &mut self.newton;
+        precondition.set_symbols(&self.grid, elastic, self.kappa, s);
+    }
+
+    /// Local error in time of the step that was attempted last, over the film; `None`: not known yet, or
+    /// there is no film.
+    pub fn local_error(&mut self, nodes: f64) -> Option<f64> {
+        if self.flow == Flow::Dry {
+            return None;
+        }
+        self.gather_mass();
+        let State {
+            pressure, history, ..
+        } = &self.state;
+        history.local_error(&self.grid, &self.mass, pressure, nodes)
+    }
+
     /// Commits the step that was attempted last.
     pub fn commit(&mut self, nodes: f64) {
+        self.gather_mass();
+        self.state
+            .history
+            .commit(&self.mass, &self.state.pressure, self.state.h0, nodes);
+    }
+
+    /// ρ̄H of the last attempt.
+    fn gather_mass(&mut self) {
         for (n, mass) in self.mass.iter_mut().enumerate() {
             let full = self.newton.reynolds.rho(n) * self.state.film[n];
             let ruptured = self.flow == Flow::MassConserving && self.state.pressure[n] == 0.0;
@@ -212,9 +278,6 @@ impl March {
             };
             *mass = (full - missing).max(0.0);
         }
-        self.state
-            .history
-            .commit(&self.mass, &self.state.pressure, self.state.h0, nodes);
     }
 }
 
