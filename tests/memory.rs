@@ -68,4 +68,11 @@ fn a_warm_step_allocates_nothing() {
     });
     println!("adaptive, with a knob: {n} calls");
     assert!(n <= queue, "{n}");
+    // A restored simulation has its room again.
+    let mut again = warm(1, &[]);
+    let state = again.save();
+    again.restore(state).unwrap();
+    let n = calls(&mut again, steps, |_, _| {});
+    println!("restored: {n} calls");
+    assert!(n <= queue, "{n}");
 }

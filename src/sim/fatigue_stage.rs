@@ -43,6 +43,13 @@ impl Counting {
         }
     }
 
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        for tracker in &mut self.trackers {
+            tracker.make_room();
+        }
+    }
+
     /// Whether the counts were made on `grid`, and nothing in them points astray.
     pub(super) fn fits(&self, grid: &Grid) -> bool {
         self.row.len() == grid.nx && self.trackers.iter().all(MaterialTracker::is_sound)
@@ -143,6 +150,13 @@ impl LifeStage {
         self.ln_reference = reference.normal.ln;
         let meter = LifeMeter::new(self.law, self.ln_reference, self.period, self.capacity);
         self.meter = Some(meter);
+    }
+
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        if let Some(meter) = &mut self.meter {
+            meter.make_room();
+        }
     }
 
     /// Takes the mean over a way of `period` (in a) from now on.

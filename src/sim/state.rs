@@ -159,7 +159,14 @@ impl Simulation {
         (self.counting, self.life) = (counting, life);
         self.watched = watched;
         self.phase = phase;
-        (self.metrics, self.stats, self.totals) = (metrics, stats, totals);
+        (self.metrics, self.stats) = (metrics, stats);
+        self.totals.take(totals);
+        if let Some(counting) = &mut self.counting {
+            counting.make_room();
+        }
+        if let Some(life) = &mut self.life {
+            life.make_room();
+        }
         (self.coarser, self.smooth_film) = (coarser, smooth_film);
         self.orbit = orbit;
         (self.pace, self.way, self.next_volume) = (pace, way, next_volume);

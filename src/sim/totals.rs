@@ -36,6 +36,19 @@ impl Totals {
         }
     }
 
+    /// Takes up what was saved, with the room that this one has.
+    pub(super) fn take(&mut self, saved: Self) {
+        let Self {
+            recent,
+            window,
+            way,
+            not_converged,
+        } = saved;
+        self.recent.clear();
+        self.recent.extend(recent);
+        (self.window, self.way, self.not_converged) = (window, way, not_converged);
+    }
+
     /// Takes a step that ended at `way` (in a); keeps what the last `window` (in a) touches.
     pub(super) fn push(&mut self, m: &Metrics, way: f64, window: f64) {
         let span = way - self.way;

@@ -83,6 +83,12 @@ impl LifeMeter {
         self.period = period;
     }
 
+    /// Makes the room again that a copy or a file does not keep.
+    pub fn make_room(&mut self) {
+        let room = (self.capacity + 1).saturating_sub(self.phases.len());
+        self.phases.reserve_exact(room);
+    }
+
     /// Takes the mean over `period` from now on.
     pub fn set_period(&mut self, period: f64) {
         self.period = period;

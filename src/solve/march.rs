@@ -255,7 +255,10 @@ impl March {
         let State {
             pressure, history, ..
         } = &self.state;
-        history.local_error(&self.grid, &self.mass, pressure, nodes)
+        // Deformation's share of the diagonal of the equation; the rest is flow.
+        let (reynolds, k00) = (&self.newton.reynolds, self.newton.elastic.k00);
+        let share = |n: usize| reynolds.rho(n) * k00 / reynolds.diagonal[n];
+        history.local_error(&self.grid, (&self.mass, pressure), nodes, share)
     }
 
     /// Commits the step that was attempted last.

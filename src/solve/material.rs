@@ -227,7 +227,10 @@ impl MaterialTracker {
             x: spec.x_first + length * (GOLDEN * i as f64).fract(),
             crossing: Crossing::New,
             pressure: History::new(spec.pressure_gate),
-            shear: vec![History::new(spec.shear_gate); spec.depths],
+            // Each made anew: a clone would not have the room.
+            shear: (0..spec.depths)
+                .map(|_| History::new(spec.shear_gate))
+                .collect(),
         };
         let mut tracker = Self {
             spec,
@@ -238,6 +241,17 @@ impl MaterialTracker {
         };
         tracker.restart();
         tracker
+    }
+
+    /// Makes the room again that a copy or a file does not keep.
+    pub fn make_room(&mut self) {
+        for point in &mut self.points {
+            for history in std::iter::once(&mut point.pressure).chain(&mut point.shear) {
+                history.flow.make_room();
+            }
+        }
+        let room = self.spec.trace.max(1).saturating_sub(self.trace.len());
+        self.trace.reserve_exact(room);
     }
 
     /// Whether a tracker that was read from a file can be used.
