@@ -1,18 +1,24 @@
 //! How long the next time step is.
 //!
 //! ```text
-//! E_n     = (2a/U Δt_n) e_n              what steps like this one add to the film while oil crosses 2a
+//! E_n     = 3 e_n                        what steps like this one add to the film while oil crosses
 //! Δt_n+1  = Δt_n · 0.9 (tol/E_n)^0.35 (E_n−1/tol)^0.2           PI controller of an error of order 2
 //! ```
-//! e_n is the local error of BDF2 along the paths of the oil (`solve::history`), so E falls as Δt² and the
-//! error that a run gathers is proportional to the tolerance. A step whose E is above 1.2 tol is made again,
-//! smaller. Steps stay between 1/20 of a node and 4 nodes, grow by at most 2 (variable BDF2 is stable up to
-//! 1 + √2), and never outrun the counting of cycles: 16 steps a passing crest, or the scene's own
-//! `time.step_nodes` where that is longer. Source of the controller: Gustafsson (1991), with the usual
-//! 0.7/k and 0.4/k, k = 2.
+//! e_n gathers the local error of BDF2 along the paths of the oil (`solve::history`), so E falls as Δt² and
+//! the error that a run gathers is proportional to the tolerance. The factor 3 joins the mean over the nodes
+//! under pressure to the error of the film in the centre; measured, true error over e_n, at 0.5, 1, 2 and 4
+//! nodes: 2.0, 3.4, 3.8 and 4.9 for a thick smooth film, 1.9, 2.8, 3.1 and 3.5 for waves of 1 a that slide at
+//! S = 1.
+//!
+//! A step whose E is above 1.2 tol is made again, smaller. Steps stay between 1/20 of a node and 4 nodes, grow
+//! by at most 2 (variable BDF2 is stable up to 1 + √2), and never outrun the counting of cycles: 16 steps a
+//! passing crest, or the scene's own `time.step_nodes` where that is longer. Source of the controller:
+//! Gustafsson (1991), with the usual 0.7/k and 0.4/k, k = 2.
 
 use serde::{Deserialize, Serialize};
 
+/// Error of the film in the centre over the mean that the formula gives.
+const CENTRE: f64 = 3.0;
 /// Shortest step, in nodes.
 const LEAST: f64 = 0.05;
 /// Longest step, in nodes.
@@ -70,23 +76,17 @@ impl Stepping {
         }
     }
 
-    /// Error per crossing over the tolerance, for a local error and a step in nodes of `dx`.
-    fn excess(self, local_error: f64, nodes: f64, dx: f64) -> Option<f64> {
+    /// E over the tolerance.
+    fn excess(self, path_error: f64) -> Option<f64> {
         match self {
             Self::Fixed(_) => None,
-            Self::Adaptive { tolerance, .. } => Some(local_error * 2.0 / (nodes * dx) / tolerance),
+            Self::Adaptive { tolerance, .. } => Some(CENTRE * path_error / tolerance),
         }
     }
 
     /// Whether a solved step is kept.
-    pub(super) fn judge(
-        self,
-        local_error: Option<f64>,
-        nodes: f64,
-        dx: f64,
-        rejections: u32,
-    ) -> Judgement {
-        let excess = local_error.and_then(|error| self.excess(error, nodes, dx));
+    pub(super) fn judge(self, path_error: Option<f64>, nodes: f64, rejections: u32) -> Judgement {
+        let excess = path_error.and_then(|error| self.excess(error));
         match excess {
             Some(excess) if excess > SLACK && nodes > LEAST && rejections < MOST_REJECTIONS => {
                 let factor = (0.9 / excess.sqrt()).clamp(0.2, 0.9);
@@ -116,14 +116,8 @@ impl Pace {
     }
 
     /// Learns from a step that was kept.
-    pub(super) fn learn(
-        &mut self,
-        stepping: Stepping,
-        local_error: Option<f64>,
-        nodes: f64,
-        dx: f64,
-    ) {
-        let Some(excess) = local_error.and_then(|error| stepping.excess(error, nodes, dx)) else {
+    pub(super) fn learn(&mut self, stepping: Stepping, path_error: Option<f64>, nodes: f64) {
+        let Some(excess) = path_error.and_then(|error| stepping.excess(error)) else {
             return;
         };
         let excess = excess.max(1e-6);
@@ -143,28 +137,27 @@ mod tests {
         usual: 1.0,
     };
 
-    /// A problem whose local error is `c nodes³`.
+    /// A problem whose error is `c nodes²`.
     fn settle(c: f64, steps: usize) -> (f64, u32) {
         let (mut pace, mut rejected) = (Pace::new(ASKED), 0);
         for _ in 0..steps {
             let mut nodes = pace.next(ASKED, f64::INFINITY);
             let mut again = 0;
-            while let Judgement::Again(smaller) =
-                ASKED.judge(Some(c * nodes.powi(3)), nodes, 0.03, again)
+            while let Judgement::Again(smaller) = ASKED.judge(Some(c * nodes * nodes), nodes, again)
             {
                 (nodes, again) = (smaller, again + 1);
             }
             rejected += again;
-            pace.learn(ASKED, Some(c * nodes.powi(3)), nodes, 0.03);
+            pace.learn(ASKED, Some(c * nodes * nodes), nodes);
         }
         (pace.next(ASKED, f64::INFINITY), rejected)
     }
 
     #[test]
     fn the_step_settles_where_the_error_meets_the_tolerance() {
-        for c in [1e-6, 1e-5, 1e-4, 1e-3] {
+        for c in [1e-5, 1e-4, 1e-3, 1e-2] {
             let (nodes, rejected) = settle(c, 60);
-            let excess = c * nodes * nodes * 2.0 / 0.03 / 1e-3;
+            let excess = CENTRE * c * nodes * nodes / 1e-3;
             println!("c {c:e}: {nodes:.3} nodes, E/tol {excess:.2}, {rejected} rejected");
             assert!((0.4..1.05).contains(&excess) || nodes >= MOST, "{excess}");
             assert!(rejected <= 4);
@@ -180,10 +173,10 @@ mod tests {
         assert_eq!(pace.next(ASKED, 32.0), 2.0);
         assert_eq!(pace.next(ASKED, 8.0), 1.0);
         let mut fixed = Pace::new(Stepping::Fixed(0.7));
-        fixed.learn(Stepping::Fixed(0.7), Some(1.0), 0.7, 0.03);
+        fixed.learn(Stepping::Fixed(0.7), Some(1.0), 0.7);
         assert_eq!(fixed.next(Stepping::Fixed(0.7), 1.0), 0.7);
         assert_eq!(
-            Stepping::Fixed(0.7).judge(Some(1.0), 0.7, 0.03, 0),
+            Stepping::Fixed(0.7).judge(Some(1.0), 0.7, 0),
             Judgement::Good
         );
     }

@@ -173,7 +173,7 @@ impl Simulation {
         let dx = self.march.grid.dx;
         self.way += attempted.nodes * dx;
         self.pace
-            .learn(stepping, attempted.local_error, attempted.nodes, dx);
+            .learn(stepping, attempted.path_error, attempted.nodes);
         Ok(())
     }
 

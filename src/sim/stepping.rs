@@ -51,8 +51,8 @@ pub(super) struct Attempted {
     pub(super) safer: u32,
     /// Converged solutions that were made again for their error in time.
     pub(super) rejected: u32,
-    /// Local error in time; `None`: not judged.
-    pub(super) local_error: Option<f64>,
+    /// Error in time over a crossing, by the formula; `None`: not judged.
+    pub(super) path_error: Option<f64>,
     /// Where a part that did not converge is worst, m.
     pub(super) worst: Option<(f64, f64)>,
     /// Length, in nodes.
@@ -169,12 +169,11 @@ impl Mover<'_> {
             };
             let error = match self.stepping {
                 Stepping::Fixed(_) => None,
-                Stepping::Adaptive { .. } => self.march.local_error(nodes),
+                Stepping::Adaptive { .. } => self.march.path_error(nodes),
             };
-            let dx = self.march.grid.dx;
-            match self.stepping.judge(error, nodes, dx, done.rejected) {
+            match self.stepping.judge(error, nodes, done.rejected) {
                 Judgement::Good => {
-                    done.local_error = error;
+                    done.path_error = error;
                     self.commit(nodes, &report, &mut done);
                     return done;
                 }

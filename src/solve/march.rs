@@ -245,9 +245,9 @@ impl March {
         precondition.set_symbols(&self.grid, elastic, self.kappa, s);
     }
 
-    /// Local error in time of the step that was attempted last, over the film; `None`: not known yet, or
-    /// there is no film.
-    pub fn local_error(&mut self, nodes: f64) -> Option<f64> {
+    /// Error that steps like the one attempted last add to the film over a crossing ([`History::path_error`]);
+    /// `None`: not known yet, or there is no film.
+    pub fn path_error(&mut self, nodes: f64) -> Option<f64> {
         if self.flow == Flow::Dry {
             return None;
         }
@@ -255,10 +255,7 @@ impl March {
         let State {
             pressure, history, ..
         } = &self.state;
-        // Deformation's share of the diagonal of the equation; the rest is flow.
-        let (reynolds, k00) = (&self.newton.reynolds, self.newton.elastic.k00);
-        let share = |n: usize| reynolds.rho(n) * k00 / reynolds.diagonal[n];
-        history.local_error(&self.grid, (&self.mass, pressure), nodes, share)
+        history.path_error(&self.grid, (&self.mass, pressure), nodes)
     }
 
     /// Commits the step that was attempted last.
