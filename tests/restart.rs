@@ -64,6 +64,27 @@ fn every_frame_after_a_restart_is_the_uninterrupted_one() {
     assert_eq!(whole.summary(), cut.unwrap().summary());
 }
 
+#[test]
+fn dry_and_line_contacts_go_on_bit_for_bit_too() {
+    let dry = scene(&[&SMALL[..], &["lubricant=none"]].concat());
+    let line = Scene::load_with("fzg_point_b", &["record=none".parse().unwrap()]).unwrap();
+    for scene in [dry, line] {
+        let mut whole = simulation(&scene);
+        while whole.passage_steps() < 5 {
+            whole.step().unwrap();
+        }
+        let mut cut = simulation(&scene);
+        cut.restore(through_json(&whole.save())).unwrap();
+        let (mut one, mut two) = (Frame::default(), Frame::default());
+        for _ in 0..6 {
+            (whole.fill(&mut one), cut.fill(&mut two));
+            assert!(bits(&one) == bits(&two));
+            whole.step().unwrap();
+            cut.step().unwrap();
+        }
+    }
+}
+
 /// Keeps every frame as text.
 struct Keeper(Arc<Mutex<Vec<String>>>);
 

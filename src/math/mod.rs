@@ -1,7 +1,9 @@
 //! Grids, fixed-order sums, planned FFTs, roots, elliptic integrals. No contact words here.
 
+pub mod elementary;
 pub mod elliptic;
 pub mod filter;
 pub mod grid;
 pub mod kernel_symbol;
 pub mod root;
+pub mod spectrum;

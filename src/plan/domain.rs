@@ -6,6 +6,7 @@
 //! inlet      relative error ≈ 0.05 L^0.35 H_c [g(2.5)/g(X)]^{1.5}
 //! sides      0.14 of that, with |X| the half-width
 //! Hertz gap  g(X) = [√(X² − 1) − (2 − X²) arccos(1/X)]/π                 (in a²/R, circular)
+//! line       0.1 (ΔX/H_c^{2/3})²,  g(X) = [X √(X² − 1) − ln(X + √(X² − 1))]/2
 //! ```
 //!
 //! The rules are fits to measured smooth contacts (`tests/domain.rs`, ignored for its length): M from 10 to
@@ -30,7 +31,7 @@
 //! errors at 129² is no worse for H_c < 0.057 (L = 10), which holds all presets, worse by at most a sixth of
 //! itself up to 0.15, where the mesh rules, and falls to two thirds for thick films (test below).
 
-use crate::scene::Grid;
+use crate::scene::{ContactKind, Grid};
 
 /// Nodes and edges of the computed rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,10 +66,10 @@ const DRY_HALF: f64 = 1.5;
 impl Domain {
     /// The domain that a scene's grid asks for, the edges that it leaves out chosen by the film, given as
     /// (H_c, L) (`None`: dry).
-    pub fn choose(grid: &Grid, film: Option<(f64, f64)>) -> Self {
+    pub fn choose(kind: ContactKind, grid: &Grid, film: Option<(f64, f64)>) -> Self {
         let (x_min_a, x_max_a, y_half_b) = match film {
             Some((film, l)) => {
-                let (x_min, x_max) = edges(film, l);
+                let (x_min, x_max) = edges(kind, film, l);
                 (x_min, x_max, side(film, l))
             }
             None => (-DRY_HALF, DRY_HALF, DRY_HALF),
@@ -93,30 +94,43 @@ impl Domain {
 }
 
 /// Relative error of the central film by the mesh, `film` = h_c Rx/a².
-pub fn mesh_error(film: f64, dx_a: f64) -> f64 {
-    (dx_a / film.powf(2.0 / 3.0)).powi(2)
+pub fn mesh_error(kind: ContactKind, film: f64, dx_a: f64) -> f64 {
+    let rule = (dx_a / film.powf(2.0 / 3.0)).powi(2);
+    match kind {
+        ContactKind::Point => rule,
+        ContactKind::Line => 0.1 * rule,
+    }
 }
 
 /// Relative error of the central film by an inlet that begins at `x_min_a` (below −1); `film` = h_c Rx/a²,
-/// `l` Moes' L.
-pub fn inlet_error(film: f64, l: f64, x_min_a: f64) -> f64 {
-    0.05 * l.powf(0.35) * film * (hertz_gap(2.5) / hertz_gap(-x_min_a)).powf(1.5)
+/// `l` Moes' L (point contact; the line's rule joins two measured points at L = 10).
+pub fn inlet_error(kind: ContactKind, film: f64, l: f64, x_min_a: f64) -> f64 {
+    match kind {
+        ContactKind::Point => {
+            let gaps = hertz_gap(2.5) / hertz_gap(-x_min_a);
+            0.05 * l.powf(0.35) * film * gaps.powf(1.5)
+        }
+        ContactKind::Line => {
+            let gaps = line_gap(2.5) / line_gap(-x_min_a);
+            0.055 * (film / 0.497 * gaps).powf(1.2)
+        }
+    }
 }
 
-/// Relative error of the central film by sides at ±`y_half_b` (above 1).
+/// Relative error of the central film by sides at ±`y_half_b` (above 1), point contact.
 pub fn side_error(film: f64, l: f64, y_half_b: f64) -> f64 {
-    0.14 * inlet_error(film, l, -y_half_b)
+    0.14 * inlet_error(ContactKind::Point, film, l, -y_half_b)
 }
 
 /// The nearest inlet edge that is far enough, and the outlet with it. The origin is a node of every grid from
 /// 65² on, so that the central film needs no interpolation.
-fn edges(film: f64, l: f64) -> (f64, f64) {
+fn edges(kind: ContactKind, film: f64, l: f64) -> (f64, f64) {
     let with = |k: usize, dx: f64| (-(k as f64) * dx, (64 - k) as f64 * dx);
     let shifted = (FIRST..=SHIFTED).map(|k| with(k, SHORTEST / 64.0));
     let longer = (FIRST..=LAST).map(|k| with(k, X_MAX_A / (64 - k) as f64));
     shifted
         .chain(longer)
-        .find(|&(x_min, _)| inlet_error(film, l, x_min) < INLET_ERROR)
+        .find(|&(x_min, _)| inlet_error(kind, film, l, x_min) < INLET_ERROR)
         .unwrap_or(with(LAST, X_MAX_A / (64 - LAST) as f64))
 }
 
@@ -128,6 +142,12 @@ fn side(film: f64, l: f64) -> f64 {
         .map(|k| least + k as f64 * step)
         .find(|&y| side_error(film, l, y) <= SIDE_ERROR)
         .unwrap_or(most)
+}
+
+/// Gap outside of a Hertz line contact at |X| = `x`, in b²/R (Johnson 1985, §4.2).
+fn line_gap(x: f64) -> f64 {
+    let root = (x * x - 1.0).max(0.0).sqrt();
+    0.5 * (x * root - (x + root).ln())
 }
 
 /// Gap outside of a circular Hertz contact at |X| = `x`, in a²/R.
@@ -164,8 +184,8 @@ mod tests {
     fn the_rules_reproduce_what_was_measured() {
         for (l, film, near, far, sides) in MEASURED {
             let rules = [
-                (inlet_error(film, l, -2.53125), near),
-                (inlet_error(film, l, -4.5), far),
+                (inlet_error(ContactKind::Point, film, l, -2.53125), near),
+                (inlet_error(ContactKind::Point, film, l, -4.5), far),
                 (side_error(film, l, 2.0625), sides),
             ];
             for (rule, measured) in rules {
@@ -175,14 +195,14 @@ mod tests {
             }
         }
         // M = 1000, L = 10 on 256² of [−4.5, 1.5]: 3.6956 against 4.087, 9.6 % low.
-        let mesh = mesh_error(film(1000.0, 4.087), 6.0 / 256.0);
+        let mesh = mesh_error(ContactKind::Point, film(1000.0, 4.087), 6.0 / 256.0);
         assert!((0.05..0.2).contains(&mesh), "{mesh}");
     }
 
     /// All three errors of a domain with 129 nodes.
     fn total(film: f64, l: f64, (x_min, x_max): (f64, f64), y_half: f64) -> f64 {
-        mesh_error(film, (x_max - x_min) / 128.0)
-            + inlet_error(film, l, x_min)
+        mesh_error(ContactKind::Point, film, (x_max - x_min) / 128.0)
+            + inlet_error(ContactKind::Point, film, l, x_min)
             + side_error(film, l, y_half)
     }
 
@@ -201,9 +221,9 @@ mod tests {
             let l = 10.0;
             let before = former
                 .into_iter()
-                .find(|&(x, _)| inlet_error(film, l, x) <= 0.015)
+                .find(|&(x, _)| inlet_error(ContactKind::Point, film, l, x) <= 0.015)
                 .unwrap_or((-8.0, 5.0));
-            let (x, y) = (edges(film, l), side(film, l));
+            let (x, y) = (edges(ContactKind::Point, film, l), side(film, l));
             let old = total(film, l, (before.0, 1.5), before.1);
             let new = total(film, l, x, y);
             println!("H {film:.4}: {before:?} {old:.4} -> ({x:.3?}, {y}) {new:.4}");
@@ -213,14 +233,15 @@ mod tests {
             };
             assert!(new <= bound * old, "H {film}: {old} {new}");
             if film < 0.8 {
-                assert!(inlet_error(film, l, x.0) < 0.005);
+                assert!(inlet_error(ContactKind::Point, film, l, x.0) < 0.005);
             }
         }
     }
 
     #[test]
     fn thick_films_get_a_longer_inlet() {
-        let domain = |film: f64| Domain::choose(&Grid::default(), Some((film, 10.0)));
+        let domain =
+            |film: f64| Domain::choose(ContactKind::Point, &Grid::default(), Some((film, 10.0)));
         assert_eq!(domain(film(569.0, 4.0)).x_min_a, -2.5);
         let domains = [569.0, 200.0, 50.0, 20.0].map(|m| domain(film(m, 4.5)));
         let edges = domains.map(|domain| domain.x_min_a);
@@ -232,17 +253,23 @@ mod tests {
             assert!((node - node.round()).abs() < 1e-9, "{node}");
             assert!(domain.x_max_a >= 1.3);
         }
-        assert_eq!(Domain::choose(&Grid::default(), None).x_min_a, -DRY_HALF);
+        assert_eq!(
+            Domain::choose(ContactKind::Point, &Grid::default(), None).x_min_a,
+            -DRY_HALF
+        );
         let grid = Grid {
             x_min_a: Some(-3.0),
             ..Grid::default()
         };
-        assert_eq!(Domain::choose(&grid, Some((0.05, 10.0))).x_min_a, -3.0);
+        assert_eq!(
+            Domain::choose(ContactKind::Point, &grid, Some((0.05, 10.0))).x_min_a,
+            -3.0
+        );
     }
 
     #[test]
     fn spacing_counts_intervals() {
-        let domain = Domain::choose(&Grid::default(), Some((0.03, 10.0)));
+        let domain = Domain::choose(ContactKind::Point, &Grid::default(), Some((0.03, 10.0)));
         assert_eq!(domain.dx_a(), 4.0 / 128.0);
         assert_eq!(domain.dy_b(), 4.0 / 128.0);
     }

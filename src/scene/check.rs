@@ -5,7 +5,7 @@ use toml::{Table, Value};
 
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, KNOB_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
-use super::model::{Event, Scene, Surface};
+use super::model::{ContactKind, Event, Scene, Surface};
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
 pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
@@ -17,20 +17,20 @@ pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
 }
 
 fn check_section(path: &str, table: &mut Table) -> Result<(), SceneError> {
-    let is_smooth = table.get("kind").and_then(Value::as_str) == Some("smooth");
+    let kind = kind_of(table);
     for (name, value) in table.iter_mut() {
         let full = joined(path, name);
         if path.is_empty() && name == "event" {
             check_events(value)?;
         } else if let Some(key) = keys::find(&full) {
-            if is_smooth && path.ends_with("surface") && name != "kind" {
+            check_value(&full, key, value)?;
+            if key.need_in(path, kind.as_deref()).is_none() {
                 return Err(SceneError::value(
                     full,
                     shown(value),
-                    format!("only with {path}.kind = \"sinusoid\""),
+                    format!("only with {path}.kind = {}", key.kinds()),
                 ));
             }
-            check_value(&full, key, value)?;
         } else if keys::section(&full).is_some() {
             match value {
                 Value::Table(inner) => check_section(&full, inner)?,
@@ -47,6 +47,11 @@ fn check_section(path: &str, table: &mut Table) -> Result<(), SceneError> {
         }
     }
     Ok(())
+}
+
+/// The word that says which kind of thing a table is.
+fn kind_of(table: &Table) -> Option<String> {
+    table.get("kind").and_then(Value::as_str).map(str::to_owned)
 }
 
 /// The error for a key that no scene has.
@@ -73,11 +78,11 @@ fn check_presence(section: &Section, root: &Table) -> Result<(), SceneError> {
             Ok(())
         };
     };
-    let is_smooth = table.get("kind").and_then(Value::as_str) == Some("smooth");
+    let kind = kind_of(table);
     let missing = section
         .keys
         .iter()
-        .filter(|key| key.need == Need::Required && !(is_smooth && key.name != "kind"))
+        .filter(|key| key.need_in(section.path, kind.as_deref()) == Some(Need::Required))
         .find(|key| !table.contains_key(key.name));
     match missing {
         Some(key) => Err(SceneError::Missing {
@@ -158,15 +163,16 @@ fn check_settings(path: &str, value: &mut Value) -> Result<(), SceneError> {
 }
 
 fn check_value(full: &str, key: &Key, value: &mut Value) -> Result<(), SceneError> {
-    if let (Kind::Number(..) | Kind::NumberOrInf(..), Value::Integer(whole)) = (key.kind, &*value) {
+    let is_number = matches!(
+        key.kind,
+        Kind::Number(..) | Kind::EitherSign(..) | Kind::NumberOrInf(..)
+    );
+    if let (true, Value::Integer(whole)) = (is_number, &*value) {
         *value = Value::Float(*whole as f64);
     }
     let fits = match (key.kind, &*value) {
         (Kind::Text(longest), Value::String(text)) => text.chars().count() <= longest,
-        (Kind::Number(min, max), Value::Float(number)) => (min..=max).contains(number),
-        (Kind::NumberOrInf(min, max), Value::Float(number)) => {
-            (min..=max).contains(number) || *number == f64::INFINITY
-        }
+        (kind, Value::Float(number)) => kind.takes(*number),
         (Kind::Integer(min, max), Value::Integer(whole)) => (min..=max).contains(whole),
         (Kind::IntegerOf(values), Value::Integer(whole)) => values.contains(whole),
         (Kind::Choice(words), Value::String(text)) => words.contains(&text.as_str()),
@@ -196,6 +202,7 @@ const SLOPE_MAX: f64 = 0.5;
 
 /// The rules that tie keys together.
 pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
+    check_shape(scene)?;
     check_load(scene)?;
     check_surface("body_1.surface", &scene.body_1.surface)?;
     check_surface("body_2.surface", &scene.body_2.surface)?;
@@ -213,19 +220,102 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
         .try_for_each(|(index, event)| check_event_fits(scene, index, event))
 }
 
+/// A radius across belongs to a point contact; what varies along y does not belong to a line.
+fn check_shape(scene: &Scene) -> Result<(), SceneError> {
+    match (scene.contact.kind, scene.contact.ry_m) {
+        (ContactKind::Point, None) => Err(SceneError::Missing {
+            key: "contact.ry_m".to_owned(),
+            allowed: keys::find("contact.ry_m").map_or_else(String::new, Key::allowed),
+        }),
+        (ContactKind::Line, Some(ry_m)) => Err(SceneError::value(
+            "contact.ry_m",
+            format!("{} m", short(ry_m)),
+            "only with contact.kind = \"point\"; leave it out for a line",
+        )),
+        (ContactKind::Line, None) => scene
+            .surfaces()
+            .into_iter()
+            .zip(["body_1.surface", "body_2.surface"])
+            .try_for_each(|(surface, path)| check_transverse(path, surface)),
+        (ContactKind::Point, Some(_)) => Ok(()),
+    }
+}
+
+/// A line's surfaces must not vary along y.
+fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
+    if surface.wavenumbers_per_m()[1] == 0.0 {
+        return Ok(());
+    }
+    let Surface::Sinusoid {
+        wavelength_x_m,
+        wavelength_y_m,
+        angle_deg,
+        ..
+    } = *surface
+    else {
+        return Ok(());
+    };
+    let uniform = "a line contact is the same at every y, so its ridges must lie across";
+    Err(
+        if wavelength_y_m.is_finite() && wavelength_x_m.is_finite() {
+            SceneError::value(
+                joined(path, "wavelength_y_m"),
+                format!("{} m", short(wavelength_y_m)),
+                format!("inf: {uniform}"),
+            )
+        } else if angle_deg.rem_euclid(180.0) == 0.0 {
+            SceneError::value(
+                joined(path, "wavelength_x_m"),
+                "inf",
+                format!("a length in m, with wavelength_y_m = inf: {uniform}"),
+            )
+        } else {
+            SceneError::value(
+                joined(path, "angle_deg"),
+                short(angle_deg),
+                format!("0 with wavelength_y_m = inf: {uniform}"),
+            )
+        },
+    )
+}
+
 fn check_load(scene: &Scene) -> Result<(), SceneError> {
-    match (scene.load.force_n, scene.load.hertz_pressure_pa) {
+    let load = &scene.load;
+    let (own, other) = match scene.contact.kind {
+        ContactKind::Point => (
+            ("load.force_n", "N", load.force_n),
+            ("load.force_n_per_m", "N/m", load.force_n_per_m),
+        ),
+        ContactKind::Line => (
+            ("load.force_n_per_m", "N/m", load.force_n_per_m),
+            ("load.force_n", "N", load.force_n),
+        ),
+    };
+    let (key, unit, force) = own;
+    if let (other, unit, Some(force)) = other {
+        let only = match scene.contact.kind {
+            ContactKind::Point => "line",
+            ContactKind::Line => "point",
+        };
+        return Err(SceneError::value(
+            other,
+            format!("{} {unit}", short(force)),
+            format!("only with contact.kind = \"{only}\"; here {key} or load.hertz_pressure_pa"),
+        ));
+    }
+    match (force, load.hertz_pressure_pa) {
         (Some(_), Some(_)) => Err(SceneError::value(
             "load",
-            "force_n and hertz_pressure_pa",
+            format!("{} and hertz_pressure_pa", key.trim_start_matches("load.")),
             "exactly one of the two",
         )),
         (None, None) => Err(SceneError::Missing {
-            key: "load.force_n".to_owned(),
-            allowed: "exactly one of load.force_n (N) and load.hertz_pressure_pa (1e6 to 1e10 Pa)"
-                .to_owned(),
+            key: key.to_owned(),
+            allowed: format!(
+                "exactly one of {key} ({unit}) and load.hertz_pressure_pa (1e6 to 1e10 Pa)"
+            ),
         }),
-        (Some(force_n), None) => check_force(scene, "load.force_n", force_n),
+        (Some(force), None) => check_force(scene, key, force),
         (None, Some(_)) => Ok(()),
     }
 }
@@ -242,22 +332,46 @@ fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), SceneError>
     );
     Err(SceneError::value(
         key,
-        format!("{} N", short(force_n)),
+        match scene.contact.kind {
+            ContactKind::Point => format!("{} N", short(force_n)),
+            ContactKind::Line => format!("{} N/m", short(force_n)),
+        },
         allowed,
     ))
 }
 
 fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
-    let Surface::Sinusoid {
-        amplitude_m,
-        wavelength_x_m,
-        wavelength_y_m,
-        ..
-    } = *surface
-    else {
-        return Ok(());
+    let amplitude_m = surface.amplitude_m();
+    let shortest = match *surface {
+        Surface::Smooth {} => return Ok(()),
+        Surface::Sinusoid {
+            wavelength_x_m,
+            wavelength_y_m,
+            ..
+        } => wavelength_x_m.min(wavelength_y_m),
+        Surface::HeightMap { ref map, .. } => {
+            // Its steepest significant wave is lower than its greatest height: the bound is generous.
+            let [k_x, k_y] = surface.wavenumbers_per_m();
+            if map.is_none() {
+                return Err(SceneError::Missing {
+                    key: joined(path, "file"),
+                    allowed: "a height map that has been read (Scene::read_maps)".to_owned(),
+                });
+            }
+            let slope = surface.rq_m() * std::f64::consts::TAU * k_x.max(k_y);
+            return if slope > SLOPE_MAX {
+                Err(SceneError::value(
+                    joined(path, "amplitude_m"),
+                    format!("{} m", short(amplitude_m)),
+                    format!(
+                        "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {slope:.2}, W the shortest significant wave"
+                    ),
+                ))
+            } else {
+                Ok(())
+            };
+        }
     };
-    let shortest = wavelength_x_m.min(wavelength_y_m);
     if shortest == f64::INFINITY {
         return Err(SceneError::value(
             joined(path, "wavelength_x_m"),
@@ -279,6 +393,23 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// An event's load must be the one that the kind of contact takes.
+fn check_event_load(scene: &Scene, full: &str, name: &str, value: f64) -> Result<(), SceneError> {
+    let own = match scene.contact.kind {
+        ContactKind::Point => "load.force_n",
+        ContactKind::Line => "load.force_n_per_m",
+    };
+    if name == own {
+        check_force(scene, full, value)
+    } else {
+        Err(SceneError::value(
+            full,
+            short(value),
+            format!("{own} in this kind of contact"),
+        ))
+    }
+}
+
 /// An event's knobs must act on something that the scene has.
 fn check_event_fits(scene: &Scene, index: usize, event: &Event) -> Result<(), SceneError> {
     for (name, &value) in &event.set {
@@ -286,9 +417,16 @@ fn check_event_fits(scene: &Scene, index: usize, event: &Event) -> Result<(), Sc
         let surface = match name.as_str() {
             "body_1.surface.amplitude_m" => &scene.body_1.surface,
             "body_2.surface.amplitude_m" => &scene.body_2.surface,
-            "load.force_n" => {
-                check_force(scene, &full, value)?;
+            "load.force_n" | "load.force_n_per_m" => {
+                check_event_load(scene, &full, name, value)?;
                 continue;
+            }
+            "motion.entrainment_m_s" if value * scene.motion.entrainment_m_s < 0.0 => {
+                return Err(SceneError::value(
+                    full,
+                    short(value),
+                    "a speed of the scene's own sign: to turn the flow round is another run",
+                ));
             }
             _ => continue,
         };

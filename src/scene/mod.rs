@@ -8,6 +8,7 @@ mod check;
 mod derived;
 mod emit;
 mod error;
+mod height_map;
 pub mod keys;
 mod load;
 mod lubricant;
@@ -19,5 +20,5 @@ pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
     Body, Contact, ContactKind, CycleBasis, ErrorSource, Event, Grid, Life, LifeModel, Load,
-    Motion, Numerics, Record, Scene, Stress, StressMeasure, Surface, Time, VolumeIntegral,
+    MapEdge, Motion, Numerics, Record, Scene, Stress, StressMeasure, Surface, Time, VolumeIntegral,
 };

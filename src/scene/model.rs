@@ -1,10 +1,13 @@
 //! The scene's types: one field per key of the scene file, SI units in the names.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::lubricant::{Friction, Lubricant};
+use crate::physics::height_map::HeightMap;
+use crate::physics::hertz::HertzShape;
 
 /// A whole scene: what the user asks for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -54,11 +57,24 @@ pub struct Scene {
 }
 
 /// Shape of the contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ContactKind {
     /// Circular or elliptical contact.
+    #[default]
     Point,
+    /// Cylinders with parallel axes: nothing varies along y; loads are per metre of length.
+    Line,
+}
+
+impl ContactKind {
+    /// How its Hertz contact follows the load.
+    pub fn hertz_shape(self) -> HertzShape {
+        match self {
+            Self::Point => HertzShape::Point,
+            Self::Line => HertzShape::Line,
+        }
+    }
 }
 
 /// `[contact]`
@@ -69,8 +85,9 @@ pub struct Contact {
     pub kind: ContactKind,
     /// Equivalent radius along the rolling direction x, m.
     pub rx_m: f64,
-    /// Equivalent radius across, m.
-    pub ry_m: f64,
+    /// Equivalent radius across, m; a point contact has one, a line has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ry_m: Option<f64>,
 }
 
 /// `[body_1]`, `[body_2]`: elastic constants and surface.
@@ -118,6 +135,44 @@ pub enum Surface {
         #[serde(default)]
         phase_deg: f64,
     },
+    /// Heights from a file, by cubic interpolation.
+    HeightMap {
+        /// `.npy` or `.csv`; relative paths are relative to the scene file, and become absolute when the
+        /// scene is read.
+        file: String,
+        /// Side of a pixel, m.
+        pixel_m: f64,
+        /// What lies beyond the map.
+        #[serde(default)]
+        edge: MapEdge,
+        /// Height that a value of 1 stands for, m.
+        #[serde(default = "one")]
+        unit_m: f64,
+        /// Greatest departure from the map's level, m; `None`: as in the file.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        amplitude_m: Option<f64>,
+        /// Where the middle of a windowed map is at t = 0, m; `None`: just upstream of the domain.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        start_x_m: Option<f64>,
+        /// The heights, once read.
+        #[serde(skip)]
+        map: Option<Arc<HeightMap>>,
+    },
+}
+
+/// What lies beyond a height map.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MapEdge {
+    /// The map again and again.
+    #[default]
+    Periodic,
+    /// Nothing: the map stands once and is tapered to zero at its edges.
+    Windowed,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 fn infinite() -> f64 {
@@ -135,13 +190,16 @@ pub struct Motion {
     pub slide_roll: f64,
 }
 
-/// `[load]`: exactly one of the two.
+/// `[load]`: exactly one of `hertz_pressure_pa` and the force that the kind of contact takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Normal load, N.
+    /// Normal load of a point contact, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+    /// Normal load of a line contact per metre of length, N/m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_n_per_m: Option<f64>,
     /// Maximum Hertz pressure, Pa.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hertz_pressure_pa: Option<f64>,
@@ -345,7 +403,7 @@ impl Default for Record {
 pub struct Event {
     /// Simulated time after the start-up, s.
     pub at_s: f64,
-    /// Knobs to set: `motion.slide_roll`, `load.force_n`, `body_i.surface.amplitude_m`,
+    /// Knobs to set: `motion.slide_roll`, `load.force_n` (a line: `load.force_n_per_m`), `body_i.surface.amplitude_m`,
     /// `motion.entrainment_m_s`.
     #[serde(default)]
     pub set: BTreeMap<String, f64>,

@@ -23,7 +23,7 @@ use crate::solve::traction::TractionLaw;
 
 /// Most times a step is halved.
 const MAX_HALVINGS: u32 = 2;
-/// Mass error above which an unconverged step is not kept: it would pump mass into the history.
+/// Film error above which an unconverged step is not kept: it would pump mass into the history.
 const HOPELESS: f64 = 0.05;
 
 /// What a step took and reached.
@@ -33,6 +33,8 @@ pub(super) struct Attempted {
     pub(super) converged: bool,
     /// Worst relative change of pressure.
     pub(super) residual: f64,
+    /// Worst film error.
+    pub(super) film_error: f64,
     /// Worst mass error.
     pub(super) mass_error: f64,
     /// Worst load error.
@@ -76,6 +78,7 @@ impl Attempted {
             nodes,
             converged: metrics.converged,
             residual: metrics.residual,
+            film_error: metrics.film_error,
             mass_error: metrics.mass_error,
             load_error: metrics.load_error,
             ..Self::default()
@@ -107,6 +110,7 @@ impl Attempted {
     fn keep(&mut self, report: &NewtonReport) {
         self.converged &= report.verdict == Verdict::Converged;
         self.residual = self.residual.max(report.change);
+        self.film_error = self.film_error.max(report.film_error);
         self.mass_error = self.mass_error.max(report.mass_error);
         self.load_error = self.load_error.max(report.load_error);
     }
@@ -132,7 +136,7 @@ pub(super) fn place_surfaces(
     }
     let rough = [Knob::Amplitude1M, Knob::Amplitude2M];
     let amplitude = rough.map(|knob| door.h_from_m(drive.get(knob).now));
-    for (body, (way, amplitude)) in motion.travelled.into_iter().zip(amplitude).enumerate() {
+    for (body, (way, amplitude)) in motion.ways().into_iter().zip(amplitude).enumerate() {
         terrain.place(grid, body, way, amplitude);
     }
     terrain.gap_into(&march.macroscopic, &mut march.gap);
@@ -234,7 +238,7 @@ impl Mover<'_> {
         if report.verdict == Verdict::NotFinite {
             done.keep(&report);
             done.failure = Some(Failure::NotFinite);
-        } else if report.verdict != Verdict::Converged && report.mass_error > HOPELESS {
+        } else if report.verdict != Verdict::Converged && report.film_error > HOPELESS {
             done.keep(&report);
             let (x_m, y_m) = self.place_of(report.worst_node);
             done.failure = Some(Failure::Hopeless { x_m, y_m });
@@ -246,7 +250,7 @@ impl Mover<'_> {
     fn place_of(&self, node: usize) -> (f64, f64) {
         let grid = &self.march.grid;
         let (i, j) = (node % grid.nx, node / grid.nx);
-        (self.door.m_from_x(grid.x(i)), self.door.m_from_x(grid.y(j)))
+        (self.door.place_m(grid.x(i)), self.door.m_from_x(grid.y(j)))
     }
 
     fn commit(&mut self, nodes: f64, report: &NewtonReport, done: &mut Attempted) {
@@ -284,7 +288,7 @@ impl Mover<'_> {
         let conditions = Conditions {
             medium: &medium,
             law: Some(&self.law),
-            load: self.door.load(value(Knob::ForceN)),
+            load: self.door.load(value(self.door.load_knob())),
             tolerance: self.tolerance,
         };
         solve(self.march, &conditions)
