@@ -12,7 +12,7 @@ mod surfaces;
 use thiserror::Error;
 
 pub use cost::Cost;
-pub use domain::{Domain, inlet_error, mesh_error};
+pub use domain::{Domain, inlet_error, mesh_error, side_error};
 pub use surfaces::WavePlan;
 
 use crate::physics::groups::Groups;
@@ -52,6 +52,10 @@ pub struct Plan {
     pub steps: u64,
     /// Time steps of one length of 4 a at U.
     pub steps_per_passage: u64,
+    /// One length of 4 a at U, in a: what means are taken over.
+    pub passage_a: f64,
+    /// Length of the run after the start-up, in a at U.
+    pub length_a: f64,
     /// The waves of body 1 and 2; `None`: smooth.
     pub waves: [Option<WavePlan>; 2],
     /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
@@ -247,6 +251,8 @@ pub enum PlanError {
     },
 }
 
+/// A passage, in a.
+const PASSAGE_A: f64 = 4.0;
 /// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
 const PHASES: u64 = 16;
 /// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
@@ -261,7 +267,11 @@ impl Plan {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
         let kind = scene.kind();
-        let domain = Domain::choose(kind, &scene.grid, film.map(|film| film.central));
+        let domain = Domain::choose(
+            kind,
+            &scene.grid,
+            film.map(|film| (film.central, film.groups.l)),
+        );
         let dx_m = domain.dx_a() * hertz.a_m;
         let dy_m = match kind {
             ContactKind::Point => domain.dy_b() * hertz.b_m,
@@ -292,6 +302,8 @@ impl Plan {
             dt_s: step_m / scene.motion.entrainment_m_s.abs(),
             steps,
             steps_per_passage,
+            passage_a: PASSAGE_A,
+            length_a: scene.time.passages * PASSAGE_A,
             waves,
             traction_deflection: decide::traction_deflection(scene),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),

@@ -6,6 +6,8 @@ use super::door::Door;
 use super::drive::Drive;
 use super::fatigue_stage::{Counting, LifeStage};
 use super::motion::Motion;
+use super::orbit::{LONGEST, Orbit};
+use super::pace::{Pace, Stepping};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::stress_stage::StressStage;
@@ -65,6 +67,15 @@ impl Simulation {
             oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
         });
         let composite = scene.surfaces().map(rms_share);
+        let stepping = match scene.time.tolerance {
+            None => Stepping::Fixed(nodes),
+            Some(tolerance) => Stepping::Adaptive {
+                tolerance,
+                usual: nodes,
+            },
+        };
+        let passage = plan.passage_a;
+        let most_steps = LONGEST.max(passage) / (stepping.least() * plan.domain.dx_a());
         let mut this = Self {
             traction: vec![0.0; fine.len()],
             counting,
@@ -87,9 +98,15 @@ impl Simulation {
             wanted,
             metrics: Metrics::default(),
             stats: Stats::default(),
-            totals: super::totals::Totals::default(),
+            totals: super::totals::Totals::new(most_steps),
+            coarser: None,
             smooth_film: 0.0,
             composite,
+            orbit: Orbit::new(fine.len(), passage),
+            pace: Pace::new(stepping),
+            stepping,
+            way: 0.0,
+            next_volume: 0.0,
             step: 0,
             time_s: 0.0,
             start_up_steps: (0, 1),
@@ -164,13 +181,13 @@ fn stress_stage(
 
 fn life_stage(scene: &Scene, plan: &Plan) -> Option<LifeStage> {
     let (life, life_plan) = scene.life.as_ref().zip(plan.life)?;
-    let steps = plan.steps_per_passage.max(1) as f64;
+    let period = plan.passage_a;
     let phases = life_plan.phases_per_passage.max(1) as usize + 1;
     let law = LifeLaw {
         stress_exponent: life.stress_exponent,
         weibull_slope: life.weibull_slope,
     };
-    Some(LifeStage::new(law, life.survival, steps, phases))
+    Some(LifeStage::new(law, life.survival, period, phases))
 }
 
 /// Root-mean-square height over amplitude; 0 for a surface without height.
