@@ -22,6 +22,7 @@ const DRY: Medium = Medium {
 fn tolerance(pressure: f64) -> Tolerance {
     Tolerance {
         pressure,
+        film: f64::INFINITY,
         mass: f64::INFINITY,
         load: 1e-8,
         max_iterations: 40,

@@ -18,7 +18,8 @@ use rustfft::{Fft, FftNum, FftPlanner};
 
 use super::grid::{Grid, Symmetry};
 
-const ROWS: usize = 4;
+/// Rows of one task: eight single-precision complex numbers of a column fill a cache line.
+const ROWS: usize = 8;
 const COLUMNS: usize = 8;
 
 /// Padding of the transforms.
@@ -42,7 +43,8 @@ pub enum Parity {
 /// Buffers of one block of rows.
 struct RowWork<T> {
     real: Vec<T>,
-    spectrum: Vec<Complex<T>>,
+    /// Of [`ROWS`] rows.
+    spectra: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
 }
 
@@ -84,7 +86,11 @@ impl<T: FftNum> Filter<T> {
             Padding::Doubled => 2,
             Padding::Periodic => 1,
         };
-        let (lx, ly) = (factor * (grid.nx - 1), factor * (grid.ny_full() - 1));
+        // A line has one row and its transform along y is the identity.
+        let (lx, ly) = (
+            factor * (grid.nx - 1),
+            (factor * (grid.ny_full() - 1)).max(1),
+        );
         let n_kx = lx / 2 + 1;
         let mut real_planner = RealFftPlanner::<T>::new();
         let mut planner = FftPlanner::<T>::new();
@@ -102,7 +108,7 @@ impl<T: FftNum> Filter<T> {
         let row_work = (0..grid.ny.div_ceil(ROWS))
             .map(|_| RowWork {
                 real: vec![T::zero(); lx],
-                spectrum: vec![zero; n_kx],
+                spectra: vec![zero; ROWS * n_kx],
                 scratch: vec![zero; row_scratch],
             })
             .collect();
@@ -241,30 +247,39 @@ impl<T: FftNum> Filter<T> {
             .zip(self.row_work.par_iter_mut())
             .enumerate()
             .for_each(|(block, (rows, work))| {
-                for (r, row) in rows.chunks_exact_mut(nx).enumerate() {
-                    let j = block * ROWS + r;
-                    row.fill(T::zero());
-                    for b in 0..n_symbols {
-                        let weight = weights.map(|w| &w[(b * ny + j) * nx..(b * ny + j + 1) * nx]);
-                        if weight.is_some_and(|w| w.iter().all(T::is_zero)) {
+                rows.fill(T::zero());
+                let (j0, n_rows) = (block * ROWS, rows.len() / nx);
+                for b in 0..n_symbols {
+                    let weights = weights.map(|w| &w[(b * ny + j0) * nx..][..n_rows * nx]);
+                    if weights.is_some_and(is_zero) {
+                        continue;
+                    }
+                    // Eight rows at a time: a column's values of neighbouring rows share a cache line.
+                    for kx in 0..n_kx {
+                        let column = &columns[(kx * n_symbols + b) * ny + j0..][..n_rows];
+                        for (r, &v) in column.iter().enumerate() {
+                            work.spectra[r * n_kx + kx] = v;
+                        }
+                    }
+                    for (r, row) in rows.chunks_exact_mut(nx).enumerate() {
+                        let weight = weights.map(|w| &w[r * nx..(r + 1) * nx]);
+                        if weight.is_some_and(is_zero) {
                             continue;
                         }
-                        for (kx, s) in work.spectrum.iter_mut().enumerate() {
-                            *s = columns[(kx * n_symbols + b) * ny + j];
-                        }
-                        work.spectrum[0].im = T::zero();
-                        work.spectrum[n_kx - 1].im = T::zero();
-                        plan.process_with_scratch(
-                            &mut work.spectrum,
-                            &mut work.real,
-                            &mut work.scratch,
-                        )
-                        .expect("buffer lengths were made for this plan");
+                        let spectrum = &mut work.spectra[r * n_kx..(r + 1) * n_kx];
+                        spectrum[0].im = T::zero();
+                        spectrum[n_kx - 1].im = T::zero();
+                        plan.process_with_scratch(spectrum, &mut work.real, &mut work.scratch)
+                            .expect("buffer lengths were made for this plan");
                         accumulate(row, &work.real, lx, weight);
                     }
                 }
             });
     }
+}
+
+fn is_zero<T: FftNum>(values: &[T]) -> bool {
+    values.iter().all(T::is_zero)
 }
 
 fn accumulate<T: FftNum>(row: &mut [T], real: &[T], lx: usize, weight: Option<&[T]>) {
@@ -297,7 +312,7 @@ fn gather<T: FftNum>(
 ) {
     let zero = Complex::new(T::zero(), T::zero());
     match symmetry {
-        Symmetry::General => {
+        Symmetry::General | Symmetry::Line => {
             let n = ny.min(ly);
             for j in 0..n {
                 for c in 0..width {
@@ -361,7 +376,7 @@ mod tests {
 
     #[test]
     fn doubled_filter_is_the_direct_sum() {
-        for symmetry in [Symmetry::General, Symmetry::MirrorY] {
+        for symmetry in [Symmetry::General, Symmetry::MirrorY, Symmetry::Line] {
             let grid = Grid::new(9, -1.0, 1.0, 1.0, symmetry);
             let kernel = |i: usize, j: usize| 1.0 / (1.0 + i as f64 + 0.5 * (j * j) as f64);
             let mut p = vec![0.0; grid.len()];

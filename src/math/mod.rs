@@ -1,5 +1,6 @@
 //! Grids, fixed-order sums, planned FFTs, roots, elliptic integrals. No contact words here.
 
+pub mod elementary;
 pub mod elliptic;
 pub mod filter;
 pub mod grid;

@@ -9,6 +9,7 @@ pub mod groups;
 pub mod height_map;
 pub mod hertz;
 pub mod invariants;
+pub mod line;
 pub mod rainflow;
 pub mod stress_exact;
 pub mod stress_exact_patch;

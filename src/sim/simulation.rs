@@ -164,6 +164,12 @@ impl Simulation {
         {
             return Err(refuse(key.allowed()));
         }
+        if matches!(knob, Knob::ForceN | Knob::ForceNPerM) && knob != self.door.load_knob() {
+            return Err(refuse(format!(
+                "{} in this kind of contact",
+                self.door.load_knob().key()
+            )));
+        }
         let mut value = value;
         if knob == Knob::EntrainmentMS {
             value *= self.door.heading.sign();

@@ -2,11 +2,28 @@
 
 use crate::math::grid::{Grid, Symmetry};
 use crate::scene::StressMeasure;
-use crate::solve::stress::{SliceOut, StressEngine, StressError, StressSpec, VolumeOut};
+use crate::solve::stress::{
+    LineStress, SliceOut, StressEngine, StressError, StressSpec, VolumeOut,
+};
+
+/// What computes: a volume below a point contact, a plane below a line.
+enum Engine {
+    Volume(Box<StressEngine>),
+    Line(Box<LineStress>),
+}
+
+impl Engine {
+    fn spec(&self) -> &StressSpec {
+        match self {
+            Self::Volume(engine) => engine.spec(),
+            Self::Line(engine) => engine.spec(),
+        }
+    }
+}
 
 /// Engine, its single-precision inputs and the last slice.
 pub(super) struct StressStage {
-    engine: StressEngine,
+    engine: Engine,
     pressure: Vec<f32>,
     traction: Vec<f32>,
     /// The slice of the last step.
@@ -25,22 +42,24 @@ impl StressStage {
         measure: StressMeasure,
     ) -> Result<Self, StressError> {
         use crate::solve::stress::Symmetry as Rows;
-        let symmetry = match grid.symmetry {
-            Symmetry::MirrorY => Rows::MirrorY,
-            Symmetry::General => Rows::General,
+        let volume = |rows: Rows| {
+            let (nodes, spacing) = ((grid.nx, grid.ny), (grid.dx, grid.dy));
+            let mut spec = StressSpec::new(nodes, spacing, poisson, depths, rows);
+            (spec.x_first, spec.measure) = (grid.x_min, measure);
+            StressEngine::new(&spec).map(|engine| Engine::Volume(Box::new(engine)))
         };
-        let mut spec = StressSpec::new(
-            (grid.nx, grid.ny),
-            (grid.dx, grid.dy),
-            poisson,
-            depths,
-            symmetry,
-        );
-        spec.x_first = grid.x_min;
-        spec.measure = measure;
-        let slice = SliceOut::new(&spec);
+        let engine = match grid.symmetry {
+            Symmetry::MirrorY => volume(Rows::MirrorY)?,
+            Symmetry::General => volume(Rows::General)?,
+            Symmetry::Line => {
+                let place = (grid.x_min, grid.dx);
+                let engine = LineStress::new(grid.nx, place, poisson, depths, measure);
+                Engine::Line(Box::new(engine))
+            }
+        };
+        let slice = SliceOut::new(engine.spec());
         Ok(Self {
-            engine: StressEngine::new(&spec)?,
+            engine,
             pressure: vec![0.0; grid.len()],
             traction: vec![0.0; grid.len()],
             slice,
@@ -57,13 +76,24 @@ impl StressStage {
         narrow(p, &mut self.pressure);
         narrow(q, &mut self.traction);
         let traction = (friction != 0.0).then_some(&self.traction[..]);
-        self.engine.load(&self.pressure, traction);
-        self.engine.slice(&mut self.slice);
+        match &mut self.engine {
+            Engine::Volume(engine) => {
+                engine.load(&self.pressure, traction);
+                engine.slice(&mut self.slice);
+            }
+            Engine::Line(engine) => {
+                engine.load(&self.pressure, traction);
+                engine.slice(&mut self.slice);
+            }
+        }
     }
 
     /// ln ∫ s^m dV of the surface loaded last, without and with traction.
     pub(super) fn volume(&mut self, exponent: f64) -> VolumeOut {
-        self.engine.volume(exponent)
+        match &mut self.engine {
+            Engine::Volume(engine) => engine.volume(exponent),
+            Engine::Line(engine) => engine.volume(exponent),
+        }
     }
 }
 

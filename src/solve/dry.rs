@@ -356,6 +356,7 @@ impl NewtonReport {
             linear_iterations: 0,
             evaluations: 0,
             change: f64::INFINITY,
+            film_error: 0.0,
             mass_error: 0.0,
             load_error: 0.0,
             worst_node: 0,

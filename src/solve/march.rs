@@ -6,7 +6,7 @@
 use super::dry::{Dry, DryProblem};
 use super::film::macroscopic_gap;
 use super::history::History;
-use super::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
+use super::newton::{CARRIED, Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
 use super::reynolds::Medium;
 use super::tangential::{Shear, Tangential};
 use super::traction::TractionLaw;
@@ -264,9 +264,12 @@ impl March {
         }
         for (n, mass) in self.mass.iter_mut().enumerate() {
             let full = self.newton.reynolds.rho(n) * self.state.film[n];
-            let ruptured = self.flow == Flow::MassConserving && self.state.pressure[n] == 0.0;
-            let missing = if ruptured {
-                self.newton.reynolds.residual[n].max(0.0)
+            let left = self.newton.reynolds.residual[n];
+            let missing = if self.state.pressure[n] > 0.0 {
+                // The unbalanced rest of a converged step is mass that the next one must find again.
+                left.clamp(-CARRIED * full.abs(), CARRIED * full.abs())
+            } else if self.flow == Flow::MassConserving {
+                left.max(0.0)
             } else {
                 0.0
             };

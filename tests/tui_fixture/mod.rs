@@ -64,7 +64,7 @@ pub(crate) fn scene() -> Scene {
         contact: Contact {
             kind: ContactKind::Point,
             rx_m: 0.01905,
-            ry_m: 0.01905,
+            ry_m: Some(0.01905),
         },
         body_1: wave(f64::INFINITY),
         body_2: wave(WAVE_M),
@@ -76,6 +76,7 @@ pub(crate) fn scene() -> Scene {
         },
         load: Load {
             force_n: Some(800.0),
+            force_n_per_m: None,
             hertz_pressure_pa: None,
         },
         grid: asperity::scene::Grid::default(),
@@ -290,6 +291,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         contact_ratio: touching / (0.196 * frame.film_m.len() as f64),
         contact_load_ratio: 0.12,
         load_error: 2.4e-6,
+        film_error: 1.2e-3,
         mass_error: 3.3e-5,
         friction_coefficient: 0.047,
         sigma_eff_max_pa: Some(1.12e9),

@@ -30,23 +30,13 @@
 //! [`StressEngine::volume`] in any number. All memory is made by [`StressEngine::new`]; warm calls
 //! allocate nothing. Results do not depend on the number of threads.
 
-/// Compiles a function for the wide vector units too, and picks one at run time.
-macro_rules! dispatched {
-    ($function:item) => {
-        #[multiversion::multiversion(targets(
-            "x86_64+avx512f+avx512vl+avx512dq+avx512bw+fma",
-            "x86_64+avx2+fma"
-        ))]
-        $function
-    };
-}
-
 mod assemble;
 mod depth;
 mod engine;
 mod fft;
 mod lanes;
 mod layer;
+mod line;
 mod load;
 mod measure;
 mod peak;
@@ -56,6 +46,7 @@ mod window;
 
 pub use depth::{DEPTH_SCALE_A, depth_rule, gauss_legendre};
 pub use engine::{StressEngine, StressError, StressSpec, Symmetry};
+pub use line::LineStress;
 pub use peak::Peak;
 pub use slice::SliceOut;
 pub use volume::{Integral, VolumeOut};
