@@ -42,6 +42,7 @@ fn dry_hertz() {
     };
     let tolerance = Tolerance {
         pressure: 1e-8,
+        film: f64::INFINITY,
         mass: f64::INFINITY,
         load: 1e-8,
         max_iterations: 40,
@@ -89,6 +90,7 @@ enum Fluid {
 
 const TOLERANCE: Tolerance = Tolerance {
     pressure: 1e-4,
+    film: 1e-4,
     mass: 1e-4,
     load: 1e-6,
     max_iterations: 20,

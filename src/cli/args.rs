@@ -61,8 +61,10 @@ pub(crate) enum Command {
 Examples:
   asperity run --out passage.rrd --table passage.csv
   asperity run --set load.hertz_pressure_pa=1.2e9 --set body_1.surface.kind=smooth
-  asperity run --set lubricant=none --passages 1 --no-record --summary dry.json")]
-    Run(RunArgs),
+  asperity run --set lubricant=none --passages 1 --no-record --summary dry.json
+  asperity run --passages 1 --save-state half.state
+  asperity run --passages 2 --from-state half.state        goes on as if it had never stopped")]
+    Run(HeadlessArgs),
     /// Print the plan: what is computed, what is left out and why, memory, estimated time
     Check(SceneArgs),
     /// List the scenes that come with the program, or print one as TOML with every key explained
@@ -70,12 +72,39 @@ Examples:
         /// Preset to print
         name: Option<String>,
     },
+    /// Measure what results cost
+    #[command(after_long_help = "\
+Examples:
+  asperity study scaling           cost of a step by grid, symmetry, threads and regime, some minutes
+  asperity study scaling --quick   half a minute")]
+    Study(StudyArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
         /// Recording, as written by run and explore
         #[arg(value_name = "FILE.rrd")]
         file: PathBuf,
     },
+}
+
+/// What to study.
+#[derive(Debug, Args)]
+pub(crate) struct StudyArgs {
+    /// Which study
+    #[arg(value_enum)]
+    pub(crate) kind: StudyKind,
+    /// The smallest set of cases
+    #[arg(long, conflicts_with = "full")]
+    pub(crate) quick: bool,
+    /// The largest set of cases
+    #[arg(long)]
+    pub(crate) full: bool,
+}
+
+/// The studies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum StudyKind {
+    /// Cost of a step by grid, symmetry, threads and regime
+    Scaling,
 }
 
 /// Which scene.
@@ -115,6 +144,30 @@ pub(crate) struct RunArgs {
     /// Replace output files that exist
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+/// A run without a screen, which may be saved and taken up again.
+#[derive(Debug, Args)]
+pub(crate) struct HeadlessArgs {
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+    /// State to write when the run ends, for --from-state
+    #[arg(long, value_name = "FILE")]
+    pub(crate) save_state: Option<PathBuf>,
+    /// State to go on from, saved by a run of the same scene; the result is that of one run, bit for bit
+    #[arg(long, value_name = "FILE")]
+    pub(crate) from_state: Option<PathBuf>,
+}
+
+impl HeadlessArgs {
+    /// A run that is neither saved nor taken up.
+    pub(crate) fn whole(run: RunArgs) -> Self {
+        Self {
+            run,
+            save_state: None,
+            from_state: None,
+        }
+    }
 }
 
 impl RunArgs {

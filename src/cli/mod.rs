@@ -9,6 +9,7 @@ mod outputs;
 mod report;
 mod run;
 mod scenes;
+mod study;
 mod view;
 
 use std::io::IsTerminal as _;
@@ -16,7 +17,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-use args::{Cli, Command, RunArgs};
+use args::{Cli, Command, HeadlessArgs, RunArgs};
 use failure::Failure;
 
 /// Reads the command line and does what it says.
@@ -44,6 +45,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
         Some(Command::Explore(args)) => explore(&args),
         Some(Command::Check(args)) => scenes::check(&args),
         Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+        Some(Command::Study(args)) => study::study(&args),
         Some(Command::View { file }) => view::view(&file),
     }
 }
@@ -54,7 +56,7 @@ fn bare() -> Result<u8, Failure> {
     if on_a_terminal && cfg!(feature = "tui") {
         explore(&RunArgs::bare())
     } else {
-        run::run(&RunArgs::bare_headless())
+        run::run(&HeadlessArgs::whole(RunArgs::bare_headless()))
     }
 }
 

@@ -1,7 +1,10 @@
 //! Grids, fixed-order sums, planned FFTs, roots, elliptic integrals. No contact words here.
 
+pub mod elementary;
 pub mod elliptic;
+mod even_transform;
 pub mod filter;
 pub mod grid;
 pub mod kernel_symbol;
 pub mod root;
+pub mod spectrum;

@@ -12,7 +12,7 @@ mod surfaces;
 use thiserror::Error;
 
 pub use cost::Cost;
-pub use domain::{Domain, inlet_error, mesh_error};
+pub use domain::{Domain, inlet_error, mesh_error, side_error};
 pub use surfaces::WavePlan;
 
 use crate::physics::groups::Groups;
@@ -52,6 +52,10 @@ pub struct Plan {
     pub steps: u64,
     /// Time steps of one length of 4 a at U.
     pub steps_per_passage: u64,
+    /// One length of 4 a at U, in a: what means are taken over.
+    pub passage_a: f64,
+    /// Length of the run after the start-up, in a at U.
+    pub length_a: f64,
     /// The waves of body 1 and 2; `None`: smooth.
     pub waves: [Option<WavePlan>; 2],
     /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
@@ -247,8 +251,12 @@ pub enum PlanError {
     },
 }
 
+/// A passage, in a.
+const PASSAGE_A: f64 = 4.0;
 /// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
 const PHASES: u64 = 16;
+/// Same for a line, where it is cheap: crests that meet are rare and weigh most (16 phases erred by 10⁵).
+const LINE_PHASES: u64 = 256;
 /// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
 const START_UP_PASSAGES: f64 = 2.5;
 
@@ -261,7 +269,11 @@ impl Plan {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
         let kind = scene.kind();
-        let domain = Domain::choose(kind, &scene.grid, film.map(|film| film.central));
+        let domain = Domain::choose(
+            kind,
+            &scene.grid,
+            film.map(|film| (film.central, film.groups.l)),
+        );
         let dx_m = domain.dx_a() * hertz.a_m;
         let dy_m = match kind {
             ContactKind::Point => domain.dy_b() * hertz.b_m,
@@ -289,9 +301,11 @@ impl Plan {
             dy_m,
             symmetry: decide::symmetry(scene),
             march,
-            dt_s: step_m / scene.motion.entrainment_m_s,
+            dt_s: step_m / scene.motion.entrainment_m_s.abs(),
             steps,
             steps_per_passage,
+            passage_a: PASSAGE_A,
+            length_a: scene.time.passages * PASSAGE_A,
             waves,
             traction_deflection: decide::traction_deflection(scene),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),
@@ -320,7 +334,11 @@ impl Plan {
     fn life_plan(&self) -> LifePlan {
         /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
         const GAP: f64 = 0.14;
-        let longest = (self.steps_per_passage / PHASES).max(1);
+        let phases = match self.kind {
+            ContactKind::Point => PHASES,
+            ContactKind::Line => LINE_PHASES,
+        };
+        let longest = (self.steps_per_passage / phases).max(1);
         let widest = |every: u64| {
             let n = self.steps_per_passage / every;
             let waves = self.waves.iter().flatten();

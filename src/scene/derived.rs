@@ -96,7 +96,8 @@ impl Scene {
             e_prime_pa: self.e_prime_pa(),
             viscosity_pa_s: lubricant.viscosity_pa_s,
             alpha_per_pa: lubricant.pressure_viscosity_per_pa,
-            entrainment_m_s: self.motion.entrainment_m_s,
+            // Films do not know which way the oil flows.
+            entrainment_m_s: self.motion.entrainment_m_s.abs(),
             force_n: self.force_n(),
         })
     }
@@ -119,10 +120,25 @@ impl Surface {
         match *self {
             Self::Smooth {} => 0.0,
             Self::Sinusoid { amplitude_m, .. } => amplitude_m,
+            Self::HeightMap {
+                amplitude_m,
+                ref map,
+                ..
+            } => amplitude_m.unwrap_or_else(|| map.as_ref().map_or(0.0, |map| map.peak_m)),
         }
     }
 
-    /// Root-mean-square height: A/√2 for ridges, A/2 for the product of two waves, m.
+    /// Sets A; a smooth surface has none.
+    pub fn set_amplitude_m(&mut self, value_m: f64) {
+        match self {
+            Self::Smooth {} => {}
+            Self::Sinusoid { amplitude_m, .. } => *amplitude_m = value_m,
+            Self::HeightMap { amplitude_m, .. } => *amplitude_m = Some(value_m),
+        }
+    }
+
+    /// Root-mean-square height: A/√2 for ridges, A/2 for the product of two waves, m; of a height map by
+    /// its pixels.
     pub fn rq_m(&self) -> f64 {
         match *self {
             Self::Smooth {} => 0.0,
@@ -133,6 +149,9 @@ impl Surface {
                 ..
             } if wavelength_x_m.is_finite() && wavelength_y_m.is_finite() => 0.5 * amplitude_m,
             Self::Sinusoid { amplitude_m, .. } => amplitude_m / SQRT_2,
+            Self::HeightMap { ref map, .. } => {
+                self.amplitude_m() * map.as_ref().map_or(0.0, |map| map.rms)
+            }
         }
     }
 
@@ -141,8 +160,27 @@ impl Surface {
         matches!(self, Self::Smooth {})
     }
 
-    /// Wavenumbers of the surface along x and y, 1/m: the greatest that the turned product holds.
+    /// Crests per metre along x, f: one a wave; of a height map the upcrossings of its level.
+    pub fn crests_per_m(&self) -> f64 {
+        match *self {
+            Self::HeightMap {
+                pixel_m, ref map, ..
+            } => map.as_ref().map_or(0.0, |map| map.crests / pixel_m),
+            _ => self.wavenumbers_per_m()[0],
+        }
+    }
+
+    /// Wavenumbers of the surface along x and y, 1/m: the greatest that the turned product holds; of a
+    /// height map that of its shortest significant waves.
     pub fn wavenumbers_per_m(&self) -> [f64; 2] {
+        if let Self::HeightMap {
+            pixel_m,
+            map: Some(map),
+            ..
+        } = self
+        {
+            return map.shortest.map(|pixels| 1.0 / (pixels * pixel_m));
+        }
         let Self::Sinusoid {
             wavelength_x_m,
             wavelength_y_m,
@@ -167,6 +205,9 @@ impl Surface {
 
     /// Whether the surface is its own mirror image in y = 0, wherever it has moved along x.
     pub fn is_even_in_y(&self) -> bool {
+        if let Self::HeightMap { map: Some(map), .. } = self {
+            return map.is_even_in_y;
+        }
         let Self::Sinusoid {
             wavelength_x_m,
             angle_deg,

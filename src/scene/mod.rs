@@ -8,6 +8,7 @@ mod check;
 mod derived;
 mod emit;
 mod error;
+mod height_map;
 pub mod keys;
 mod load;
 mod lubricant;
@@ -19,6 +20,6 @@ pub use error::SceneError;
 pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, Contact, ContactKind, CycleBasis, Event, Grid, Life, LifeModel, Load, Motion, Numerics,
-    Record, Scene, Stress, StressMeasure, Surface, Time, VolumeIntegral,
+    Body, Contact, ContactKind, CycleBasis, ErrorSource, Event, Grid, Life, LifeModel, Load,
+    MapEdge, Motion, Numerics, Record, Scene, Stress, StressMeasure, Surface, Time, VolumeIntegral,
 };

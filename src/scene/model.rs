@@ -1,10 +1,12 @@
 //! The scene's types: one field per key of the scene file, SI units in the names.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::lubricant::{Friction, Lubricant};
+use crate::physics::height_map::HeightMap;
 use crate::physics::hertz::HertzShape;
 
 /// A whole scene: what the user asks for.
@@ -133,6 +135,44 @@ pub enum Surface {
         #[serde(default)]
         phase_deg: f64,
     },
+    /// Heights from a file, by cubic interpolation.
+    HeightMap {
+        /// `.npy` or `.csv`; relative paths are relative to the scene file, and become absolute when the
+        /// scene is read.
+        file: String,
+        /// Side of a pixel, m.
+        pixel_m: f64,
+        /// What lies beyond the map.
+        #[serde(default)]
+        edge: MapEdge,
+        /// Height that a value of 1 stands for, m.
+        #[serde(default = "one")]
+        unit_m: f64,
+        /// Greatest departure from the map's level, m; `None`: as in the file.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        amplitude_m: Option<f64>,
+        /// Where the middle of a windowed map is at t = 0, m; `None`: just upstream of the domain.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        start_x_m: Option<f64>,
+        /// The heights, once read.
+        #[serde(skip)]
+        map: Option<Arc<HeightMap>>,
+    },
+}
+
+/// What lies beyond a height map.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MapEdge {
+    /// The map again and again.
+    #[default]
+    Periodic,
+    /// Nothing: the map stands once and is tapered to zero at its edges.
+    Windowed,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 fn infinite() -> f64 {
@@ -201,6 +241,10 @@ pub struct Time {
     pub step_nodes: f64,
     /// Length of the run after the start-up, in lengths of 4 a travelled at U.
     pub passages: f64,
+    /// Relative error of the film that time stepping may add over one crossing of the contact; left out:
+    /// fixed steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
 }
 
 impl Default for Time {
@@ -208,6 +252,7 @@ impl Default for Time {
         Self {
             step_nodes: 1.0,
             passages: 2.0,
+            tolerance: None,
         }
     }
 }
@@ -220,6 +265,18 @@ pub struct Numerics {
     pub tolerance: f64,
     /// Most Newton iterations of one step.
     pub max_iterations: usize,
+    /// Where a headless run's estimate of its discretisation error comes from.
+    pub error_estimate: ErrorSource,
+}
+
+/// Where the estimate of the discretisation error comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ErrorSource {
+    /// A second run on half the nodes each way.
+    Companion,
+    /// No estimate.
+    None,
 }
 
 impl Default for Numerics {
@@ -227,6 +284,7 @@ impl Default for Numerics {
         Self {
             tolerance: 1.0e-3,
             max_iterations: 20,
+            error_estimate: ErrorSource::Companion,
         }
     }
 }

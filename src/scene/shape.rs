@@ -29,6 +29,14 @@ fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
     if surface.wavenumbers_per_m()[1] == 0.0 {
         return Ok(());
     }
+    let uniform = "a line contact is the same at every y, so its ridges must lie across";
+    if let Surface::HeightMap { .. } = surface {
+        return Err(SceneError::value(
+            joined(path, "kind"),
+            "\"height_map\"",
+            format!("a map whose rows are all alike, \"sinusoid\" or \"smooth\": {uniform}"),
+        ));
+    }
     let Surface::Sinusoid {
         wavelength_x_m,
         wavelength_y_m,
@@ -38,7 +46,6 @@ fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
     else {
         return Ok(());
     };
-    let uniform = "a line contact is the same at every y, so its ridges must lie across";
     Err(
         if wavelength_y_m.is_finite() && wavelength_x_m.is_finite() {
             SceneError::value(

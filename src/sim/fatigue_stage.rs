@@ -3,6 +3,8 @@
 //! The reference is the same scene smooth, frictionless, with S = 0, computed in the start-up;
 //! n_ref = 1. The cycle factor takes the n of the body that suffers more per own loading cycle.
 
+use serde::{Deserialize, Serialize};
+
 use super::frame::LifeEstimate;
 use crate::math::grid::Grid;
 use crate::physics::cycles::{BodyId, Kinematics};
@@ -16,6 +18,7 @@ use crate::solve::stress::VolumeOut;
 const SHOWN_DEPTH: f64 = 0.1;
 
 /// Counts of both bodies, and the point that is shown.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Counting {
     trackers: [MaterialTracker; 2],
     row: Vec<f32>,
@@ -38,6 +41,18 @@ impl Counting {
             shown_depth,
             shown: None,
         }
+    }
+
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        for tracker in &mut self.trackers {
+            tracker.make_room();
+        }
+    }
+
+    /// Whether the counts were made on `grid`, and nothing in them points astray.
+    pub(super) fn fits(&self, grid: &Grid) -> bool {
+        self.row.len() == grid.nx && self.trackers.iter().all(MaterialTracker::is_sound)
     }
 
     /// Forgets all counts.
@@ -96,6 +111,7 @@ pub(super) fn contacts(plan: &Plan, u_m_s: f64, s: f64) -> [Option<f64>; 2] {
 }
 
 /// The life meter, once there is a reference.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct LifeStage {
     law: LifeLaw,
     survival: f64,
@@ -106,14 +122,14 @@ pub(super) struct LifeStage {
 }
 
 impl LifeStage {
-    /// A meter over `period` steps, for lives at probability `survival`.
+    /// A meter over a way of `period` (in a), for lives at probability `survival`.
     pub(super) fn new(law: LifeLaw, survival: f64, period: f64, capacity: usize) -> Self {
         Self {
             law,
             survival,
             period,
             capacity,
-            ln_reference: f64::NEG_INFINITY,
+            ln_reference: 0.0,
             meter: None,
         }
     }
@@ -136,17 +152,33 @@ impl LifeStage {
         self.meter = Some(meter);
     }
 
-    /// Forgets the phases seen: they belong to other conditions.
-    pub(super) fn restart(&mut self) {
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        if let Some(meter) = &mut self.meter {
+            meter.make_room();
+        }
+    }
+
+    /// Takes the mean over a way of `period` (in a) from now on.
+    pub(super) fn set_period(&mut self, period: f64) {
+        self.period = period;
+        if let Some(meter) = &mut self.meter {
+            meter.set_period(period);
+        }
+    }
+
+    /// Forgets the phases seen: they belong to other conditions. The mean is over a way of `period` (in a).
+    pub(super) fn restart(&mut self, period: f64) {
+        self.period = period;
         if let Some(meter) = &mut self.meter {
             meter.restart(self.period);
         }
     }
 
-    /// Takes the integrals of `steps` steps.
-    pub(super) fn push(&mut self, steps: f64, volume: &VolumeOut) {
+    /// Takes the integrals that stand for a `way` (in a).
+    pub(super) fn push(&mut self, way: f64, volume: &VolumeOut) {
         if let Some(meter) = &mut self.meter {
-            meter.push(steps, volume);
+            meter.push(way, volume);
         }
     }
 

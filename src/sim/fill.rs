@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::door::Heading;
 use super::{Frame, MaterialPoint, Simulation, StressSlice};
 use crate::plan::LINE_ROWS;
 use crate::scene::ContactKind;
@@ -14,7 +15,11 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     frame.step = sim.step;
     frame.time_s = sim.time_s();
     frame.stage = sim.stage();
-    frame.passages = sim.step as f64 / sim.plan.steps_per_passage.max(1) as f64;
+    frame.passages = if sim.step > 0 {
+        sim.way / sim.plan.passage_a
+    } else {
+        0.0
+    };
     frame.kind = door.kind;
     let rows = match door.kind {
         ContactKind::Point => grid.ny_full(),
@@ -25,7 +30,11 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
         ContactKind::Line => 0,
     };
     (frame.nx, frame.ny) = (grid.nx, rows);
-    frame.x_min_m = door.m_from_x(grid.x_min);
+    let heading = door.heading;
+    frame.x_min_m = match heading {
+        Heading::Forward => door.m_from_x(grid.x_min),
+        Heading::Backward => -door.m_from_x(grid.x(grid.nx - 1)),
+    };
     frame.dx_m = door.m_from_x(grid.dx);
     frame.dy_m = match door.kind {
         ContactKind::Point => door.m_from_x(grid.dy),
@@ -46,12 +55,16 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
             for (to, &from) in row.iter_mut().zip(&from[start..start + grid.nx]) {
                 *to = (from * unit) as f32;
             }
+            if heading == Heading::Backward {
+                row.reverse();
+            }
         }
     };
     let state = &sim.march.state;
     expand(&state.pressure, door.p_hertz_pa, &mut frame.pressure_pa);
     expand(&state.film, door.film_m, &mut frame.film_m);
-    expand(&sim.traction, door.p_hertz_pa, &mut frame.traction_pa);
+    let along_x = heading.sign() * door.p_hertz_pa;
+    expand(&sim.traction, along_x, &mut frame.traction_pa);
     expand(
         &sim.terrain.heights[0],
         door.film_m,
@@ -95,14 +108,20 @@ fn fill_slice(sim: &Simulation, frame: &mut Frame) {
             .collect::<Arc<[f64]>>();
     }
     let unit = sim.door.p_hertz_pa as f32;
-    let scaled = |from: &[f32], to: &mut Vec<f32>| {
+    let (nx, heading) = (sim.march.grid.nx, sim.door.heading);
+    let scaled = |from: &[f32], unit: f32, to: &mut Vec<f32>| {
         to.resize(from.len(), 0.0);
         for (to, &from) in to.iter_mut().zip(from) {
             *to = from * unit;
         }
+        if heading == Heading::Backward {
+            to.chunks_exact_mut(nx).for_each(<[f32]>::reverse);
+        }
     };
-    scaled(&stress.slice.effective, &mut slice.effective_pa);
-    scaled(&stress.slice.sxz, &mut slice.tau_xz_pa);
+    scaled(&stress.slice.effective, unit, &mut slice.effective_pa);
+    // Shear along x changes its sign in the mirror.
+    let shear_unit = heading.sign() as f32 * unit;
+    scaled(&stress.slice.sxz, shear_unit, &mut slice.tau_xz_pa);
 }
 
 /// The shown point of body 1, its stress interpolated in the slice.
@@ -117,13 +136,13 @@ fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
     let effective = |n: usize| f64::from(stress.slice.effective[n]);
     Some(MaterialPoint {
         body: 1,
-        x_m: sim.door.m_from_x(shown.x),
+        x_m: sim.door.place_m(shown.x),
         depth_m: sim.door.m_from_x(stress.depths()[depth]),
         pressure_pa: sim.door.pa_from_p(shown.pressure),
         effective_pa: sim
             .door
             .pa_from_p(effective(at) * (1.0 - t) + effective(at + 1) * t),
-        tau_xz_pa: sim.door.pa_from_p(shown.tau_xz),
+        tau_xz_pa: sim.door.heading.sign() * sim.door.pa_from_p(shown.tau_xz),
         cycles_counted: shown.counted,
     })
 }

@@ -9,9 +9,12 @@ mod frame;
 mod knob;
 mod measure;
 mod motion;
+mod orbit;
+mod pace;
 mod setup;
 mod simulation;
 mod start_up;
+mod state;
 mod stats;
 mod stepping;
 mod stress_stage;
@@ -21,8 +24,11 @@ mod totals;
 mod watching;
 
 pub use error::{SimError, StepError};
-pub use frame::{Frame, LifeEstimate, MaterialPoint, Metrics, Stage, StressSlice};
+pub use frame::{
+    Frame, LifeEstimate, MaterialPoint, MeshErrors, Metrics, Repeat, Rhythm, Stage, StressSlice,
+};
 pub use knob::Knob;
 pub use simulation::Simulation;
+pub use state::State;
 pub use stats::Stats;
 pub use summary::Summary;

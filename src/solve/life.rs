@@ -11,11 +11,13 @@
 
 use std::collections::VecDeque;
 
+use serde::{Deserialize, Serialize};
+
 use super::stress::VolumeOut;
 use crate::physics::fatigue::{CyclePair, IntegralLogs, LifeFactors, LifeLaw};
 
 /// One sample, or several merged.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Phase {
     span: f64,
     normal: f64,
@@ -23,7 +25,7 @@ struct Phase {
 }
 
 /// Mean over the last period, and the life from it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct LifeMeter {
     law: LifeLaw,
     ln_reference: f64,
@@ -81,6 +83,17 @@ impl LifeMeter {
         self.period = period;
     }
 
+    /// Makes the room again that a copy or a file does not keep.
+    pub fn make_room(&mut self) {
+        let room = (self.capacity + 1).saturating_sub(self.phases.len());
+        self.phases.reserve_exact(room);
+    }
+
+    /// Takes the mean over `period` from now on.
+    pub fn set_period(&mut self, period: f64) {
+        self.period = period;
+    }
+
     /// Takes the integrals of a step of length `span`.
     pub fn push(&mut self, span: f64, volume: &VolumeOut) {
         if span <= 0.0 {
@@ -94,7 +107,7 @@ impl LifeMeter {
         self.total += span;
         self.samples = self.samples.saturating_add(1);
         while let Some(first) = self.phases.front()
-            && self.total - first.span >= self.period
+            && self.total - first.span >= self.period * (1.0 - 1e-9)
         {
             self.total -= first.span;
             self.phases.pop_front();

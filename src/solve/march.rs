@@ -3,16 +3,19 @@
 //! One attempt of a step: predict, convect, solve; nothing is committed until the caller has seen the
 //! verdict. `State` is what a restart needs; everything else can be made again.
 
+use serde::{Deserialize, Serialize};
+
+use super::dry::{Dry, DryProblem};
 use super::film::macroscopic_gap;
 use super::history::History;
-use super::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance};
+use super::newton::{CARRIED, Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
 use super::reynolds::Medium;
 use super::tangential::{Shear, Tangential};
 use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 
 /// What a restart needs.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// P, shape ny × nx.
     pub pressure: Vec<f64>,
@@ -22,6 +25,19 @@ pub struct State {
     pub h0: f64,
     /// Past masses and pressures.
     pub history: History,
+}
+
+impl State {
+    /// Whether every field has `len` nodes.
+    pub fn fits(&self, len: usize) -> bool {
+        let Self {
+            pressure,
+            film,
+            h0: _,
+            history,
+        } = self;
+        pressure.len() == len && film.len() == len && history.fits(len)
+    }
 }
 
 /// Where a step's first guess comes from.
@@ -45,10 +61,15 @@ pub struct March {
     pub gap: Vec<f64>,
     /// Solver.
     pub newton: Newton,
+    /// Solver of dry contacts; `None`: there is a film.
+    pub dry: Option<Dry>,
     c_star: Vec<f64>,
     s: Vec<f64>,
     mass: Vec<f64>,
     flow: Flow,
+    kappa: f64,
+    /// The step that the preconditioner is made for.
+    usual_nodes: f64,
 }
 
 /// Constants of a contact.
@@ -146,7 +167,9 @@ impl March {
         let mut macroscopic = vec![0.0; n];
         macroscopic_gap(&grid, shape.curvature_y, &mut macroscopic);
         let zero = vec![0.0; n];
+        let dry = (flow == Flow::Dry).then(|| Dry::new(&grid, &newton.elastic));
         Self {
+            dry,
             state: State {
                 pressure: zero.clone(),
                 film: zero.clone(),
@@ -160,6 +183,8 @@ impl March {
             s: zero.clone(),
             mass: zero,
             flow,
+            kappa: shape.kappa,
+            usual_nodes: nodes,
             grid,
         }
     }
@@ -179,6 +204,9 @@ impl March {
                 self.state.pressure.copy_from_slice(&history.pressure_1);
                 self.state.h0 = history.h0[0];
             }
+        }
+        if self.flow == Flow::Dry {
+            return self.attempt_dry(conditions);
         }
         let problem = Problem {
             grid: &self.grid,
@@ -200,21 +228,119 @@ impl March {
         )
     }
 
+    /// A last try of a step of `nodes` nodes, with everything on the safe side: backward Euler, whose C* is
+    /// never extrapolated; the last pressure as first guess; the preconditioner's symbols made for this very
+    /// step, not for the usual one; three times the iterations.
+    pub fn attempt_safely(&mut self, conditions: &Conditions, nodes: f64) -> NewtonReport {
+        let dx = self.grid.dx;
+        self.set_symbols(nodes * dx);
+        let last_nodes = std::mem::replace(&mut self.state.history.last_nodes, 0.0);
+        let mut patient = *conditions;
+        patient.tolerance.max_iterations *= 3;
+        let report = self.attempt(&patient, nodes, Guess::Last);
+        self.state.history.last_nodes = last_nodes;
+        self.set_symbols(2.0 / 3.0 * self.usual_nodes * dx);
+        report
+    }
+
+    /// Makes the preconditioner for an effective step `s`.
+    fn set_symbols(&mut self, s: f64) {
+        let Newton {
+            elastic,
+            precondition,
+            ..
+        } = &mut self.newton;
+        precondition.set_symbols(&self.grid, elastic, self.kappa, s);
+    }
+
+    /// Error that steps like the one attempted last add to the film over a crossing ([`History::path_error`]);
+    /// `None`: not known yet, or there is no film.
+    pub fn path_error(&mut self, nodes: f64) -> Option<f64> {
+        if self.flow == Flow::Dry {
+            return None;
+        }
+        self.gather_mass();
+        let State {
+            pressure, history, ..
+        } = &self.state;
+        history.path_error(&self.grid, (&self.mass, pressure), nodes)
+    }
+
+    /// A dry step. Deflection by traction (unlike bodies) is at most βμ, some per cent, of that by
+    /// pressure: it is taken from the last pressure and solved again until nothing moves.
+    fn attempt_dry(&mut self, conditions: &Conditions) -> NewtonReport {
+        /// Solutions at most; each gains a factor of about βμ ≤ 0.1.
+        const PASSES: usize = 12;
+        let mut whole = NewtonReport::nothing();
+        let Some(dry) = &mut self.dry else {
+            return whole;
+        };
+        let newton = &mut self.newton;
+        // Without a film nothing is convected: C* is free to hold the gap.
+        let gap = &mut self.c_star;
+        for pass in 0..PASSES {
+            gap.copy_from_slice(&self.gap);
+            let shear = newton.shear.as_mut().zip(conditions.law);
+            let is_coupled = shear.is_some();
+            if let Some((shear, law)) = shear {
+                shear.add_to_dry(law, &self.state.pressure, gap);
+            }
+            let report = dry.solve(
+                &mut newton.elastic,
+                &DryProblem {
+                    grid: &self.grid,
+                    gap,
+                    load: conditions.load,
+                    tolerance: conditions.tolerance,
+                },
+                &mut Iterate {
+                    p: &mut self.state.pressure,
+                    h: &mut self.state.film,
+                    h0: &mut self.state.h0,
+                },
+            );
+            whole.add(&report);
+            let settled = !is_coupled || (pass > 0 && report.iterations == 0);
+            if settled || report.verdict != Verdict::Converged {
+                return whole;
+            }
+        }
+        whole.verdict = Verdict::Stalled;
+        whole
+    }
+
     /// Commits the step that was attempted last.
     pub fn commit(&mut self, nodes: f64) {
+        if self.flow == Flow::Dry {
+            let State {
+                film,
+                history,
+                pressure,
+                h0,
+            } = &mut self.state;
+            return history.commit(film, pressure, *h0, nodes);
+        }
+        self.gather_mass();
+        self.state
+            .history
+            .commit(&self.mass, &self.state.pressure, self.state.h0, nodes);
+    }
+
+    /// ρ̄H of the last attempt.
+    fn gather_mass(&mut self) {
         for (n, mass) in self.mass.iter_mut().enumerate() {
             let full = self.newton.reynolds.rho(n) * self.state.film[n];
-            let ruptured = self.flow == Flow::MassConserving && self.state.pressure[n] == 0.0;
-            let missing = if ruptured {
-                self.newton.reynolds.residual[n].max(0.0)
+            let left = self.newton.reynolds.residual[n];
+            let missing = if self.state.pressure[n] > 0.0 {
+                // The unbalanced rest of a converged step is mass that the next one must find again.
+                left.clamp(-CARRIED * full.abs(), CARRIED * full.abs())
+            } else if self.flow == Flow::MassConserving {
+                left.max(0.0)
             } else {
                 0.0
             };
             *mass = (full - missing).max(0.0);
         }
-        self.state
-            .history
-            .commit(&self.mass, &self.state.pressure, self.state.h0, nodes);
     }
 }
 

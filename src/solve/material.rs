@@ -19,6 +19,8 @@
 //!
 //! Lengths in a, stress in p_h. Memory is made once; steps allocate nothing.
 
+use serde::{Deserialize, Serialize};
+
 use crate::physics::rainflow::{Cycle, Ends, Rainflow};
 
 /// Fraction of the golden section: multiples of it, modulo 1, spread evenly and never fall into step with
@@ -26,7 +28,7 @@ use crate::physics::rainflow::{Cycle, Ends, Rainflow};
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// What is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TrackerSpec {
     /// Points, staggered over the track; at least 8 for a mean over phases.
     pub points: usize,
@@ -108,7 +110,7 @@ impl Line<'_> {
 }
 
 /// Cycles of one history.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Tally {
     /// Cycles with a range above the gate.
     pub count: f64,
@@ -130,7 +132,7 @@ impl Tally {
 }
 
 /// One history: its counter and tally.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct History {
     flow: Rainflow,
     tally: Tally,
@@ -174,7 +176,7 @@ impl History {
 }
 
 /// Whether a point's crossing has been followed from its start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 enum Crossing {
     /// Not sampled yet.
     New,
@@ -184,7 +186,7 @@ enum Crossing {
     Part,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Point {
     x: f64,
     crossing: Crossing,
@@ -193,7 +195,7 @@ struct Point {
 }
 
 /// A sample of the shown point.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sample {
     /// Where it is, a.
     pub x: f64,
@@ -206,7 +208,7 @@ pub struct Sample {
 }
 
 /// Points of one body under way.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct MaterialTracker {
     spec: TrackerSpec,
     points: Vec<Point>,
@@ -225,7 +227,10 @@ impl MaterialTracker {
             x: spec.x_first + length * (GOLDEN * i as f64).fract(),
             crossing: Crossing::New,
             pressure: History::new(spec.pressure_gate),
-            shear: vec![History::new(spec.shear_gate); spec.depths],
+            // Each made anew: a clone would not have the room.
+            shear: (0..spec.depths)
+                .map(|_| History::new(spec.shear_gate))
+                .collect(),
         };
         let mut tracker = Self {
             spec,
@@ -236,6 +241,25 @@ impl MaterialTracker {
         };
         tracker.restart();
         tracker
+    }
+
+    /// Makes the room again that a copy or a file does not keep.
+    pub fn make_room(&mut self) {
+        for point in &mut self.points {
+            for history in std::iter::once(&mut point.pressure).chain(&mut point.shear) {
+                history.flow.make_room();
+            }
+        }
+        let room = self.spec.trace.max(1).saturating_sub(self.trace.len());
+        self.trace.reserve_exact(room);
+    }
+
+    /// Whether a tracker that was read from a file can be used.
+    pub fn is_sound(&self) -> bool {
+        let depths = |point: &Point| point.shear.len() == self.spec.depths;
+        !self.points.is_empty()
+            && self.points.iter().all(depths)
+            && self.oldest < self.trace.len().max(1)
     }
 
     /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are.

@@ -1,10 +1,13 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
 
+pub mod dry;
+mod faces;
 pub mod film;
 pub mod history;
 pub mod jacobian;
 pub mod krylov;
 pub mod life;
+mod line_sweep;
 pub mod march;
 pub mod material;
 pub mod newton;
