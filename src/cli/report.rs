@@ -121,16 +121,26 @@ fn push_life(text: &mut String, s: &Summary) {
         return;
     };
     let band = match (s.life_relative_low, s.life_relative_high) {
-        (Some(low), Some(high)) => format!(" ({low:.3} to {high:.3})"),
+        (Some(low), Some(high)) => format!(" ({} to {})", factor(low), factor(high)),
         _ => String::new(),
     };
     let factors = match (s.cycle_factor, s.peak_factor, s.traction_factor) {
         (Some(cycles), Some(peaks), Some(traction)) => {
-            format!(" = cycles {cycles:.3} x peaks {peaks:.3} x traction {traction:.3}")
+            format!(
+                " = cycles {} x peaks {} x traction {}",
+                factor(cycles),
+                factor(peaks),
+                factor(traction)
+            )
         }
         _ => String::new(),
     };
-    line(text, "relative life", &format!("{life:.4}{band}{factors}"));
+    let life = if life < SMALL {
+        factor(life)
+    } else {
+        format!("{life:.4}")
+    };
+    line(text, "relative life", &format!("{life}{band}{factors}"));
     if let Some(ratio) = s.survival_ratio.filter(|ratio| *ratio != 1.0) {
         let what = format!("at the scene's survival every life is {ratio:.3} of that at 50 %");
         line(text, "", &what);
@@ -184,6 +194,17 @@ fn repetition(s: &Summary) -> Option<String> {
         "does not repeat"
     };
     Some(format!("{verdict}: {what}, {drift}"))
+}
+
+/// Below it a factor shows its power of ten: three decimals would show nothing.
+const SMALL: f64 = 0.01;
+
+fn factor(value: f64) -> String {
+    if value < SMALL {
+        format!("{value:.2e}")
+    } else {
+        format!("{value:.3}")
+    }
 }
 
 fn cycles(formula: Option<f64>, counted: Option<f64>) -> String {

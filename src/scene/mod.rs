@@ -14,6 +14,7 @@ mod load;
 mod lubricant;
 mod model;
 pub mod presets;
+mod shape;
 
 pub use error::SceneError;
 pub use load::Override;
