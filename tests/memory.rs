@@ -53,11 +53,6 @@ fn a_warm_step_allocates_nothing() {
     // now and then: four hand-overs a step at most.
     let steps = 100;
     let queue = (4 * steps as usize).div_ceil(63) + 1;
-    for extra in [&["life=none", "stress=none"][..], &["life=none"], &["lubricant=none"]] {
-        let mut sim = warm(1, extra);
-        let n = calls(&mut sim, steps, |_, _| {});
-        println!("{extra:?}: {n}");
-    }
     for threads in [1, 2] {
         let mut sim = warm(threads, &[]);
         let n = calls(&mut sim, steps, |_, _| {});
