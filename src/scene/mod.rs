@@ -13,6 +13,7 @@ pub mod keys;
 mod load;
 mod lubricant;
 mod model;
+mod numerics;
 pub mod presets;
 mod shape;
 
@@ -20,6 +21,7 @@ pub use error::SceneError;
 pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, Contact, ContactKind, CycleBasis, ErrorSource, Event, Grid, Life, LifeModel, Load,
-    MapEdge, Motion, Numerics, Record, Scene, Stress, StressMeasure, Surface, Time, VolumeIntegral,
+    Body, Contact, ContactKind, CycleBasis, Event, Grid, Life, LifeModel, Load, MapEdge, Motion,
+    Record, Scene, Stress, StressMeasure, Surface, VolumeIntegral,
 };
+pub use numerics::{ErrorSource, Numerics, Time};
