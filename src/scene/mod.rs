@@ -9,6 +9,7 @@ mod derived;
 mod emit;
 mod error;
 mod height_map;
+mod key_table;
 pub mod keys;
 mod load;
 mod lubricant;

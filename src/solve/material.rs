@@ -6,7 +6,7 @@
 //! rainflow (ASTM E1049) with a gate → cycles per crossing; mean over points that are staggered in phase
 //! ```
 //! A point crosses at every turn of its body, so the history counts as one that repeats
-//! ([`Ends::Repeating`]): every cycle closes.
+//! ([`crate::physics::rainflow::Ends::Repeating`]): every cycle closes.
 //!
 //! *What the count is compared with.* The pressure of ripples that unload fully returns to zero between
 //! crests, so its cycles are the crests that a point meets: `f δ` within the zone, and the crest that the
@@ -21,7 +21,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::physics::rainflow::{Cycle, Ends, Rainflow};
+pub use super::tally::Tally;
+use super::tally::{Crossing, History};
 
 /// Fraction of the golden section: multiples of it, modulo 1, spread evenly and never fall into step with
 /// the ripples, as equal spacing may.
@@ -107,83 +108,6 @@ impl Line<'_> {
             .and_then(|tau| tau.get(k * nx..(k + 1) * nx))
             .map_or(0.0, |row| self.at(row, x))
     }
-}
-
-/// Cycles of one history.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Tally {
-    /// Cycles with a range above the gate.
-    pub count: f64,
-    /// Σ count · range^m.
-    damage: f64,
-    /// Greatest range.
-    pub range: f64,
-    /// `Σ count · (range/greatest)^m`: as many cycles of the greatest range do the same damage.
-    pub equivalent: f64,
-}
-
-impl Tally {
-    fn add(&mut self, cycle: Cycle, exponent: f64) {
-        self.count += cycle.count;
-        self.damage += cycle.count * cycle.range.powf(exponent);
-        self.range = self.range.max(cycle.range);
-        self.equivalent = self.damage / self.range.powf(exponent);
-    }
-}
-
-/// One history: its counter and tally.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-struct History {
-    flow: Rainflow,
-    tally: Tally,
-    /// Tally of the last whole crossing.
-    last: Option<Tally>,
-}
-
-impl History {
-    /// Open reversals of a crossing: far more than the crests of any contact that a grid resolves.
-    const OPEN: usize = 512;
-
-    fn new(gate: f64) -> Self {
-        Self {
-            flow: Rainflow::new(Ends::Repeating, gate, Self::OPEN),
-            tally: Tally::default(),
-            last: None,
-        }
-    }
-
-    fn push(&mut self, value: f64, exponent: f64) {
-        let Self { flow, tally, .. } = self;
-        flow.push(value, &mut |cycle| tally.add(cycle, exponent));
-    }
-
-    /// Starts a crossing at zero stress.
-    fn start(&mut self, exponent: f64) {
-        self.flow.reset();
-        self.tally = Tally::default();
-        self.push(0.0, exponent);
-    }
-
-    /// Ends it at zero stress.
-    fn end(&mut self, exponent: f64, crossing: Crossing) {
-        self.push(0.0, exponent);
-        let Self { flow, tally, last } = self;
-        flow.finish(&mut |cycle| tally.add(cycle, exponent));
-        if crossing == Crossing::Whole {
-            *last = Some(*tally);
-        }
-    }
-}
-
-/// Whether a point's crossing has been followed from its start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-enum Crossing {
-    /// Not sampled yet.
-    New,
-    /// From before the contact.
-    Whole,
-    /// From inside or behind the contact: not counted.
-    Part,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

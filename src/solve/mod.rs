@@ -14,5 +14,6 @@ pub mod newton;
 pub mod precondition;
 pub mod reynolds;
 pub mod stress;
+mod tally;
 pub mod tangential;
 pub mod traction;
