@@ -87,7 +87,7 @@ impl Case {
         h * (6.0 * PI / self.lambda).sqrt()
     }
 
-    fn grid(&self, nodes: usize) -> Grid {
+    pub(crate) fn grid(&self, nodes: usize) -> Grid {
         let (x_min, x_max, y_half) = self.domain;
         Grid::new(nodes, x_min, x_max, y_half, Symmetry::MirrorY)
     }
