@@ -180,6 +180,7 @@ fn counted_contacts_match_the_formula() {
                 dx,
                 pressure: &pressure,
                 tau_xz: None,
+                effective: None,
             };
             tracker.step(u_1 * passage.step(), &line);
         }
@@ -239,6 +240,7 @@ fn shear_counts_n_near_the_surface_and_one_below() {
             dx: spec.dx,
             pressure: &pressure[..spec.nx],
             tau_xz: Some(&slice.sxz),
+            effective: Some(&slice.effective),
         };
         tracker.step(passage.u_1 * passage.step(), &line);
     }

@@ -4,4 +4,5 @@ pub mod elliptic;
 pub mod filter;
 pub mod grid;
 pub mod kernel_symbol;
+pub mod ln_sum;
 pub mod root;

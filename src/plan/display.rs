@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::{March, Plan, Symmetry, WavePlan};
+use super::{LifePlan, March, Plan, Symmetry, WavePlan};
+use crate::scene::{CycleBasis, Spread, VolumeIntegral};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -140,11 +141,8 @@ impl Plan {
                 stress.depth_max_m * 1e6
             ));
         }
-        if let Some(life) = self.life {
-            lines.push(format!(
-                "stress in the whole volume and relative life, every {} steps ({} phases in 4 a)",
-                life.volume_every_steps, life.phases_per_passage
-            ));
+        if let Some(life) = &self.life {
+            lines.extend(life_lines(life));
         }
         if let Some(record) = self.record {
             lines.push(format!(
@@ -159,6 +157,55 @@ impl Plan {
             ));
         }
         lines
+    }
+}
+
+/// What is computed for life.
+fn life_lines(life: &LifePlan) -> Vec<String> {
+    let asked = &life.asked;
+    let what = if asked.volumes() {
+        "stress in the whole volume of both bodies"
+    } else {
+        "stress below y = 0 of both bodies"
+    };
+    let mut lines = vec![
+        format!(
+            "{what} and relative life, every {} steps ({} phases in 4 a)",
+            life.volume_every_steps, life.phases_per_passage
+        ),
+        format!(
+            "life by {} of {}; cycles: {}; {}",
+            asked.model.name(),
+            asked.measure.name(),
+            cycles_text(asked.cycles),
+            match asked.volume {
+                VolumeIntegral::Snapshot => "mean of snapshots",
+                VolumeIntegral::Swept => "swept: greatest stress of every track",
+            }
+        ),
+    ];
+    if asked.spread == Spread::Models {
+        lines.push("the other life models beside it: their spread".to_owned());
+    }
+    let bodies = match asked.maps {
+        [true, true] => "both bodies",
+        [true, false] => "body 1",
+        [false, true] => "body 2",
+        [false, false] => return lines,
+    };
+    lines.push(format!(
+        "damage of {bodies} over depth and along the surface, by material points on y = 0"
+    ));
+    lines
+}
+
+/// A cycle basis in words.
+fn cycles_text(cycles: CycleBasis) -> &'static str {
+    match cycles {
+        CycleBasis::Global => "one n for the volume, an upper bound on damage",
+        CycleBasis::Depth => "n by depth",
+        CycleBasis::Peaks => "counted by depth, by peaks",
+        CycleBasis::Ranges => "counted by depth, by ranges",
     }
 }
 

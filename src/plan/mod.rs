@@ -17,7 +17,9 @@ pub use surfaces::WavePlan;
 
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
-use crate::scene::{Record, Scene};
+use crate::scene::{
+    CycleBasis, Life, LifeModel, Record, Scene, Spread, StressMeasure, VolumeIntegral,
+};
 
 /// Everything that is decided before the first step.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,12 +125,41 @@ pub struct StressPlan {
 }
 
 /// Fatigue life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LifePlan {
+    /// What the scene asks for.
+    pub asked: LifeAsked,
     /// Time steps between two volume integrals.
     pub volume_every_steps: u64,
     /// Volume integrals in one length of 4 a at U.
     pub phases_per_passage: u64,
+}
+
+/// The choices of a scene's `[life]` that the plan tells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LifeAsked {
+    /// Model.
+    pub model: LifeModel,
+    /// Effective stress.
+    pub measure: StressMeasure,
+    /// Cycle basis.
+    pub cycles: CycleBasis,
+    /// Volume integral.
+    pub volume: VolumeIntegral,
+    /// Spread over models.
+    pub spread: Spread,
+    /// Damage maps of body 1 and body 2.
+    pub maps: [bool; 2],
+    /// Whether a calibration point makes lives absolute.
+    pub calibration: Option<(f64, f64)>,
+}
+
+impl LifeAsked {
+    /// Whether a model integrates stress over the volume.
+    pub fn volumes(&self) -> bool {
+        let integrates = matches!(self.model, LifeModel::Zaretsky | LifeModel::IoannidesHarris);
+        integrates || self.spread == Spread::Models
+    }
 }
 
 /// Recording, as far as it can be known before: the recorder keeps to the budget by what it measures.
@@ -273,7 +304,13 @@ impl Plan {
                 time_s: 0.0,
             },
         };
-        plan.life = scene.life.as_ref().map(|_| plan.life_plan());
+        plan.life = scene.life.as_ref().map(|life| {
+            let measure = scene
+                .stress
+                .as_ref()
+                .map_or(StressMeasure::VonMises, |s| s.measure);
+            plan.life_plan(life, measure)
+        });
         plan.record = scene.record.as_ref().map(|record| plan.record_plan(record));
         plan.left_out = decide::left_out(scene, &plan);
         plan.cost = plan.estimate();
@@ -286,7 +323,7 @@ impl Plan {
 
     /// Volume integrals at least [`PHASES`] times in 4 a, at the longest interval that meets every wave in
     /// all of its phases; an interval that fits a whole number of times into a wave would miss most.
-    fn life_plan(&self) -> LifePlan {
+    fn life_plan(&self, life: &Life, measure: StressMeasure) -> LifePlan {
         /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
         const GAP: f64 = 0.14;
         let longest = (self.steps_per_passage / PHASES).max(1);
@@ -304,6 +341,15 @@ impl Plan {
             .or_else(|| intervals.min_by(|one, two| widest(*one).total_cmp(&widest(*two))))
             .unwrap_or(1);
         LifePlan {
+            asked: LifeAsked {
+                model: life.model,
+                measure,
+                cycles: life.cycles,
+                volume: life.volume,
+                spread: life.spread,
+                maps: life.maps(),
+                calibration: life.calibration(),
+            },
             volume_every_steps: every,
             phases_per_passage: self.steps_per_passage / every,
         }

@@ -83,6 +83,14 @@ impl Scene {
 }
 
 impl Surface {
+    /// Phase of the wave along x' at t = 0, x = 0, in turns; 0 without a wave.
+    pub fn phase_turns(&self) -> f64 {
+        match *self {
+            Self::Sinusoid { phase_deg, .. } => phase_deg / 360.0,
+            Self::Smooth {} => 0.0,
+        }
+    }
+
     /// A, m; 0 for a smooth surface.
     pub fn amplitude_m(&self) -> f64 {
         match *self {

@@ -18,6 +18,7 @@ pub use error::SceneError;
 pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, Contact, ContactKind, CycleBasis, Event, Grid, Life, LifeModel, Load, Motion, Numerics,
-    Record, Scene, Stress, StressMeasure, Surface, Time, VolumeIntegral,
+    Body, BodyChoice, Contact, ContactKind, CycleBasis, DamageMaps, Event, Grid, Life, LifeModel,
+    Load, Motion, Numerics, Record, Scene, Spread, Stress, StressMeasure, Surface, Time,
+    VolumeIntegral,
 };

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Frame, Knob, MaterialPoint, Simulation, StressSlice};
+use super::{DamageBlock, Frame, Knob, MaterialPoint, Simulation, StressSlice};
+use crate::physics::cycles::BodyId;
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
 pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
@@ -59,6 +60,9 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     }
     fill_slice(sim, frame);
     frame.material_point = material_point(sim);
+    for body in BodyId::BOTH {
+        fill_damage(sim, body, &mut frame.damage[body.index()]);
+    }
     frame.metrics.clone_from(&sim.metrics);
 }
 
@@ -88,6 +92,30 @@ fn fill_slice(sim: &Simulation, frame: &mut Frame) {
     };
     scaled(&stress.slice.effective, &mut slice.effective_pa);
     scaled(&stress.slice.sxz, &mut slice.tau_xz_pa);
+}
+
+/// The damage map of a body.
+fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) {
+    let found = sim.counting.as_ref().and_then(|counting| {
+        let (map, unit) = counting.map(body)?;
+        Some((map, unit, counting.pit(body)?, sim.stress.as_ref()?))
+    });
+    let Some((map, unit, pit, stress)) = found else {
+        *block = None;
+        return;
+    };
+    let block = block.get_or_insert_with(DamageBlock::default);
+    if block.depths_m.len() != stress.depth_count() {
+        let depths = stress.depths().iter().map(|&z| sim.door.m_from_x(z));
+        block.depths_m = depths.collect();
+    }
+    block.length_m = sim.door.m_from_x(map.spec().length);
+    block.columns = map.spec().columns;
+    block.filled = map.filled();
+    map.relative_into(unit, &mut block.damage);
+    block.pit_place_m = sim.door.m_from_x(pit.place);
+    block.pit_depth_m = block.depths_m.get(pit.depth).copied().unwrap_or(0.0);
+    block.pit_damage = pit.damage;
 }
 
 /// The shown point of body 1, its stress interpolated in the slice.

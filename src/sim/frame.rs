@@ -60,8 +60,33 @@ pub struct Frame {
     pub slice: Option<StressSlice>,
     /// The material point that is followed through the contact.
     pub material_point: Option<MaterialPoint>,
+    /// Damage collected by blocks of both surfaces; `None` where none is mapped or nothing has crossed.
+    pub damage: [Option<DamageBlock>; 2],
     /// Scalars.
     pub metrics: Metrics,
+}
+
+/// Damage of a block of one surface that moves with its body: index `column * depths + k`.
+#[derive(Debug, Clone, Default)]
+pub struct DamageBlock {
+    /// Length of the block along the surface, m: one wavelength, or the whole track of a smooth body. Columns
+    /// divide it evenly; place 0 is a crest.
+    pub length_m: f64,
+    /// Columns.
+    pub columns: usize,
+    /// Depths below the surface, m, increasing.
+    pub depths_m: Arc<[f64]>,
+    /// Damage of one crossing by Miner's rule over that of the worst point of the smooth contact; 0 where no
+    /// material point has crossed yet.
+    pub damage: Vec<f32>,
+    /// Columns that have been crossed.
+    pub filled: usize,
+    /// Middle of the worst column, way from a crest, m.
+    pub pit_place_m: f64,
+    /// Depth of the worst point, m.
+    pub pit_depth_m: f64,
+    /// Its damage.
+    pub pit_damage: f64,
 }
 
 /// Stress in the plane y = 0 below body 1's surface: index `k * nx + i`, `k` over depths.
@@ -185,4 +210,31 @@ pub struct LifeEstimate {
     pub life_relative_high: f64,
     /// Whether a full period has been averaged since the last knob change.
     pub settled: bool,
+    /// Both bodies, other forms, other models.
+    pub detail: LifeDetail,
+}
+
+/// What stands beside a life.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct LifeDetail {
+    /// The model's name.
+    pub model: &'static str,
+    /// Body that gives the life, 1 or 2.
+    pub body: u8,
+    /// Relative life of body 1 and 2 in own loading cycles; `None`: the body stands, or is not counted yet.
+    pub life_body: [Option<f64>; 2],
+    /// Both together in time, as equal discs, relative to both of the reference.
+    pub life_system: Option<f64>,
+    /// Same life by the mean of snapshots.
+    pub life_snapshot: Option<f64>,
+    /// Same life by the swept integral.
+    pub life_swept: Option<f64>,
+    /// Least life over the choice of model (`life.spread`).
+    pub spread_low: f64,
+    /// Greatest.
+    pub spread_high: f64,
+    /// Variants in the spread.
+    pub variants: u32,
+    /// Loading cycles at the scene's survival; `None` without a calibration point.
+    pub cycles: Option<f64>,
 }

@@ -2,20 +2,21 @@
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::counting::{Counting, CountingSpec};
 use super::door::Door;
 use super::drive::Drive;
-use super::fatigue_stage::{Counting, LifeStage};
+use super::fatigue_stage::LifeStage;
 use super::motion::Motion;
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
-use super::stress_stage::StressStage;
+use super::stress_stage::{Purpose, StressStage};
 use super::terrain::Terrain;
 use super::{Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
-use crate::scene::{Cavitation, Scene, Surface};
+use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
 use crate::solve::march::{Flow, March, Shape};
+use crate::solve::material::DamageBasis;
 use crate::solve::newton::Tolerance;
 use crate::solve::traction::{FilmShear, TractionLaw};
 
@@ -46,11 +47,12 @@ impl Simulation {
         let march = pool.install(|| March::from_hertz(grid, &shape, film, nodes, flow));
         let fine = grid_of(&plan, plan.domain.nodes, door.b_over_a);
         let stress = pool.install(|| stress_stage(scene, &plan, &fine, &door))?;
-        let life = life_stage(scene, &plan);
-        let counting = scene.stress.as_ref().map(|_| {
-            let depths = stress.as_ref().map_or(&[][..], |stress| stress.depths());
-            let exponent = scene.life.as_ref().map_or(9.0, |life| life.stress_exponent);
-            Counting::new(&fine, depths, exponent)
+        let life = stress
+            .as_ref()
+            .and_then(|stress| LifeStage::new(scene, &plan, stress));
+        let counting = stress.as_ref().map(|stress| {
+            let spec = counting_spec(scene, &plan, stress.depth_count());
+            Counting::new(&fine, stress.depths(), &spec)
         });
         let wanted = Drive::new(|knob| initial(scene, &plan, knob));
         let mut drive = wanted.clone();
@@ -68,6 +70,7 @@ impl Simulation {
         let mut this = Self {
             traction: vec![0.0; fine.len()],
             counting,
+            iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
             stress_error: stress_error(&plan),
             plan,
             door,
@@ -151,20 +154,40 @@ fn stress_stage(
         return Ok(None);
     };
     let depths = (planned.depths, planned.depth_max_m / door.a_m);
-    StressStage::new(grid, scene.body_1.poisson, depths, asked.measure)
+    let poisson = [scene.body_1.poisson, scene.body_2.poisson];
+    let purpose = if scene.life.is_some() {
+        Purpose::Life
+    } else {
+        Purpose::Slice
+    };
+    StressStage::new(grid, poisson, depths, asked.measure, purpose)
         .map(Some)
         .map_err(|error| SimError::Stress(error.to_string()))
 }
 
-fn life_stage(scene: &Scene, plan: &Plan) -> Option<LifeStage> {
-    let (life, life_plan) = scene.life.as_ref().zip(plan.life)?;
-    let steps = plan.steps_per_passage.max(1) as f64;
-    let phases = life_plan.phases_per_passage.max(1) as usize + 1;
-    let law = LifeLaw {
-        stress_exponent: life.stress_exponent,
-        weibull_slope: life.weibull_slope,
+/// What material points count: damage by ranges where the scene's life goes by ranges, else by peaks.
+fn counting_spec(scene: &Scene, plan: &Plan, depths: usize) -> CountingSpec {
+    let life = scene.life.as_ref();
+    let maps = life.map_or([false; 2], crate::scene::Life::maps);
+    let a_m = plan.hertz.a_m;
+    let track = plan.domain.x_max_a - plan.domain.x_min_a;
+    let surfaces = scene.surfaces();
+    let block = |body: usize| {
+        let wave = plan.waves[body].filter(|wave| wave.crests_per_m > 0.0);
+        wave.map_or((track, 0.0), |wave| {
+            let length = 1.0 / (wave.crests_per_m * a_m);
+            (length, length * surfaces[body].phase_turns())
+        })
     };
-    Some(LifeStage::new(law, life.survival, steps, phases))
+    CountingSpec {
+        depths,
+        exponent: life.map_or(9.0, |life| life.stress_exponent),
+        basis: match life.map(|life| life.cycles) {
+            Some(CycleBasis::Ranges) => DamageBasis::Ranges,
+            _ => DamageBasis::Peaks,
+        },
+        blocks: [0, 1].map(|body: usize| maps[body].then(|| block(body))),
+    }
 }
 
 /// Root-mean-square height over amplitude; 0 for a surface without height.

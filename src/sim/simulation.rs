@@ -9,9 +9,10 @@
 
 use rayon::ThreadPool;
 
+use super::counting::Counting;
 use super::door::Door;
 use super::drive::Drive;
-use super::fatigue_stage::{Counting, LifeStage};
+use super::fatigue_stage::LifeStage;
 use super::motion::Motion;
 use super::stepping::{Attempted, advance};
 use super::stress_stage::StressStage;
@@ -49,6 +50,7 @@ pub struct Simulation {
     pub(super) stress: Option<StressStage>,
     pub(super) traction: Vec<f64>,
     pub(super) counting: Option<Counting>,
+    pub(super) iso_load_ratio: Option<f64>,
     pub(super) life: Option<LifeStage>,
     pub(super) stress_error: f64,
     pub(super) law: TractionLaw,
@@ -105,7 +107,7 @@ impl Simulation {
             life.restart();
         }
         if let Some(counting) = &mut self.counting {
-            counting.restart();
+            counting.restart(self.motion.travelled);
         }
     }
 
@@ -229,7 +231,12 @@ impl Simulation {
 
     /// Result so far.
     pub fn summary(&self) -> Summary {
-        super::totals::summary(self, &self.totals, self.life_estimate(), self.stats)
+        super::totals::summary(
+            self,
+            &self.totals,
+            self.life_estimate().as_ref(),
+            self.stats,
+        )
     }
 
     pub(super) fn contact_film_m(&self) -> f64 {

@@ -1,28 +1,59 @@
-//! Subsurface stress of a step: the slice y = 0, and the volume integral at the plan's cadence.
+//! Subsurface stress of a step: the slices y = 0 of both bodies, and the volume integral at the plan's cadence.
 
 use crate::math::grid::{Grid, Symmetry};
+use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
-use crate::solve::stress::{SliceOut, StressEngine, StressError, StressSpec, VolumeOut};
+use crate::solve::stress::{
+    Loading, SliceOut, StressEngine, StressError, StressLaw, StressSpec, VolumeSums,
+};
 
-/// Engine, its single-precision inputs and the last slice.
+/// Engine, its single-precision inputs and the last slices.
 pub(super) struct StressStage {
     engine: StressEngine,
     pressure: Vec<f32>,
     traction: Vec<f32>,
-    /// The slice of the last step.
+    shear: Shear,
+    /// The slice of the last step in body 1.
     pub(super) slice: SliceOut,
+    /// What life looks at besides; `None` where no life is asked for.
+    companions: Option<Companions>,
+}
+
+/// Whether a traction acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Shear {
+    None,
+    AlongX,
+}
+
+struct Companions {
+    /// The slice of the last step in body 2.
+    mate: SliceOut,
+    /// The slice that a criterion reads.
+    criterion: SliceOut,
+}
+
+/// Whether life is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// One body's slice.
+    Slice,
+    /// Both bodies' slices and volumes.
+    Life,
 }
 
 impl StressStage {
-    /// Makes the engine for `grid` with `depths` depths down to `depth_max` (in a).
+    /// Makes the engine for `grid` with Poisson's ratios of both bodies, and `depths` depths down to
+    /// `depth_max` (in a).
     ///
     /// # Errors
     /// [`StressError`] names what the engine refuses.
     pub(super) fn new(
         grid: &Grid,
-        poisson: f64,
+        poisson: [f64; 2],
         depths: (usize, f64),
         measure: StressMeasure,
+        purpose: Purpose,
     ) -> Result<Self, StressError> {
         use crate::solve::stress::Symmetry as Rows;
         let symmetry = match grid.symmetry {
@@ -32,10 +63,11 @@ impl StressStage {
         let mut spec = StressSpec::new(
             (grid.nx, grid.ny),
             (grid.dx, grid.dy),
-            poisson,
+            poisson[0],
             depths,
             symmetry,
         );
+        spec.nu_2 = poisson[1];
         spec.x_first = grid.x_min;
         spec.measure = measure;
         let slice = SliceOut::new(&spec);
@@ -43,6 +75,11 @@ impl StressStage {
             engine: StressEngine::new(&spec)?,
             pressure: vec![0.0; grid.len()],
             traction: vec![0.0; grid.len()],
+            shear: Shear::None,
+            companions: (purpose == Purpose::Life).then(|| Companions {
+                mate: slice.clone(),
+                criterion: slice.clone(),
+            }),
             slice,
         })
     }
@@ -52,18 +89,87 @@ impl StressStage {
         &self.engine.spec().depths
     }
 
-    /// Takes the surface of a step and computes the slice.
+    /// How many depths.
+    pub(super) fn depth_count(&self) -> usize {
+        self.engine.spec().depths.len()
+    }
+
+    /// Rows that a volume pass reports.
+    pub(super) fn row_count(&self) -> usize {
+        let one = Loading::Normal(BodyId::One);
+        self.engine.sums().row_tops(one).len()
+    }
+
+    /// Takes the surface of a step and computes the slices.
     pub(super) fn slice(&mut self, p: &[f64], q: &[f64], friction: f64) {
         narrow(p, &mut self.pressure);
         narrow(q, &mut self.traction);
-        let traction = (friction != 0.0).then_some(&self.traction[..]);
+        self.shear = if friction == 0.0 {
+            Shear::None
+        } else {
+            Shear::AlongX
+        };
+        let traction = (self.shear == Shear::AlongX).then_some(&self.traction[..]);
         self.engine.load(&self.pressure, traction);
         self.engine.slice(&mut self.slice);
+        let two = Loading::Full(BodyId::Two);
+        let alike = self.equal_loading(two).is_some();
+        if let Some(companions) = self.companions.as_mut().filter(|_| !alike) {
+            self.engine.slice_of(two, &mut companions.mate);
+        }
     }
 
-    /// ln ∫ s^m dV of the surface loaded last, without and with traction.
-    pub(super) fn volume(&mut self, exponent: f64) -> VolumeOut {
-        self.engine.volume(exponent)
+    /// The slice of the last step in a body; body 2 has one of its own where life is asked for.
+    pub(super) fn slice_in(&self, body: BodyId) -> &SliceOut {
+        match (body, &self.companions) {
+            (BodyId::Two, Some(companions))
+                if self.equal_loading(Loading::Full(BodyId::Two)).is_none() =>
+            {
+                &companions.mate
+            }
+            _ => &self.slice,
+        }
+    }
+
+    /// A loading earlier in [`Loading::ALL`] with the same stress: without traction, and with the same
+    /// Poisson's ratio, both bodies are alike.
+    pub(super) fn equal_loading(&self, loading: Loading) -> Option<Loading> {
+        let spec = self.engine.spec();
+        let alike = spec.nu == spec.nu_2;
+        match (loading, self.shear) {
+            (Loading::Normal(BodyId::Two), _) | (Loading::Full(BodyId::Two), Shear::None)
+                if alike =>
+            {
+                Some(Loading::Normal(BodyId::One))
+            }
+            (Loading::Full(body), Shear::None) => Some(Loading::Normal(body)),
+            _ => None,
+        }
+    }
+
+    /// Volume pass under the surface loaded last, both bodies.
+    pub(super) fn volume(&mut self, laws: &[StressLaw]) {
+        self.engine.volume_under(laws, &BodyId::BOTH);
+    }
+
+    /// Sums of the last volume pass.
+    pub(super) fn sums(&self) -> &VolumeSums {
+        self.engine.sums()
+    }
+
+    /// Computes the slice that a criterion reads.
+    pub(super) fn criterion_slice(&mut self, loading: Loading) {
+        if let Some(companions) = &mut self.companions {
+            self.engine.slice_of(loading, &mut companions.criterion);
+        }
+    }
+
+    /// Nodes along x, depths and the slice that a criterion reads.
+    pub(super) fn criterion(&self) -> (usize, &[f64], &SliceOut) {
+        let spec = self.engine.spec();
+        let companions = self.companions.as_ref();
+        let slice = companions.map_or(&self.slice, |companions| &companions.criterion);
+        (spec.nx, &spec.depths, slice)
     }
 }
 

@@ -265,6 +265,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
             life_relative_low: life_relative * 0.8,
             life_relative_high: life_relative * 1.25,
             settled: step > 120,
+            ..LifeEstimate::default()
         }),
         n_body_1: Some(4.2),
         n_body_2: Some(2.5),

@@ -1,4 +1,4 @@
-//! Subsurface stress of body 1 by windowed frequency responses, truncated with depth.
+//! Subsurface stress of both bodies by windowed frequency responses, truncated with depth.
 //!
 //! ```text
 //! p̂, q̂ = FFT of pressure and traction (padded);  per depth z:
@@ -9,7 +9,7 @@
 //! | symbol | meaning | shape, unit |
 //! |---|---|---|
 //! | p | pressure, > 0 presses | `[j·nx + i]`, p_h |
-//! | q | traction on the body along +x | same |
+//! | q | traction on body 1 along +x (and, where given, +y); body 2 has −q | same |
 //! | σ | stress, tension positive | p_h |
 //! | x, y, z | along rolling, across, into the body | a |
 //! | k, (nx, ny) | wave number and direction of a mode | 1/a |
@@ -50,12 +50,16 @@ mod layer;
 mod load;
 mod measure;
 mod peak;
+mod plane;
 mod slice;
+mod sums;
 mod volume;
 mod window;
 
 pub use depth::{DEPTH_SCALE_A, depth_rule, gauss_legendre};
-pub use engine::{StressEngine, StressError, StressSpec, Symmetry};
+pub use engine::{Loading, StressEngine, StressError, StressSpec, Symmetry};
 pub use peak::Peak;
+pub use plane::{Cut, Plane};
 pub use slice::SliceOut;
+pub use sums::{StressLaw, VolumeSums};
 pub use volume::{Integral, VolumeOut};

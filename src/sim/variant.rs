@@ -1,0 +1,139 @@
+//! One life model under way: its mean over the phases, its greatest over the track, its reference.
+
+use super::stress_stage::StressStage;
+use crate::physics::cycles::BodyId;
+use crate::physics::fatigue::LifeLaw;
+use crate::physics::life_models::LifeModel;
+use crate::scene::VolumeIntegral;
+use crate::solve::critical::shares_of_slice;
+use crate::solve::life::{LifeMeter, Shares, Sweep};
+use crate::solve::stress::{Loading, StressLaw};
+
+/// A model with its accumulators: plain data, all of it state.
+#[derive(Debug, Clone)]
+pub(super) struct Variant {
+    pub(super) model: LifeModel,
+    /// Place of its stress law in the volume pass; `None`: it reads slices.
+    pub(super) law: Option<usize>,
+    meter: LifeMeter,
+    /// Greatest shares over all samples (models of one depth), or the swept integral.
+    swept: Shares,
+    /// ln J of the reference of each body, snapshot and swept.
+    reference: [[f64; 2]; 2],
+    /// Stress by depth of the last sample under full load, body 1 (models of one depth), p_h.
+    pub(super) by_depth: Vec<f32>,
+}
+
+/// What every variant is computed with.
+pub(super) struct Shared<'a> {
+    pub(super) law: LifeLaw,
+    pub(super) laws: &'a [StressLaw],
+    pub(super) sweep: &'a Sweep,
+    pub(super) scratch: &'a mut Shares,
+}
+
+impl Variant {
+    pub(super) fn new(
+        model: LifeModel,
+        law: Option<usize>,
+        depths: usize,
+        (period, capacity): (f64, usize),
+    ) -> Self {
+        Self {
+            model,
+            law,
+            meter: LifeMeter::new(depths, period, capacity),
+            swept: Shares::new(depths),
+            reference: [[f64::NEG_INFINITY; 2]; 2],
+            by_depth: vec![0.0; depths],
+        }
+    }
+
+    /// Takes the smooth, frictionless contact as the reference.
+    pub(super) fn set_reference(&mut self, stress: &mut StressStage, shared: &mut Shared) {
+        self.take(stress, shared);
+        for body in BodyId::BOTH {
+            self.reference[body.index()] = [
+                shared.scratch.ln(Loading::Normal(body)),
+                self.swept.ln(Loading::Normal(body)),
+            ];
+        }
+        self.restart();
+    }
+
+    /// ln J of the reference.
+    pub(super) fn ln_reference(&self, body: BodyId, form: VolumeIntegral) -> f64 {
+        self.reference[body.index()][form_index(form)]
+    }
+
+    pub(super) fn restart(&mut self) {
+        self.meter.restart();
+        self.swept.clear();
+    }
+
+    /// Takes the surface loaded last; the volume pass has been made.
+    pub(super) fn push(&mut self, steps: f64, stress: &mut StressStage, shared: &mut Shared) {
+        self.take(stress, shared);
+        self.meter.push(steps, shared.scratch);
+    }
+
+    /// Shares of the surface loaded last into the scratch, and what has been swept.
+    fn take(&mut self, stress: &mut StressStage, shared: &mut Shared) {
+        let depths = stress.depth_count();
+        for loading in Loading::ALL {
+            if let Some(law) = self.law {
+                let target = shared.scratch.of_mut(loading);
+                let sums = stress.sums();
+                target.copy_from_slice(sums.layers(loading, law));
+                let swept = self.swept.of_mut(loading);
+                sums.swept_into(shared.sweep.of(loading), shared.laws[law], swept);
+                for (k, (share, swept)) in target.iter_mut().zip(swept).enumerate() {
+                    let weight = self.model.ln_depth_weight(stress.depths()[k]);
+                    *share += weight;
+                    *swept += weight;
+                }
+            } else if let Some(same) = stress.equal_loading(loading) {
+                for k in 0..depths {
+                    shared.scratch.of_mut(loading)[k] = shared.scratch.of(same)[k];
+                    self.swept.of_mut(loading)[k] = self.swept.of(same)[k];
+                }
+            } else {
+                stress.criterion_slice(loading);
+                let (nx, depths, slice) = stress.criterion();
+                let target = shared.scratch.of_mut(loading);
+                let by_depth = &mut self.by_depth;
+                shares_of_slice(
+                    self.model,
+                    shared.law,
+                    (nx, depths),
+                    slice,
+                    by_depth,
+                    target,
+                );
+                for (most, share) in self.swept.of_mut(loading).iter_mut().zip(target) {
+                    *most = most.max(*share);
+                }
+            }
+        }
+    }
+
+    /// Mean or swept shares; `None` before the first sample.
+    pub(super) fn shares(&self, form: VolumeIntegral) -> Option<&Shares> {
+        let mean = self.meter.mean()?;
+        Some(match form {
+            VolumeIntegral::Snapshot => mean,
+            VolumeIntegral::Swept => &self.swept,
+        })
+    }
+
+    pub(super) fn meter(&self) -> &LifeMeter {
+        &self.meter
+    }
+}
+
+fn form_index(form: VolumeIntegral) -> usize {
+    match form {
+        VolumeIntegral::Snapshot => 0,
+        VolumeIntegral::Swept => 1,
+    }
+}
