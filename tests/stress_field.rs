@@ -327,8 +327,8 @@ fn swept_integral_takes_the_greatest_of_every_row() {
             layers[k]
         );
         assert!(
-            (layers[k] - exact).abs() < 0.02,
-            "the layer's own grid is coarse"
+            (layers[k] - exact).abs() < 0.04,
+            "the greatest sample lies up to half a step of the layer's own grid beside the crest"
         );
     }
 }

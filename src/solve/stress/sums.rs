@@ -4,6 +4,8 @@
 //! ln I = ln Σ_k e^{L_k}          L_k: ln of depth k's share, its weight included
 //! ln S = ln Σ_kr w_kr M_kr^m     M_kr: greatest effective stress of row r at depth k (swept)
 //! ```
+//! The greatest is that of the samples of a layer's own grid, which leaves a swept share of Hertz up to 3 % low
+//! (m = 11.5); against a reference of the same grid it cancels.
 
 use super::engine::{Loading, StressSpec};
 use super::layer::Layer;
