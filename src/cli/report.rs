@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use asperity::run::{End, Outcome};
-use asperity::scene::Scene;
+use asperity::scene::{ContactKind, Scene};
 use asperity::sim::Summary;
 
 /// The outcome as text.
@@ -15,7 +15,7 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome) -> String {
     }
     if let Some(summary) = &outcome.summary {
         line(&mut text, "run", &run_line(outcome));
-        push_results(&mut text, summary);
+        push_results(&mut text, scene.kind(), summary);
     }
     for report in &outcome.reports {
         let skipped = if report.skipped > 0 {
@@ -54,9 +54,13 @@ fn run_line(outcome: &Outcome) -> String {
     )
 }
 
-fn push_results(text: &mut String, s: &Summary) {
+fn push_results(text: &mut String, kind: ContactKind, s: &Summary) {
+    let (unit, zone) = match kind {
+        ContactKind::Point => ("N", "Hertz ellipse"),
+        ContactKind::Line => ("N/m", "Hertz width"),
+    };
     let contact = format!(
-        "a {:.1} um, Hertz pressure {:.3} GPa, load {:.1} N",
+        "a {:.1} um, Hertz pressure {:.3} GPa, load {:.1} {unit}",
         s.a_m * 1e6,
         s.p_hertz_pa * 1e-9,
         s.load_n
@@ -69,7 +73,7 @@ fn push_results(text: &mut String, s: &Summary) {
     );
     line(text, "pressure", &pressure);
     let film = format!(
-        "central {:.1} nm, least {:.1} nm; {:.2} % of the Hertz ellipse touches",
+        "central {:.1} nm, least {:.1} nm; {:.2} % of the {zone} touches",
         s.h_central_m * 1e9,
         s.h_min_m * 1e9,
         s.contact_ratio * 100.0

@@ -84,7 +84,11 @@ impl<T: FftNum> Filter<T> {
             Padding::Doubled => 2,
             Padding::Periodic => 1,
         };
-        let (lx, ly) = (factor * (grid.nx - 1), factor * (grid.ny_full() - 1));
+        // A line has one row and its transform along y is the identity.
+        let (lx, ly) = (
+            factor * (grid.nx - 1),
+            (factor * (grid.ny_full() - 1)).max(1),
+        );
         let n_kx = lx / 2 + 1;
         let mut real_planner = RealFftPlanner::<T>::new();
         let mut planner = FftPlanner::<T>::new();
@@ -297,7 +301,7 @@ fn gather<T: FftNum>(
 ) {
     let zero = Complex::new(T::zero(), T::zero());
     match symmetry {
-        Symmetry::General => {
+        Symmetry::General | Symmetry::Line => {
             let n = ny.min(ly);
             for j in 0..n {
                 for c in 0..width {
@@ -361,7 +365,7 @@ mod tests {
 
     #[test]
     fn doubled_filter_is_the_direct_sum() {
-        for symmetry in [Symmetry::General, Symmetry::MirrorY] {
+        for symmetry in [Symmetry::General, Symmetry::MirrorY, Symmetry::Line] {
             let grid = Grid::new(9, -1.0, 1.0, 1.0, symmetry);
             let kernel = |i: usize, j: usize| 1.0 / (1.0 + i as f64 + 0.5 * (j * j) as f64);
             let mut p = vec![0.0; grid.len()];

@@ -5,15 +5,18 @@
 //! y_j = y_first + j dy        j = 0 .. ny-1
 //! ```
 //! With [`Symmetry::MirrorY`] only the half `y >= 0` is stored: row 0 lies on the axis y = 0 and the
-//! row below it is the mirror image of row 1.
+//! row below it is the mirror image of row 1. With [`Symmetry::Line`] nothing depends on y: one row is
+//! stored, which is its own neighbour above and below, and sums are per unit length along y (`dy = 1`).
 
-/// Whether fields are even in y.
+/// How fields depend on y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Symmetry {
     /// Fields are even in y: half of the rows is stored.
     MirrorY,
     /// All rows are stored.
     General,
+    /// Fields are the same at every y: one row is stored.
+    Line,
 }
 
 /// Sizes, spacing and symmetry of a grid. The outer boundary always lies on nodes.
@@ -36,12 +39,18 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// A grid of `nodes` x `nodes` over `[x_min, x_max] x [-y_half, y_half]` (`nodes` odd).
+    /// A grid of `nodes` x `nodes` over `[x_min, x_max] x [-y_half, y_half]` (`nodes` odd); of a line
+    /// `nodes` x 1, whatever `y_half`.
     pub fn new(nodes: usize, x_min: f64, x_max: f64, y_half: f64, symmetry: Symmetry) -> Self {
         let cells = (nodes - 1) as f64;
         let (ny, y_first) = match symmetry {
             Symmetry::MirrorY => (nodes.div_ceil(2), 0.0),
             Symmetry::General => (nodes, -y_half),
+            Symmetry::Line => (1, 0.0),
+        };
+        let dy = match symmetry {
+            Symmetry::MirrorY | Symmetry::General => 2.0 * y_half / cells,
+            Symmetry::Line => 1.0,
         };
         Self {
             nx: nodes,
@@ -49,7 +58,7 @@ impl Grid {
             x_min,
             dx: (x_max - x_min) / cells,
             y_first,
-            dy: 2.0 * y_half / cells,
+            dy,
             symmetry,
         }
     }
@@ -68,7 +77,7 @@ impl Grid {
     pub fn ny_full(&self) -> usize {
         match self.symmetry {
             Symmetry::MirrorY => 2 * self.ny - 1,
-            Symmetry::General => self.ny,
+            Symmetry::General | Symmetry::Line => self.ny,
         }
     }
 
@@ -97,18 +106,45 @@ impl Grid {
         match self.symmetry {
             Symmetry::MirrorY => 0..self.ny - 1,
             Symmetry::General => 1..self.ny - 1,
+            Symmetry::Line => 0..1,
         }
     }
 
-    /// The row below `j` (towards -y), mirrored on the axis.
+    /// The row below `j` (towards -y), mirrored on the axis; of a line the row itself.
     pub fn row_below(&self, j: usize) -> usize {
-        if j == 0 { 1 } else { j - 1 }
+        match self.symmetry {
+            Symmetry::Line => j,
+            Symmetry::MirrorY | Symmetry::General => {
+                if j == 0 {
+                    1
+                } else {
+                    j - 1
+                }
+            }
+        }
+    }
+
+    /// The row above `j` (towards +y); of a line the row itself.
+    pub fn row_above(&self, j: usize) -> usize {
+        match self.symmetry {
+            Symmetry::Line => j,
+            Symmetry::MirrorY | Symmetry::General => j + 1,
+        }
+    }
+
+    /// Weights 1/dx², 1/dy² of the flow to the neighbours along x and y; of a line there is none along y.
+    pub fn flow_weights(&self) -> (f64, f64) {
+        let along_y = match self.symmetry {
+            Symmetry::Line => 0.0,
+            Symmetry::MirrorY | Symmetry::General => 1.0 / (self.dy * self.dy),
+        };
+        (1.0 / (self.dx * self.dx), along_y)
     }
 
     /// The stored row on the axis y = 0.
     pub fn axis_row(&self) -> usize {
         match self.symmetry {
-            Symmetry::MirrorY => 0,
+            Symmetry::MirrorY | Symmetry::Line => 0,
             Symmetry::General => self.ny / 2,
         }
     }
@@ -117,7 +153,7 @@ impl Grid {
     pub fn stored_row(&self, j_full: usize) -> usize {
         match self.symmetry {
             Symmetry::MirrorY => j_full.abs_diff(self.ny - 1),
-            Symmetry::General => j_full,
+            Symmetry::General | Symmetry::Line => j_full,
         }
     }
 

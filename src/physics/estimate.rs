@@ -2,16 +2,16 @@
 //!
 //! ```text
 //! n_i      = 1 + f_j · 2a · |U2 − U1| / |U_i|          contacts per loading cycle of body i
-//! a, p_h   ∝ F^(1/3)                                    Hertz, point contact
+//! a, p_h   ∝ F^(1/k)                                    Hertz, k = 3; of a line k = 2
 //! cycles   = cycles_0 · max(n1, n2)_0 / max(n1, n2)
 //! ln peaks = ln peaks_0 · (A1 + A2) / (A1 + A2)_0
 //! life     = cycles · peaks · traction                  reference at the same load
-//! load     = (p_h/p_h0)^−(c + 3/e)                      what the load itself costs
+//! load     = (p_h/p_h0)^−(c + k/e)                      what the load itself costs
 //! ```
 //!
 //! Subscript 0 is the *anchor*: a state that was simulated and has settled. `f_j` is the number of
 //! crests of the mating surface per metre along x, `c` and `e` the stress exponent and Weibull
-//! slope of the Zaretsky life, of which the last line follows with `I ∝ p_h^(c e) a³` and
+//! slope of the Zaretsky life, of which the last line follows with `I ∝ p_h^(c e) a^k` and
 //! `N ∝ I^(−1/e)`. The first two lines are exact; the peaks' line is an interpolation in the
 //! exponent between the smooth contact (`A = 0`, factor 1) and the anchor, and stands in only
 //! until the simulation has caught up. Traction keeps the anchor's factor, but no sliding leaves
@@ -20,13 +20,14 @@
 //! `n_i` is [`contacts`]'s.
 
 use crate::physics::cycles::{BodyId, Kinematics};
+use crate::physics::hertz::HertzShape;
 
 /// An operating point. SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OperatingPoint {
     /// S = (U2 − U1)/U.
     pub slide_roll: f64,
-    /// Normal load, N.
+    /// Normal load, N; of a line N/m.
     pub load_n: f64,
     /// Amplitude of body 1's roughness, m.
     pub amplitude_1_m: f64,
@@ -41,7 +42,9 @@ pub struct EstimateBasis {
     pub crests_1_per_m: f64,
     /// Same for body 2, 1/m.
     pub crests_2_per_m: f64,
-    /// A load, N, at which the next two hold.
+    /// Point or line.
+    pub shape: HertzShape,
+    /// A load, N (a line: N/m), at which the next two hold.
     pub load_n: f64,
     /// Hertz half-width along x at that load, m.
     pub half_width_m: f64,
@@ -89,9 +92,15 @@ pub fn speed_ratios(slide_roll: f64) -> (f64, f64) {
 }
 
 /// What a load factor of 1 becomes when the Hertz pressure is multiplied by `pressure_ratio`:
-/// `r^−(c + 3/e)`.
-pub fn load_factor(pressure_ratio: f64, stress_exponent: f64, weibull_slope: f64) -> f64 {
-    pressure_ratio.powf(-(stress_exponent + 3.0 / weibull_slope))
+/// `r^−(c + k/e)`.
+pub fn load_factor(
+    shape: HertzShape,
+    pressure_ratio: f64,
+    stress_exponent: f64,
+    weibull_slope: f64,
+) -> f64 {
+    let volume = f64::from(shape.order());
+    pressure_ratio.powf(-(stress_exponent + volume / weibull_slope))
 }
 
 impl EstimateBasis {
@@ -134,9 +143,9 @@ impl EstimateBasis {
         }
     }
 
-    /// a/a_0 = p_h/p_h0 = (F/F_0)^(1/3).
+    /// a/a_0 = p_h/p_h0 = (F/F_0)^(1/k).
     fn size_ratio(&self, load_n: f64) -> f64 {
-        (load_n / self.load_n).cbrt()
+        self.shape.size_ratio(load_n / self.load_n)
     }
 }
 
@@ -177,6 +186,7 @@ mod tests {
         EstimateBasis {
             crests_1_per_m: 1e5,
             crests_2_per_m: 1e5,
+            shape: HertzShape::Point,
             load_n: 800.0,
             half_width_m: 1e-4,
             p_hertz_pa: 1.7e9,
@@ -270,7 +280,12 @@ mod tests {
         assert_relative_eq!(estimate.p_hertz_pa, 3.4e9, epsilon = 1.0);
         assert_relative_eq!(estimate.half_width_m, 2e-4, epsilon = 1e-12);
         // N ∝ F^−(c + 3/e)/3 = F^−4.344.
-        let life = load_factor(estimate.p_hertz_pa / 1.7e9, 31.0 / 3.0, 10.0 / 9.0);
+        let life = load_factor(
+            HertzShape::Point,
+            estimate.p_hertz_pa / 1.7e9,
+            31.0 / 3.0,
+            10.0 / 9.0,
+        );
         let exponent = life.ln() / 8.0_f64.ln();
         assert_relative_eq!(exponent, -(31.0 / 3.0 + 2.7) / 3.0, epsilon = 1e-12);
     }

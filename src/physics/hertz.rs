@@ -37,6 +37,34 @@ pub struct Hertz {
     pub approach_m: f64,
 }
 
+/// How size and pressure follow the load: the one number by which points and lines differ there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HertzShape {
+    /// Circle or ellipse: a, p_h ∝ w^{1/3}, stressed volume ∝ a³.
+    #[default]
+    Point,
+    /// Line: a, p_h ∝ w^{1/2}, stressed volume per length ∝ a².
+    Line,
+}
+
+impl HertzShape {
+    /// The k of a, p_h ∝ w^{1/k} and volume ∝ a^k.
+    pub fn order(self) -> i32 {
+        match self {
+            Self::Point => 3,
+            Self::Line => 2,
+        }
+    }
+
+    /// a/a_0 = p_h/p_h0 for a ratio of loads.
+    pub fn size_ratio(self, load_ratio: f64) -> f64 {
+        match self {
+            Self::Point => load_ratio.cbrt(),
+            Self::Line => load_ratio.sqrt(),
+        }
+    }
+}
+
 /// The part that does not depend on the load.
 struct Shape {
     /// Long over short half-width.

@@ -10,6 +10,7 @@ pub mod hertz;
 pub mod invariants;
 pub mod iso281;
 pub mod life_models;
+pub mod line;
 pub mod multiaxial;
 pub mod rainflow;
 pub mod stress_exact;

@@ -41,8 +41,8 @@ const SHEET_BYTES: f64 = 0.75 * 1e5;
 pub(super) const SCALAR_BYTES: f64 = 1.5e3;
 
 /// Bytes of the fields of one recorded frame.
-pub(super) fn frame_bytes(nodes: usize) -> f64 {
-    FIELD_BYTES_PER_NODE * (nodes * nodes) as f64 + SHEET_BYTES
+pub(super) fn frame_bytes(nodes: usize, rows: usize) -> f64 {
+    FIELD_BYTES_PER_NODE * (nodes * rows) as f64 + SHEET_BYTES
 }
 
 impl Cost {

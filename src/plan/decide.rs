@@ -2,14 +2,26 @@
 
 use super::LifeAsked;
 use super::{
-    Domain, FilmPlan, LeftOut, March, Plan, StressPlan, Symmetry, TractionDeflection, Warning,
-    inlet_error, mesh_error,
+    Domain, FilmPlan, LeftOut, March, OtherFilms, Plan, StressPlan, Symmetry, TractionDeflection,
+    Warning, inlet_error, mesh_error,
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
-use crate::scene::{Rheology, Scene, Spread};
+use crate::scene::{ContactKind, Rheology, Scene, Spread};
 
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
+    if let Some(line) = scene.line_point() {
+        let (central_m, rq_m) = (line.moes_central_m(), scene.composite_rq_m());
+        return Some(FilmPlan {
+            groups: line.groups(),
+            central_m,
+            others: OtherFilms::DowsonHigginson {
+                minimum_m: line.dowson_higginson_minimum_m(),
+            },
+            central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
+            lambda_ratio: (rq_m > 0.0).then(|| central_m / rq_m),
+        });
+    }
     let point = scene.operating_point()?;
     let central_m = film_regression::nijenbanning_central_m(&point);
     let hamrock_dowson_central_m = film_regression::hamrock_dowson_central_m(&point);
@@ -17,25 +29,31 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     Some(FilmPlan {
         groups: point.groups(),
         central_m,
-        hamrock_dowson_central_m,
-        hamrock_dowson_minimum_m: film_regression::hamrock_dowson_minimum_m(&point),
+        others: OtherFilms::HamrockDowson {
+            central_m: hamrock_dowson_central_m,
+            minimum_m: film_regression::hamrock_dowson_minimum_m(&point),
+        },
         central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
         lambda_ratio: (rq_m > 0.0).then(|| hamrock_dowson_central_m / rq_m),
     })
 }
 
-pub(super) fn domain_warnings(domain: &Domain, film: Option<&FilmPlan>) -> Vec<Warning> {
+pub(super) fn domain_warnings(
+    kind: ContactKind,
+    domain: &Domain,
+    film: Option<&FilmPlan>,
+) -> Vec<Warning> {
     /// Errors of the film above which the user is told.
     const WORTH_A_WORD: f64 = 0.05;
     let Some(film) = film else {
         return Vec::new();
     };
     let mut warnings = Vec::new();
-    let mesh = mesh_error(film.central, domain.dx_a());
+    let mesh = mesh_error(kind, film.central, domain.dx_a());
     if mesh > WORTH_A_WORD {
         warnings.push(Warning::CoarseForTheFilm { error: mesh });
     }
-    let inlet = inlet_error(film.central, domain.x_min_a);
+    let inlet = inlet_error(kind, film.central, domain.x_min_a);
     if inlet > WORTH_A_WORD {
         warnings.push(Warning::ShortInlet {
             error: inlet,
@@ -46,7 +64,9 @@ pub(super) fn domain_warnings(domain: &Domain, film: Option<&FilmPlan>) -> Vec<W
 }
 
 pub(super) fn symmetry(scene: &Scene) -> Symmetry {
-    if scene
+    if scene.kind() == ContactKind::Line {
+        Symmetry::Line
+    } else if scene
         .surfaces()
         .iter()
         .all(|surface| surface.is_even_in_y())
@@ -156,8 +176,10 @@ pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
     if let March::Steady { why } = plan.march {
         leave("time steps", why);
     }
-    if plan.symmetry == Symmetry::MirrorY {
-        leave("rows y < 0", "both surfaces are even in y: mirrored");
+    match plan.symmetry {
+        Symmetry::MirrorY => leave("rows y < 0", "both surfaces are even in y: mirrored"),
+        Symmetry::Line => leave("flow and gap along y", "line contact: uniform along y"),
+        Symmetry::General => {}
     }
     if plan.traction_deflection.is_none() {
         leave(

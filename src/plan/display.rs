@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::{LifePlan, March, Plan, Symmetry, WavePlan};
-use crate::scene::{CycleBasis, Spread, VolumeIntegral};
+use super::{LINE_ROWS, LifePlan, March, OtherFilms, Plan, Symmetry, WavePlan};
+use crate::scene::{ContactKind, CycleBasis, Spread, VolumeIntegral};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -43,20 +43,29 @@ impl fmt::Display for Plan {
 impl Plan {
     fn write_operating_point(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let hertz = &self.hertz;
-        writeln!(
-            f,
-            "Contact     {}: a {:.1} um, b {:.1} um; Hertz pressure {:.3} GPa; load {} N; approach {:.2} um",
-            if (hertz.ellipticity() - 1.0).abs() < 1e-9 {
-                "circular"
-            } else {
-                "elliptical"
-            },
-            hertz.a_m * 1e6,
-            hertz.b_m * 1e6,
-            hertz.p_max_pa * 1e-9,
-            significant(self.force_n),
-            hertz.approach_m * 1e6
-        )?;
+        match self.kind {
+            ContactKind::Line => writeln!(
+                f,
+                "Contact     line: half-width {:.1} um, uniform along y; Hertz pressure {:.3} GPa; load {} N/m",
+                hertz.a_m * 1e6,
+                hertz.p_max_pa * 1e-9,
+                significant(self.force_n)
+            )?,
+            ContactKind::Point => writeln!(
+                f,
+                "Contact     {}: a {:.1} um, b {:.1} um; Hertz pressure {:.3} GPa; load {} N; approach {:.2} um",
+                if (hertz.ellipticity() - 1.0).abs() < 1e-9 {
+                    "circular"
+                } else {
+                    "elliptical"
+                },
+                hertz.a_m * 1e6,
+                hertz.b_m * 1e6,
+                hertz.p_max_pa * 1e-9,
+                significant(self.force_n),
+                hertz.approach_m * 1e6
+            )?,
+        }
         let [u_1, u_2] = self.speeds_m_s;
         writeln!(
             f,
@@ -66,21 +75,40 @@ impl Plan {
             significant(u_2)
         )?;
         if let Some(film) = &self.film {
-            writeln!(
+            write!(
                 f,
-                "Film        M {:.0}, L {:.2}, alpha p_h {:.1}; smooth by formula: central {:.1} nm \
-                 (Nijenbanning), {:.1} nm (Hamrock-Dowson), minimum {:.1} nm (Hamrock-Dowson)",
+                "Film        M {:.0}, L {:.2}, alpha p_h {:.1}; smooth by formula: central {:.1} nm ",
                 film.groups.m,
                 film.groups.l,
                 film.groups.alpha_p_hertz,
-                film.central_m * 1e9,
-                film.hamrock_dowson_central_m * 1e9,
-                film.hamrock_dowson_minimum_m * 1e9
+                film.central_m * 1e9
             )?;
+            let source = match film.others {
+                OtherFilms::HamrockDowson {
+                    central_m,
+                    minimum_m,
+                } => {
+                    writeln!(
+                        f,
+                        "(Nijenbanning), {:.1} nm (Hamrock-Dowson), minimum {:.1} nm (Hamrock-Dowson)",
+                        central_m * 1e9,
+                        minimum_m * 1e9
+                    )?;
+                    "Hamrock-Dowson"
+                }
+                OtherFilms::DowsonHigginson { minimum_m } => {
+                    writeln!(
+                        f,
+                        "(Moes), minimum {:.1} nm (Dowson-Higginson)",
+                        minimum_m * 1e9
+                    )?;
+                    "Moes"
+                }
+            };
             if let Some(ratio) = film.lambda_ratio {
                 writeln!(
                     f,
-                    "Lambda      {ratio:.2} = central film (Hamrock-Dowson)/composite root-mean-square roughness"
+                    "Lambda      {ratio:.2} = central film ({source})/composite root-mean-square roughness"
                 )?;
             }
         }
@@ -94,16 +122,26 @@ impl Plan {
 
     fn write_grid(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let domain = &self.domain;
-        writeln!(
-            f,
-            "Grid        {n} x {n} nodes, x {} a to {} a, y +-{} b; dx {:.2} um, dy {:.2} um",
-            domain.x_min_a,
-            domain.x_max_a,
-            domain.y_half_b,
-            self.dx_m * 1e6,
-            self.dy_m * 1e6,
-            n = domain.nodes
-        )?;
+        match self.kind {
+            ContactKind::Line => writeln!(
+                f,
+                "Grid        {n} nodes, x {} a to {} a; dx {:.2} um; shown by {LINE_ROWS} equal rows",
+                domain.x_min_a,
+                domain.x_max_a,
+                self.dx_m * 1e6,
+                n = domain.nodes
+            )?,
+            ContactKind::Point => writeln!(
+                f,
+                "Grid        {n} x {n} nodes, x {} a to {} a, y +-{} b; dx {:.2} um, dy {:.2} um",
+                domain.x_min_a,
+                domain.x_max_a,
+                domain.y_half_b,
+                self.dx_m * 1e6,
+                self.dy_m * 1e6,
+                n = domain.nodes
+            )?,
+        }
         match self.march {
             March::Steady { .. } => writeln!(f, "Time        steady: one solution"),
             March::Transient => writeln!(
@@ -122,6 +160,7 @@ impl Plan {
         let rows = match self.symmetry {
             Symmetry::MirrorY => "half of the rows",
             Symmetry::General => "all rows",
+            Symmetry::Line => "one row",
         };
         let mut lines = vec![match self.film {
             Some(_) => format!("mixed lubrication: flow, film and contact together ({rows})"),
@@ -136,13 +175,17 @@ impl Plan {
         }
         if let Some(stress) = self.stress {
             lines.push(format!(
-                "stress in the plane y = 0, {} depths down to {:.0} um, every step",
+                "{} in the plane y = 0, {} depths down to {:.0} um, every step",
+                match self.kind {
+                    ContactKind::Point => "stress",
+                    ContactKind::Line => "plane-strain stress",
+                },
                 stress.depths,
                 stress.depth_max_m * 1e6
             ));
         }
         if let Some(life) = &self.life {
-            lines.extend(life_lines(life));
+            lines.extend(life_lines(life, self.kind));
         }
         if let Some(record) = self.record {
             lines.push(format!(
@@ -161,12 +204,12 @@ impl Plan {
 }
 
 /// What is computed for life.
-fn life_lines(life: &LifePlan) -> Vec<String> {
+fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
     let asked = &life.asked;
-    let what = if asked.volumes() {
-        "stress in the whole volume of both bodies"
-    } else {
-        "stress below y = 0 of both bodies"
+    let what = match kind {
+        ContactKind::Point if asked.volumes() => "stress in the whole volume of both bodies",
+        ContactKind::Point => "stress below y = 0 of both bodies",
+        ContactKind::Line => "the life integral over x and z of both bodies",
     };
     let mut lines = vec![
         format!(

@@ -18,7 +18,7 @@ pub use surfaces::WavePlan;
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
-    CycleBasis, Life, LifeModel, Record, Scene, Spread, StressMeasure, VolumeIntegral,
+    ContactKind, CycleBasis, Life, LifeModel, Record, Scene, Spread, StressMeasure, VolumeIntegral,
 };
 
 /// Everything that is decided before the first step.
@@ -26,9 +26,11 @@ use crate::scene::{
 pub struct Plan {
     /// The scene's title.
     pub title: String,
+    /// Point or line.
+    pub kind: ContactKind,
     /// The Hertz contact.
     pub hertz: Hertz,
-    /// Normal load, N.
+    /// Normal load, N; of a line per metre of length, N/m.
     pub force_n: f64,
     /// Speeds of body 1 and 2, m/s.
     pub speeds_m_s: [f64; 2],
@@ -40,7 +42,7 @@ pub struct Plan {
     pub domain: Domain,
     /// Node spacing along x, m.
     pub dx_m: f64,
-    /// Node spacing along y, m.
+    /// Node spacing along y, m; of a line that of the rows which show it.
     pub dy_m: f64,
     /// Whether half of the rows is enough.
     pub symmetry: Symmetry,
@@ -75,16 +77,32 @@ pub struct Plan {
 pub struct FilmPlan {
     /// Dimensionless groups.
     pub groups: Groups,
-    /// Central film by Nijenbanning, Venner and Moes, m.
+    /// Central film by Nijenbanning, Venner and Moes, m; of a line by Moes.
     pub central_m: f64,
-    /// Central film by Hamrock and Dowson, m.
-    pub hamrock_dowson_central_m: f64,
-    /// Minimum film by Hamrock and Dowson, m.
-    pub hamrock_dowson_minimum_m: f64,
+    /// What other formulas say.
+    pub others: OtherFilms,
     /// Central film in a²/Rx.
     pub central: f64,
-    /// Central film by Hamrock and Dowson over the composite root-mean-square roughness; `None`: smooth.
+    /// Central film (point: by Hamrock and Dowson; line: by Moes) over the composite root-mean-square
+    /// roughness; `None`: smooth.
     pub lambda_ratio: Option<f64>,
+}
+
+/// Films by the classic formulas of each kind of contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OtherFilms {
+    /// Point contact.
+    HamrockDowson {
+        /// Central film, m.
+        central_m: f64,
+        /// Minimum film, m.
+        minimum_m: f64,
+    },
+    /// Line contact.
+    DowsonHigginson {
+        /// Minimum film, m.
+        minimum_m: f64,
+    },
 }
 
 /// Which rows are computed.
@@ -94,6 +112,8 @@ pub enum Symmetry {
     MirrorY,
     /// All rows.
     General,
+    /// A line contact: one row, because nothing varies along y.
+    Line,
 }
 
 /// Whether time is marched.
@@ -238,6 +258,11 @@ pub enum Warning {
     },
 }
 
+/// Rows by which frames show a line contact, all alike: enough for a map or a mesh.
+pub const LINE_ROWS: usize = 9;
+/// Half of the width that they span, in half-widths of the contact.
+pub const LINE_HALF_WIDTH: f64 = 2.0;
+
 /// A scene that cannot be computed as asked.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
@@ -266,9 +291,14 @@ impl Plan {
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
-        let domain = Domain::choose(&scene.grid, film.map(|film| film.central));
-        let (dx_m, dy_m) = (domain.dx_a() * hertz.a_m, domain.dy_b() * hertz.b_m);
-        let mut warnings = decide::domain_warnings(&domain, film.as_ref());
+        let kind = scene.kind();
+        let domain = Domain::choose(kind, &scene.grid, film.map(|film| film.central));
+        let dx_m = domain.dx_a() * hertz.a_m;
+        let dy_m = match kind {
+            ContactKind::Point => domain.dy_b() * hertz.b_m,
+            ContactKind::Line => 2.0 * LINE_HALF_WIDTH * hertz.a_m / (LINE_ROWS - 1) as f64,
+        };
+        let mut warnings = decide::domain_warnings(kind, &domain, film.as_ref());
         let step_m = scene.time.step_nodes * dx_m;
         let waves = surfaces::plan(scene, [dx_m, dy_m], step_m, &mut warnings)?;
         let march = decide::march(scene);
@@ -279,6 +309,7 @@ impl Plan {
         };
         let mut plan = Self {
             title: scene.title.clone(),
+            kind,
             hertz,
             force_n: scene.force_n(),
             speeds_m_s: scene.speeds_m_s(),
@@ -356,7 +387,7 @@ impl Plan {
     }
 
     fn record_plan(&self, record: &Record) -> RecordPlan {
-        let frame = cost::frame_bytes(self.domain.nodes);
+        let frame = cost::frame_bytes(self.domain.nodes, self.shown_rows());
         let scalars = self.steps as f64 * cost::SCALAR_BYTES;
         let budget = (record.budget_mb * 1e6 - scalars).max(0.1 * record.budget_mb * 1e6);
         let budget_frames = (budget / frame).floor().max(1.0) as u64;
@@ -369,6 +400,14 @@ impl Plan {
         }
     }
 
+    /// Rows of a frame.
+    fn shown_rows(&self) -> usize {
+        match self.kind {
+            ContactKind::Point => self.domain.nodes,
+            ContactKind::Line => LINE_ROWS,
+        }
+    }
+
     fn estimate(&self) -> Cost {
         let volumes = self
             .life
@@ -378,6 +417,7 @@ impl Plan {
             rows: match self.symmetry {
                 Symmetry::MirrorY => 0.5,
                 Symmetry::General => 1.0,
+                Symmetry::Line => 1.0 / self.domain.nodes as f64,
             },
             depths: self.depths(),
             steps: self.steps,

@@ -5,7 +5,7 @@ use toml::{Table, Value};
 
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, KNOB_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
-use super::model::{Event, Scene, Surface};
+use super::model::{ContactKind, Event, Scene, Surface};
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
 pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
@@ -196,6 +196,7 @@ const SLOPE_MAX: f64 = 0.5;
 
 /// The rules that tie keys together.
 pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
+    check_shape(scene)?;
     check_load(scene)?;
     check_surface("body_1.surface", &scene.body_1.surface)?;
     check_surface("body_2.surface", &scene.body_2.surface)?;
@@ -231,19 +232,102 @@ fn check_calibration(scene: &Scene) -> Result<(), SceneError> {
     })
 }
 
+/// A radius across belongs to a point contact; what varies along y does not belong to a line.
+fn check_shape(scene: &Scene) -> Result<(), SceneError> {
+    match (scene.contact.kind, scene.contact.ry_m) {
+        (ContactKind::Point, None) => Err(SceneError::Missing {
+            key: "contact.ry_m".to_owned(),
+            allowed: keys::find("contact.ry_m").map_or_else(String::new, Key::allowed),
+        }),
+        (ContactKind::Line, Some(ry_m)) => Err(SceneError::value(
+            "contact.ry_m",
+            format!("{} m", short(ry_m)),
+            "only with contact.kind = \"point\"; leave it out for a line",
+        )),
+        (ContactKind::Line, None) => scene
+            .surfaces()
+            .into_iter()
+            .zip(["body_1.surface", "body_2.surface"])
+            .try_for_each(|(surface, path)| check_transverse(path, surface)),
+        (ContactKind::Point, Some(_)) => Ok(()),
+    }
+}
+
+/// A line's surfaces must not vary along y.
+fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
+    if surface.wavenumbers_per_m()[1] == 0.0 {
+        return Ok(());
+    }
+    let Surface::Sinusoid {
+        wavelength_x_m,
+        wavelength_y_m,
+        angle_deg,
+        ..
+    } = *surface
+    else {
+        return Ok(());
+    };
+    let uniform = "a line contact is the same at every y, so its ridges must lie across";
+    Err(
+        if wavelength_y_m.is_finite() && wavelength_x_m.is_finite() {
+            SceneError::value(
+                joined(path, "wavelength_y_m"),
+                format!("{} m", short(wavelength_y_m)),
+                format!("inf: {uniform}"),
+            )
+        } else if angle_deg.rem_euclid(180.0) == 0.0 {
+            SceneError::value(
+                joined(path, "wavelength_x_m"),
+                "inf",
+                format!("a length in m, with wavelength_y_m = inf: {uniform}"),
+            )
+        } else {
+            SceneError::value(
+                joined(path, "angle_deg"),
+                short(angle_deg),
+                format!("0 with wavelength_y_m = inf: {uniform}"),
+            )
+        },
+    )
+}
+
 fn check_load(scene: &Scene) -> Result<(), SceneError> {
-    match (scene.load.force_n, scene.load.hertz_pressure_pa) {
+    let load = &scene.load;
+    let (own, other) = match scene.contact.kind {
+        ContactKind::Point => (
+            ("load.force_n", "N", load.force_n),
+            ("load.force_n_per_m", "N/m", load.force_n_per_m),
+        ),
+        ContactKind::Line => (
+            ("load.force_n_per_m", "N/m", load.force_n_per_m),
+            ("load.force_n", "N", load.force_n),
+        ),
+    };
+    let (key, unit, force) = own;
+    if let (other, unit, Some(force)) = other {
+        let only = match scene.contact.kind {
+            ContactKind::Point => "line",
+            ContactKind::Line => "point",
+        };
+        return Err(SceneError::value(
+            other,
+            format!("{} {unit}", short(force)),
+            format!("only with contact.kind = \"{only}\"; here {key} or load.hertz_pressure_pa"),
+        ));
+    }
+    match (force, load.hertz_pressure_pa) {
         (Some(_), Some(_)) => Err(SceneError::value(
             "load",
-            "force_n and hertz_pressure_pa",
+            format!("{} and hertz_pressure_pa", key.trim_start_matches("load.")),
             "exactly one of the two",
         )),
         (None, None) => Err(SceneError::Missing {
-            key: "load.force_n".to_owned(),
-            allowed: "exactly one of load.force_n (N) and load.hertz_pressure_pa (1e6 to 1e10 Pa)"
-                .to_owned(),
+            key: key.to_owned(),
+            allowed: format!(
+                "exactly one of {key} ({unit}) and load.hertz_pressure_pa (1e6 to 1e10 Pa)"
+            ),
         }),
-        (Some(force_n), None) => check_force(scene, "load.force_n", force_n),
+        (Some(force), None) => check_force(scene, key, force),
         (None, Some(_)) => Ok(()),
     }
 }
@@ -260,7 +344,10 @@ fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), SceneError>
     );
     Err(SceneError::value(
         key,
-        format!("{} N", short(force_n)),
+        match scene.contact.kind {
+            ContactKind::Point => format!("{} N", short(force_n)),
+            ContactKind::Line => format!("{} N/m", short(force_n)),
+        },
         allowed,
     ))
 }
@@ -297,6 +384,23 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// An event's load must be the one that the kind of contact takes.
+fn check_event_load(scene: &Scene, full: &str, name: &str, value: f64) -> Result<(), SceneError> {
+    let own = match scene.contact.kind {
+        ContactKind::Point => "load.force_n",
+        ContactKind::Line => "load.force_n_per_m",
+    };
+    if name == own {
+        check_force(scene, full, value)
+    } else {
+        Err(SceneError::value(
+            full,
+            short(value),
+            format!("{own} in this kind of contact"),
+        ))
+    }
+}
+
 /// An event's knobs must act on something that the scene has.
 fn check_event_fits(scene: &Scene, index: usize, event: &Event) -> Result<(), SceneError> {
     for (name, &value) in &event.set {
@@ -304,8 +408,8 @@ fn check_event_fits(scene: &Scene, index: usize, event: &Event) -> Result<(), Sc
         let surface = match name.as_str() {
             "body_1.surface.amplitude_m" => &scene.body_1.surface,
             "body_2.surface.amplitude_m" => &scene.body_2.surface,
-            "load.force_n" => {
-                check_force(scene, &full, value)?;
+            "load.force_n" | "load.force_n_per_m" => {
+                check_event_load(scene, &full, name, value)?;
                 continue;
             }
             _ => continue,

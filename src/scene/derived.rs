@@ -2,9 +2,10 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::model::{Scene, Surface};
+use super::model::{ContactKind, Scene, Surface};
 use crate::physics::groups::OperatingPoint;
 use crate::physics::hertz::{self, Hertz};
+use crate::physics::line::{self, LinePoint};
 
 impl Scene {
     /// E', 2/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, Pa.
@@ -17,14 +18,27 @@ impl Scene {
         )
     }
 
-    /// The Hertz contact at another force than the scene's.
-    pub fn hertz_at(&self, force_n: f64) -> Hertz {
-        Hertz::from_force(
-            self.contact.rx_m,
-            self.contact.ry_m,
-            self.e_prime_pa(),
-            force_n,
-        )
+    /// Whether the contact is a point or a line.
+    pub fn kind(&self) -> ContactKind {
+        self.contact.kind
+    }
+
+    /// Radius across, m: infinite for a line. NaN would show a point contact without one, which does not
+    /// validate.
+    pub fn ry_m(&self) -> f64 {
+        match self.contact.kind {
+            ContactKind::Point => self.contact.ry_m.unwrap_or(f64::NAN),
+            ContactKind::Line => f64::INFINITY,
+        }
+    }
+
+    /// The Hertz contact at another load than the scene's, N (a line: N/m).
+    pub fn hertz_at(&self, load: f64) -> Hertz {
+        let (rx_m, e_prime_pa) = (self.contact.rx_m, self.e_prime_pa());
+        match self.contact.kind {
+            ContactKind::Point => Hertz::from_force(rx_m, self.ry_m(), e_prime_pa, load),
+            ContactKind::Line => line::hertz_from_load(rx_m, e_prime_pa, load),
+        }
     }
 
     /// The Hertz contact.
@@ -32,21 +46,25 @@ impl Scene {
         self.hertz_and_force().0
     }
 
-    /// The normal load, N.
+    /// The normal load, N; of a line per metre of length, N/m.
     pub fn force_n(&self) -> f64 {
         self.hertz_and_force().1
     }
 
     fn hertz_and_force(&self) -> (Hertz, f64) {
-        match (self.load.force_n, self.load.hertz_pressure_pa) {
-            (Some(force_n), _) => (self.hertz_at(force_n), force_n),
-            (None, pressure_pa) => Hertz::from_pressure(
-                self.contact.rx_m,
-                self.contact.ry_m,
-                self.e_prime_pa(),
-                // A scene without a load does not validate; NaN would show it.
-                pressure_pa.unwrap_or(f64::NAN),
-            ),
+        let load = match self.contact.kind {
+            ContactKind::Point => self.load.force_n,
+            ContactKind::Line => self.load.force_n_per_m,
+        };
+        if let Some(load) = load {
+            return (self.hertz_at(load), load);
+        }
+        // A scene without a load does not validate; NaN would show it.
+        let pressure_pa = self.load.hertz_pressure_pa.unwrap_or(f64::NAN);
+        let (rx_m, e_prime_pa) = (self.contact.rx_m, self.e_prime_pa());
+        match self.contact.kind {
+            ContactKind::Point => Hertz::from_pressure(rx_m, self.ry_m(), e_prime_pa, pressure_pa),
+            ContactKind::Line => line::hertz_from_pressure(rx_m, e_prime_pa, pressure_pa),
         }
     }
 
@@ -56,12 +74,25 @@ impl Scene {
         [u * (1.0 - 0.5 * s), u * (1.0 + 0.5 * s)]
     }
 
-    /// What the film regressions need; `None` for a dry scene.
+    /// What the film regressions of a line need; `None` for a dry scene or a point contact.
+    pub fn line_point(&self) -> Option<LinePoint> {
+        let oil = self.lubricant.as_ref()?;
+        (self.contact.kind == ContactKind::Line).then(|| LinePoint {
+            rx_m: self.contact.rx_m,
+            e_prime_pa: self.e_prime_pa(),
+            viscosity_pa_s: oil.viscosity_pa_s,
+            alpha_per_pa: oil.pressure_viscosity_per_pa,
+            entrainment_m_s: self.motion.entrainment_m_s,
+            load_n_per_m: self.force_n(),
+        })
+    }
+
+    /// What the film regressions need; `None` for a dry scene or a line.
     pub fn operating_point(&self) -> Option<OperatingPoint> {
         let lubricant = self.lubricant.as_ref()?;
-        Some(OperatingPoint {
+        (self.contact.kind == ContactKind::Point).then(|| OperatingPoint {
             rx_m: self.contact.rx_m,
-            ry_m: self.contact.ry_m,
+            ry_m: self.ry_m(),
             e_prime_pa: self.e_prime_pa(),
             viscosity_pa_s: lubricant.viscosity_pa_s,
             alpha_per_pa: lubricant.pressure_viscosity_per_pa,

@@ -109,9 +109,9 @@ pub const SECTIONS: &[Section] = &[
         need: Required,
         doc: "Shape of the contact, as equivalent radii: 1/R = 1/R_1 + 1/R_2.",
         keys: &[
-            key("kind", "", Choice(&["point"]), Required, "kind of contact"),
+            key("kind", "", Choice(&["point", "line"]), Required, "ball or barrel on anything, or parallel cylinders"),
             key("rx_m", "m", Number(1e-6, 100.0), Required, "equivalent radius along the rolling direction x"),
-            key("ry_m", "m", Number(1e-6, 100.0), Required, "equivalent radius across"),
+            key("ry_m", "m", Number(1e-6, 100.0), Optional("a line contact"), "equivalent radius across; point contact only"),
         ],
     },
     Section {
@@ -174,9 +174,10 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "load",
         need: Required,
-        doc: "Exactly one of the two.",
+        doc: "Exactly one of the three; force_n for a point contact, force_n_per_m for a line.",
         keys: &[
             key("force_n", "N", Number(1e-6, 1e8), Optional("the load is given as a Hertz pressure"), "normal load; its Hertz pressure at most 10 GPa"),
+            key("force_n_per_m", "N/m", Number(1e-3, 1e10), Optional("a point contact, or a Hertz pressure"), "normal load of a line per length"),
             key("hertz_pressure_pa", "Pa", Number(1e6, 1e10), Optional("the load is given as a force"), "maximum Hertz pressure"),
         ],
     },
@@ -268,6 +269,7 @@ pub const KNOB_KEYS: &[&str] = &[
     "body_1.surface.amplitude_m",
     "body_2.surface.amplitude_m",
     "motion.entrainment_m_s",
+    "load.force_n_per_m",
 ];
 
 impl Key {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::lubricant::{Friction, Lubricant};
+use crate::physics::hertz::HertzShape;
 
 /// A whole scene: what the user asks for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -54,11 +55,24 @@ pub struct Scene {
 }
 
 /// Shape of the contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ContactKind {
     /// Circular or elliptical contact.
+    #[default]
     Point,
+    /// Cylinders with parallel axes: nothing varies along y; loads are per metre of length.
+    Line,
+}
+
+impl ContactKind {
+    /// How its Hertz contact follows the load.
+    pub fn hertz_shape(self) -> HertzShape {
+        match self {
+            Self::Point => HertzShape::Point,
+            Self::Line => HertzShape::Line,
+        }
+    }
 }
 
 /// `[contact]`
@@ -69,8 +83,9 @@ pub struct Contact {
     pub kind: ContactKind,
     /// Equivalent radius along the rolling direction x, m.
     pub rx_m: f64,
-    /// Equivalent radius across, m.
-    pub ry_m: f64,
+    /// Equivalent radius across, m; a point contact has one, a line has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ry_m: Option<f64>,
 }
 
 /// `[body_1]`, `[body_2]`: elastic constants and surface.
@@ -135,13 +150,16 @@ pub struct Motion {
     pub slide_roll: f64,
 }
 
-/// `[load]`: exactly one of the two.
+/// `[load]`: exactly one of `hertz_pressure_pa` and the force that the kind of contact takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Normal load, N.
+    /// Normal load of a point contact, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+    /// Normal load of a line contact per metre of length, N/m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_n_per_m: Option<f64>,
     /// Maximum Hertz pressure, Pa.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hertz_pressure_pa: Option<f64>,
@@ -473,7 +491,7 @@ impl Default for Record {
 pub struct Event {
     /// Simulated time after the start-up, s.
     pub at_s: f64,
-    /// Knobs to set: `motion.slide_roll`, `load.force_n`, `body_i.surface.amplitude_m`,
+    /// Knobs to set: `motion.slide_roll`, `load.force_n` (a line: `load.force_n_per_m`), `body_i.surface.amplitude_m`,
     /// `motion.entrainment_m_s`.
     #[serde(default)]
     pub set: BTreeMap<String, f64>,

@@ -29,6 +29,11 @@ const PRESETS: &[Preset] = &[
     preset!("micropitting_rig"),
     preset!("mtm_ball_on_disc"),
     preset!("ball_on_glass"),
+    preset!("fzg_pitch_point"),
+    preset!("fzg_point_b"),
+    preset!("fzg_point_a"),
+    preset!("fzg_point_e"),
+    preset!("cam_nose"),
 ];
 
 /// All presets, the default first.

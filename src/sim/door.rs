@@ -3,18 +3,22 @@
 //! ```text
 //! X = x/a, Y = y/a, P = p/p_h, H = h Rx/a², T = t U/a      a, b, p_h: Hertz at the scene's load
 //! λ = 12 η0 U Rx²/(a³ p_h)   κ = 2 p_h Rx/(π E' a)   load = w/(p_h a²)   Z = η0 |U2−U1| Rx/(τ0 a²)
+//! line: a is its half-width, w a load per length, load = w/(p_h a)
 //! ```
 //! The scaling is fixed for a whole run: when a knob changes the load or the speed, λ, Z and the load
 //! integral change, not a or p_h.
 
+use super::knob::Knob;
 use crate::physics::fluid::{Density, Viscosity};
 use crate::physics::hertz::Hertz;
-use crate::scene::{DensityLaw, Rheology, Scene, ViscosityLaw};
+use crate::scene::{ContactKind, DensityLaw, Rheology, Scene, ViscosityLaw};
 use crate::solve::reynolds::Medium;
 
 /// Scales and constants of one scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Door {
+    /// Point or line.
+    pub(super) kind: ContactKind,
     /// Half-width along x, m.
     pub(super) a_m: f64,
     /// Maximum Hertz pressure, Pa.
@@ -25,7 +29,7 @@ pub(super) struct Door {
     pub(super) kappa: f64,
     /// Rx/Ry.
     pub(super) curvature_y: f64,
-    /// Ellipse half-widths over a.
+    /// Ellipse half-widths over a; 1 for a line, which has none along y.
     pub(super) b_over_a: f64,
     /// λ per m/s of entrainment; 0 in a dry scene.
     lambda_s_m: f64,
@@ -42,12 +46,16 @@ impl Door {
         let (a, p) = (hertz.a_m, hertz.p_max_pa);
         let rx = scene.contact.rx_m;
         let mut door = Self {
+            kind: scene.kind(),
             a_m: a,
             p_hertz_pa: p,
             film_m: a * a / rx,
             kappa: 2.0 * p * rx / (std::f64::consts::PI * scene.e_prime_pa() * a),
-            curvature_y: rx / scene.contact.ry_m,
-            b_over_a: hertz.b_m / a,
+            curvature_y: rx / scene.ry_m(),
+            b_over_a: match scene.kind() {
+                ContactKind::Point => hertz.b_m / a,
+                ContactKind::Line => 1.0,
+            },
             lambda_s_m: 0.0,
             sliding_s_m: 0.0,
             viscosity: Viscosity::barus(0.0, p),
@@ -87,9 +95,35 @@ impl Door {
         }
     }
 
-    /// Load integral of a force.
-    pub(super) fn load(&self, force_n: f64) -> f64 {
-        force_n / (self.p_hertz_pa * self.a_m * self.a_m)
+    /// Load integral of a force, N (a line: N/m).
+    pub(super) fn load(&self, force: f64) -> f64 {
+        let width_m = match self.kind {
+            ContactKind::Point => self.a_m,
+            ContactKind::Line => 1.0,
+        };
+        force / (self.p_hertz_pa * self.a_m * width_m)
+    }
+
+    /// The knob of the load.
+    pub(super) fn load_knob(&self) -> Knob {
+        match self.kind {
+            ContactKind::Point => Knob::ForceN,
+            ContactKind::Line => Knob::ForceNPerM,
+        }
+    }
+
+    /// a and p_h when the load is `ratio` times the scene's, over those at the scene's: Hertz.
+    pub(super) fn size_ratio(&self, ratio: f64) -> f64 {
+        self.kind.hertz_shape().size_ratio(ratio)
+    }
+
+    /// The smooth film at `speed` and `load` times the scene's, over that at the scene's: exponents of
+    /// Hamrock and Dowson (1977), of a line those of Dowson and Higginson (1968).
+    pub(super) fn film_ratio(&self, speed: f64, load: f64) -> f64 {
+        match self.kind {
+            ContactKind::Point => speed.powf(0.67) * load.powf(-0.067),
+            ContactKind::Line => speed.powf(0.7) * load.powf(-0.13),
+        }
     }
 
     /// Pressure, Pa.

@@ -2,29 +2,44 @@
 
 use std::sync::Arc;
 
-use super::{DamageBlock, Frame, Knob, MaterialPoint, Simulation, StressSlice};
+use super::{DamageBlock, Frame, MaterialPoint, Simulation, StressSlice};
 use crate::physics::cycles::BodyId;
+use crate::plan::LINE_ROWS;
+use crate::scene::ContactKind;
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
 pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     let (grid, door) = (&sim.march.grid, &sim.door);
-    let scale = (sim.drive.get(Knob::ForceN).now / sim.plan.force_n).cbrt();
+    let load = sim.drive.get(door.load_knob()).now / sim.plan.force_n;
+    let scale = door.size_ratio(load);
     frame.step = sim.step;
     frame.time_s = sim.time_s();
     frame.stage = sim.stage();
     frame.passages = sim.step as f64 / sim.plan.steps_per_passage.max(1) as f64;
-    (frame.nx, frame.ny) = (grid.nx, grid.ny_full());
+    frame.kind = door.kind;
+    let rows = match door.kind {
+        ContactKind::Point => grid.ny_full(),
+        ContactKind::Line => LINE_ROWS,
+    };
+    let stored = |j: usize| match door.kind {
+        ContactKind::Point => grid.stored_row(j),
+        ContactKind::Line => 0,
+    };
+    (frame.nx, frame.ny) = (grid.nx, rows);
     frame.x_min_m = door.m_from_x(grid.x_min);
     frame.dx_m = door.m_from_x(grid.dx);
-    frame.dy_m = door.m_from_x(grid.dy);
+    frame.dy_m = match door.kind {
+        ContactKind::Point => door.m_from_x(grid.dy),
+        ContactKind::Line => sim.plan.dy_m,
+    };
     frame.y_min_m = -0.5 * (frame.ny - 1) as f64 * frame.dy_m;
     frame.a_m = door.a_m * scale;
     frame.b_m = door.a_m * door.b_over_a * scale;
     frame.p_hertz_pa = door.p_hertz_pa * scale;
     let expand = |from: &[f64], unit: f64, to: &mut Vec<f32>| {
-        to.resize(frame_len(grid.nx, grid.ny_full()), 0.0);
+        to.resize(frame_len(grid.nx, rows), 0.0);
         for (j, row) in to.chunks_exact_mut(grid.nx).enumerate() {
-            let start = grid.stored_row(j) * grid.nx;
+            let start = stored(j) * grid.nx;
             if from.len() < start + grid.nx {
                 row.fill(0.0);
                 continue;

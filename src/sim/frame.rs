@@ -1,9 +1,12 @@
 //! What one time step looks like from outside: SI, plain data, `f32` fields.
 //!
 //! Fields are stored row by row: index `j * nx + i`, `i` along x (rolling direction), `j` along y.
-//! Frames always hold the full domain, also where the solver worked on half of it.
+//! Frames always hold the full domain, also where the solver worked on half of it. A line contact is shown
+//! by [`crate::plan::LINE_ROWS`] equal rows: nothing varies along y.
 
 use std::sync::Arc;
+
+use crate::scene::ContactKind;
 
 /// Which part of a run a frame belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -24,6 +27,8 @@ pub struct Frame {
     pub time_s: f64,
     /// Part of the run.
     pub stage: Stage,
+    /// Point or line; a line's rows are all alike and its `b_m` is its `a_m`, for the sake of the picture.
+    pub kind: ContactKind,
     /// Lengths of 4 a travelled at U since the start of the passage.
     pub passages: f64,
     /// Nodes along x.
@@ -138,9 +143,9 @@ pub struct Metrics {
     pub slide_roll_target: f64,
     /// Entrainment speed, m/s.
     pub entrainment_m_s: f64,
-    /// Load asked for in this step, N.
+    /// Load asked for in this step, N; of a line per metre of length, N/m.
     pub load_n: f64,
-    /// Where the load is going, N.
+    /// Where the load is going, N or N/m.
     pub load_target_n: f64,
     /// Amplitude of body 1's roughness in this step, m.
     pub amplitude_1_m: f64,
@@ -156,7 +161,7 @@ pub struct Metrics {
     pub h_mean_m: f64,
     /// Smooth film over the composite root-mean-square roughness; `None` for smooth surfaces.
     pub lambda_ratio: Option<f64>,
-    /// Part of the Hertz ellipse's area that is in contact.
+    /// Part of the Hertz ellipse's area that is in contact; of a line part of its width.
     pub contact_ratio: f64,
     /// Part of the load that contacts carry.
     pub contact_load_ratio: f64,
@@ -188,7 +193,7 @@ pub struct Metrics {
 /// `life_relative = cycle_factor * stress_factor`, `stress_factor = peak_factor * traction_factor`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct LifeEstimate {
-    /// Volume integral of the reference, in Pa^(c e) m^3 scaled by p_h^(c e) a^3.
+    /// Volume integral of the reference, in Pa^(c e) m^3 scaled by p_h^(c e) a^3; of a line per length, a^2.
     pub i_ref: f64,
     /// Same integral, mean over the phases seen so far (last full passage period).
     pub i_mean: f64,

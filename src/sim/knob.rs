@@ -6,7 +6,7 @@
 pub enum Knob {
     /// `motion.slide_roll`, S = (U2 - U1)/U.
     SlideRoll,
-    /// `load.force_n`, N.
+    /// `load.force_n`, N: the load of a point contact.
     ForceN,
     /// `body_1.surface.amplitude_m`, m.
     Amplitude1M,
@@ -14,16 +14,19 @@ pub enum Knob {
     Amplitude2M,
     /// `motion.entrainment_m_s`, m/s.
     EntrainmentMS,
+    /// `load.force_n_per_m`, N/m: the load of a line.
+    ForceNPerM,
 }
 
 impl Knob {
     /// Every knob.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::SlideRoll,
         Self::ForceN,
         Self::Amplitude1M,
         Self::Amplitude2M,
         Self::EntrainmentMS,
+        Self::ForceNPerM,
     ];
 
     /// The scene key that this knob turns.
@@ -34,6 +37,7 @@ impl Knob {
             Self::Amplitude1M => "body_1.surface.amplitude_m",
             Self::Amplitude2M => "body_2.surface.amplitude_m",
             Self::EntrainmentMS => "motion.entrainment_m_s",
+            Self::ForceNPerM => "load.force_n_per_m",
         }
     }
 

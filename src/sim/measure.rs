@@ -1,6 +1,6 @@
 //! Scalars of a step from its fields, traction included.
 
-use crate::math::grid::Grid;
+use crate::math::grid::{Grid, Symmetry};
 use crate::solve::traction::TractionLaw;
 
 /// What one pass over the fields gives, dimensionless.
@@ -14,7 +14,7 @@ pub(super) struct Measured {
     pub(super) h_min: f64,
     /// Mean H within two thirds of the ellipse.
     pub(super) h_mean: f64,
-    /// Contact area over the ellipse's.
+    /// Contact area over the ellipse's; of a line the length in contact over its width.
     pub(super) contact_ratio: f64,
     /// Load on contacts over the load.
     pub(super) contact_load_ratio: f64,
@@ -65,7 +65,11 @@ pub(super) fn measure(
     }
     out.h_central = at_origin(grid, h);
     out.h_mean = film / middle.max(f64::MIN_POSITIVE);
-    out.contact_ratio = area / (std::f64::consts::PI * a * b);
+    let whole = match grid.symmetry {
+        Symmetry::Line => 2.0 * a,
+        Symmetry::MirrorY | Symmetry::General => std::f64::consts::PI * a * b,
+    };
+    out.contact_ratio = area / whole;
     out.contact_load_ratio = touching / load.max(f64::MIN_POSITIVE);
     out.friction = drag / load.max(f64::MIN_POSITIVE);
     out

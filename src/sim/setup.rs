@@ -203,7 +203,8 @@ fn initial(scene: &Scene, plan: &Plan, knob: Knob) -> (f64, f64) {
     let amplitude = |m: f64| (m, m.max(1e-7));
     match knob {
         Knob::SlideRoll => (scene.motion.slide_roll, 1.0),
-        Knob::ForceN => (plan.force_n, 0.5 * plan.force_n),
+        // The one that is not this kind's stays at rest.
+        Knob::ForceN | Knob::ForceNPerM => (plan.force_n, 0.5 * plan.force_n),
         Knob::Amplitude1M => amplitude(scene.body_1.surface.amplitude_m()),
         Knob::Amplitude2M => amplitude(scene.body_2.surface.amplitude_m()),
         Knob::EntrainmentMS => (
@@ -217,6 +218,7 @@ pub(super) fn grid_of(plan: &Plan, nodes: usize, b_over_a: f64) -> Grid {
     let symmetry = match plan.symmetry {
         crate::plan::Symmetry::MirrorY => Symmetry::MirrorY,
         crate::plan::Symmetry::General => Symmetry::General,
+        crate::plan::Symmetry::Line => Symmetry::Line,
     };
     let domain = &plan.domain;
     Grid::new(

@@ -166,6 +166,12 @@ impl Simulation {
         {
             return Err(refuse(key.allowed()));
         }
+        if matches!(knob, Knob::ForceN | Knob::ForceNPerM) && knob != self.door.load_knob() {
+            return Err(refuse(format!(
+                "{} in this kind of contact",
+                self.door.load_knob().key()
+            )));
+        }
         let body = match knob {
             Knob::Amplitude1M => Some(0),
             Knob::Amplitude2M => Some(1),

@@ -207,7 +207,7 @@ impl Mover<'_> {
         let conditions = Conditions {
             medium: &medium,
             law: Some(&self.law),
-            load: self.door.load(value(Knob::ForceN)),
+            load: self.door.load(value(self.door.load_knob())),
             tolerance: self.tolerance,
         };
         self.march.attempt(&conditions, nodes, guess)

@@ -4,12 +4,48 @@ use crate::math::grid::{Grid, Symmetry};
 use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
 use crate::solve::stress::{
-    Loading, SliceOut, StressEngine, StressError, StressLaw, StressSpec, VolumeSums,
+    LineStress, Loading, SliceOut, StressEngine, StressError, StressLaw, StressSpec, VolumeSums,
 };
+
+/// What computes: a volume below a point contact, a plane below a line.
+enum Engine {
+    Volume(Box<StressEngine>),
+    Line(Box<LineStress>),
+}
+
+impl Engine {
+    fn spec(&self) -> &StressSpec {
+        match self {
+            Self::Volume(engine) => engine.spec(),
+            Self::Line(engine) => engine.spec(),
+        }
+    }
+
+    fn load(&mut self, pressure: &[f32], traction: Option<&[f32]>) {
+        match self {
+            Self::Volume(engine) => engine.load(pressure, traction),
+            Self::Line(engine) => engine.load(pressure, traction),
+        }
+    }
+
+    fn slice_of(&mut self, loading: Loading, out: &mut SliceOut) {
+        match self {
+            Self::Volume(engine) => engine.slice_of(loading, out),
+            Self::Line(engine) => engine.slice_of(loading, out),
+        }
+    }
+
+    fn sums(&self) -> &VolumeSums {
+        match self {
+            Self::Volume(engine) => engine.sums(),
+            Self::Line(engine) => engine.sums(),
+        }
+    }
+}
 
 /// Engine, its single-precision inputs and the last slices.
 pub(super) struct StressStage {
-    engine: StressEngine,
+    engine: Engine,
     pressure: Vec<f32>,
     traction: Vec<f32>,
     shear: Shear,
@@ -56,23 +92,25 @@ impl StressStage {
         purpose: Purpose,
     ) -> Result<Self, StressError> {
         use crate::solve::stress::Symmetry as Rows;
-        let symmetry = match grid.symmetry {
-            Symmetry::MirrorY => Rows::MirrorY,
-            Symmetry::General => Rows::General,
+        let volume = |rows: Rows| {
+            let (nodes, spacing) = ((grid.nx, grid.ny), (grid.dx, grid.dy));
+            let mut spec = StressSpec::new(nodes, spacing, poisson[0], depths, rows);
+            spec.nu_2 = poisson[1];
+            (spec.x_first, spec.measure) = (grid.x_min, measure);
+            StressEngine::new(&spec).map(|engine| Engine::Volume(Box::new(engine)))
         };
-        let mut spec = StressSpec::new(
-            (grid.nx, grid.ny),
-            (grid.dx, grid.dy),
-            poisson[0],
-            depths,
-            symmetry,
-        );
-        spec.nu_2 = poisson[1];
-        spec.x_first = grid.x_min;
-        spec.measure = measure;
-        let slice = SliceOut::new(&spec);
+        let engine = match grid.symmetry {
+            Symmetry::MirrorY => volume(Rows::MirrorY)?,
+            Symmetry::General => volume(Rows::General)?,
+            Symmetry::Line => {
+                let place = (grid.x_min, grid.dx);
+                let engine = LineStress::new(grid.nx, place, poisson, depths, measure);
+                Engine::Line(Box::new(engine))
+            }
+        };
+        let slice = SliceOut::new(engine.spec());
         Ok(Self {
-            engine: StressEngine::new(&spec)?,
+            engine,
             pressure: vec![0.0; grid.len()],
             traction: vec![0.0; grid.len()],
             shear: Shear::None,
@@ -111,7 +149,8 @@ impl StressStage {
         };
         let traction = (self.shear == Shear::AlongX).then_some(&self.traction[..]);
         self.engine.load(&self.pressure, traction);
-        self.engine.slice(&mut self.slice);
+        self.engine
+            .slice_of(Loading::Full(BodyId::One), &mut self.slice);
         let two = Loading::Full(BodyId::Two);
         let alike = self.equal_loading(two).is_some();
         if let Some(companions) = self.companions.as_mut().filter(|_| !alike) {
@@ -149,7 +188,10 @@ impl StressStage {
 
     /// Volume pass under the surface loaded last, both bodies.
     pub(super) fn volume(&mut self, laws: &[StressLaw]) {
-        self.engine.volume_under(laws, &BodyId::BOTH);
+        match &mut self.engine {
+            Engine::Volume(engine) => engine.volume_under(laws, &BodyId::BOTH),
+            Engine::Line(engine) => engine.volume_under(laws, &BodyId::BOTH),
+        };
     }
 
     /// Sums of the last volume pass.

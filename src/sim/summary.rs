@@ -33,7 +33,7 @@ pub struct Summary {
     pub p_max_pa: f64,
     /// Part of the Hertz ellipse in contact.
     pub contact_ratio: f64,
-    /// Load asked for, N.
+    /// Load asked for, N; of a line per metre of length, N/m.
     pub load_n: f64,
     /// |carried - asked|/asked, the greatest of the mean's steps.
     pub load_error: f64,

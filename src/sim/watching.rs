@@ -63,7 +63,8 @@ impl Simulation {
 
     pub(super) fn measure(&mut self) -> Measured {
         let law = self.law_now();
-        let scale = (self.drive.get(Knob::ForceN).now / self.plan.force_n).cbrt();
+        let load = self.drive.get(self.door.load_knob()).now / self.plan.force_n;
+        let scale = self.door.size_ratio(load);
         let state = &self.march.state;
         self.traction.resize(self.march.grid.len(), 0.0);
         measure(
@@ -88,12 +89,10 @@ impl Simulation {
         m.retries = attempted.retries;
         m.mass_error = attempted.mass_error;
         m.load_error = attempted.load_error;
-        let (s, force) = (
-            self.drive.get(Knob::SlideRoll),
-            self.drive.get(Knob::ForceN),
-        );
+        let load = door.load_knob();
+        let (s, force) = (self.drive.get(Knob::SlideRoll), self.drive.get(load));
         (m.slide_roll, m.slide_roll_target) = (s.now, self.wanted.get(Knob::SlideRoll).target);
-        (m.load_n, m.load_target_n) = (force.now, self.wanted.get(Knob::ForceN).target);
+        (m.load_n, m.load_target_n) = (force.now, self.wanted.get(load).target);
         m.entrainment_m_s = self.drive.get(Knob::EntrainmentMS).now;
         m.amplitude_1_m = self.drive.get(Knob::Amplitude1M).now;
         m.amplitude_2_m = self.drive.get(Knob::Amplitude2M).now;
@@ -105,11 +104,10 @@ impl Simulation {
         m.contact_load_ratio = measured.contact_load_ratio;
         m.friction_coefficient = measured.friction.abs();
         let rq = (m.amplitude_1_m * self.composite[0]).hypot(m.amplitude_2_m * self.composite[1]);
-        // Smooth film at the knobs' present values by the exponents of Hamrock and Dowson (1977).
+        // Smooth film at the knobs' present values, scaled by the exponents of a regression.
         let speed = m.entrainment_m_s / (0.5 * (self.plan.speeds_m_s[0] + self.plan.speeds_m_s[1]));
-        let film = door.m_from_h(self.smooth_film)
-            * speed.powf(0.67)
-            * (m.load_n / self.plan.force_n).powf(-0.067);
+        let film =
+            door.m_from_h(self.smooth_film) * door.film_ratio(speed, m.load_n / self.plan.force_n);
         m.lambda_ratio = (rq > 0.0 && film > 0.0).then(|| film / rq);
         if let Some(stress) = self.stress.as_ref().filter(|_| has_stress) {
             let peak = stress.slice.peak;

@@ -3,19 +3,22 @@
 //! ```text
 //! H_ij = H0 + X²/2 + c_y Y²/2 − δ_ij(T) + Σ_kl K_(i−k)(j−l) P_kl
 //! K    = κ ∬ dX'dY'/√(X'²+Y'²) over one cell,   κ = 2 p_h Rx/(π E' a)
+//! line   K = −2κ ∫ ln(|X'|/ℓ) dX' over one cell
 //! ```
 //! | symbol | meaning | shape |
 //! |---|---|---|
 //! | H, P | film h Rx/a², pressure p/p_h | ny × nx |
 //! | δ | height of both rough surfaces, Rx/a² | ny × nx |
 //! | K | influence of a uniformly loaded cell (Love 1929, surface value) | even in both offsets |
-//! | c_y | Rx/Ry | scalar |
+//! | c_y | Rx/Ry; 0 for a line | scalar |
+//! | ℓ | length of the domain: K > 0 everywhere; another ℓ only shifts H0 | scalar |
 //!
 //! Second order in the spacing. The transform length 2(N−1) is exact because P = 0 on the boundary.
-//! Test: the dry Hertz contact (`tests/hertz_dry.rs`).
+//! A line is the limit of strips of infinite length: ∫ dY'/r = const − 2 ln|X'|, with p and κ as they are.
+//! Test: the dry Hertz contacts (`tests/hertz_dry.rs`, `tests/line.rs`).
 
 use crate::math::filter::{Filter, Padding};
-use crate::math::grid::Grid;
+use crate::math::grid::{Grid, Symmetry};
 use crate::math::kernel_symbol::even_kernel_symbol;
 
 /// Deflection by filters in double precision (residuals) and single precision (search directions).
@@ -43,15 +46,36 @@ pub fn cell_potential(x: f64, y: f64, dx: f64, dy: f64) -> f64 {
     corner(xp, yp) + corner(xm, ym) - corner(xp, ym) - corner(xm, yp)
 }
 
+/// `−2 ∫ ln(|x'|/length) dx'` over a strip of width `dx` seen from distance `x` of its middle.
+pub fn strip_potential(x: f64, dx: f64, length: f64) -> f64 {
+    let edge = |u: f64| {
+        if u == 0.0 {
+            0.0
+        } else {
+            u * ((u.abs() / length).ln() - 1.0)
+        }
+    };
+    2.0 * (edge(x - 0.5 * dx) - edge(x + 0.5 * dx))
+}
+
 impl Elastic {
     /// Plans the transforms and makes the symbol for stiffness `kappa`.
     pub fn new(grid: &Grid, kappa: f64) -> Self {
         let mut double = Filter::new(grid, Padding::Doubled, 1);
         let mut single = Filter::new(grid, Padding::Doubled, 1);
         let (dx, dy) = (grid.dx, grid.dy);
-        let symbol = even_kernel_symbol(double.lx(), double.ly(), |i, j| {
-            kappa * cell_potential(i as f64 * dx, j as f64 * dy, dx, dy)
-        });
+        let length = dx * (grid.nx - 1) as f64;
+        let influence = |i: usize, j: usize| {
+            let x = i as f64 * dx;
+            kappa
+                * match grid.symmetry {
+                    Symmetry::Line => strip_potential(x, dx, length),
+                    Symmetry::MirrorY | Symmetry::General => {
+                        cell_potential(x, j as f64 * dy, dx, dy)
+                    }
+                }
+        };
+        let symbol = even_kernel_symbol(double.lx(), double.ly(), influence);
         let nky = double.ly() / 2 + 1;
         double.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
         single.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
@@ -59,7 +83,7 @@ impl Elastic {
             double,
             single,
             symbol,
-            k00: kappa * cell_potential(0.0, 0.0, dx, dy),
+            k00: influence(0, 0),
         }
     }
 
@@ -101,5 +125,41 @@ mod tests {
         assert!((cell_potential(0.0, 0.0, 1.0, 1.0) - exact).abs() < 1e-14);
         // Far away: area over distance.
         assert!((cell_potential(30.0, 40.0, 1.0, 1.0) * 50.0 - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_strip_is_a_long_cell_up_to_a_constant() {
+        // A cell 2e5 long: the difference of its potential at two distances is that of a strip.
+        let long = |x: f64| cell_potential(x, 0.0, 0.1, 2e5);
+        let strip = |x: f64| strip_potential(x, 0.1, 7.0);
+        for x in [0.1, 1.0, 6.9] {
+            let (got, expected) = (strip(x) - strip(0.0), long(x) - long(0.0));
+            assert!((got - expected).abs() < 1e-9, "{x}: {got} {expected}");
+            assert!(strip(x) > 0.0);
+        }
+    }
+
+    #[test]
+    fn a_hertzian_line_presses_a_parabola_flat() {
+        // p_h = E' b/(4 R): κ = 1/(2π); u + X²/2 is constant for |X| < 1.
+        let grid = Grid::new(513, -2.0, 2.0, 0.0, Symmetry::Line);
+        let mut elastic = Elastic::new(&grid, 1.0 / std::f64::consts::TAU);
+        let mut gap = vec![0.0; grid.len()];
+        macroscopic_gap(&grid, 0.0, &mut gap);
+        let p: Vec<f64> = (0..513)
+            .map(|i| (1.0 - grid.x(i).powi(2)).max(0.0).sqrt())
+            .collect();
+        let mut u = vec![0.0; grid.len()];
+        elastic.deflect(&p, &mut u);
+        let film = |i: usize| u[i] + gap[i];
+        for i in 0..513 {
+            let x = grid.x(i);
+            if x.abs() < 0.9 {
+                assert!((film(i) - film(256)).abs() < 2e-4, "{x}");
+            }
+        }
+        // Outside: [|X| √(X² − 1) − ln(|X| + √(X² − 1))]/2 (Johnson 1985, §4.2).
+        let outside = 0.5 * (2.0 * 3.0_f64.sqrt() - (2.0 + 3.0_f64.sqrt()).ln());
+        assert!((film(512) - film(256) - outside).abs() < 1e-3 * outside);
     }
 }

@@ -59,7 +59,8 @@ impl Jacobian {
                     debug_assert!(a.len() >= (j + 1) * nx);
                     j * nx..(j + 1) * nx
                 };
-                let (here, south, north) = (line(v, j), line(v, grid.row_below(j)), line(v, j + 1));
+                let (south, north) = (line(v, grid.row_below(j)), line(v, grid.row_above(j)));
+                let here = line(v, j);
                 let rows = &self.rows[here.clone()];
                 let (v0, vs, vn) = (&v[here.clone()], &v[south.clone()], &v[north.clone()]);
                 let (w0, ws, wn) = (&w[here], &w[south], &w[north]);
@@ -91,7 +92,7 @@ impl Jacobian {
                 if !interior.contains(&j) {
                     return;
                 }
-                let (south, north) = (grid.row_below(j) * nx, (j + 1) * nx);
+                let (south, north) = (grid.row_below(j) * nx, grid.row_above(j) * nx);
                 for i in 1..nx - 1 {
                     let n = j * nx + i;
                     let p = &self.rows[n].a_p;

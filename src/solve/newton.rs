@@ -283,6 +283,14 @@ impl Newton {
                 }
             }
         }
+        if !self.active.contains(&true) {
+            // The last step lifted the bodies apart. No set at all cannot carry the load: keep the old one.
+            for (active, &p) in self.active.iter_mut().zip(p) {
+                *active = p > 0.0;
+            }
+            self.fixed.fill(0.0);
+            return false;
+        }
         any_fixed
     }
 

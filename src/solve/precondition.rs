@@ -51,6 +51,8 @@ impl Preconditioner {
     pub fn new(grid: &Grid, elastic: &Elastic, kappa: f64, s: f64) -> Self {
         let n = grid.len();
         let (even, odd) = (grid.ny.div_ceil(2) * grid.nx, grid.ny / 2 * grid.nx);
+        // A line has no odd row; one of zeros stands in for the neighbours, whose weight is 0.
+        let neighbours = odd.max(grid.nx);
         let mut this = Self {
             filter: Filter::new(grid, Padding::Periodic, BINS),
             bins: [0.0; BINS],
@@ -58,7 +60,7 @@ impl Preconditioner {
             extra: vec![0.0; n],
             scale: vec![0.0; n],
             factors: [vec![Factor::default(); even], vec![Factor::default(); odd]],
-            lines: [vec![0.0; even], vec![0.0; odd]],
+            lines: [vec![0.0; even], vec![0.0; neighbours]],
             z1: vec![0.0; n],
             rest: vec![0.0; n],
         };
@@ -188,7 +190,7 @@ impl Preconditioner {
                 if !interior.contains(&j) {
                     return;
                 }
-                let (south, north) = (grid.row_below(j) / 2 * nx, j.div_ceil(2) * nx);
+                let (south, north) = (grid.row_below(j) / 2 * nx, grid.row_above(j) / 2 * nx);
                 solve_line(
                     factor,
                     &r[j * nx..(j + 1) * nx],

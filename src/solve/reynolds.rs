@@ -126,7 +126,7 @@ impl Reynolds {
     ) {
         let nx = grid.nx;
         let nodes = &self.nodes;
-        let (wx, wy) = (1.0 / (grid.dx * grid.dx), 1.0 / (grid.dy * grid.dy));
+        let (wx, wy) = grid.flow_weights();
         let interior = grid.interior_rows();
         self.residual
             .par_chunks_mut(nx)
@@ -143,7 +143,7 @@ impl Reynolds {
                 if !interior.contains(&j) {
                     return;
                 }
-                let (south, north) = (grid.row_below(j) * nx, (j + 1) * nx);
+                let (south, north) = (grid.row_below(j) * nx, grid.row_above(j) * nx);
                 for i in 1..nx - 1 {
                     let n = j * nx + i;
                     let conductance = |m: usize| face_conductance(&nodes[n], &nodes[m]) / lambda;
@@ -172,7 +172,7 @@ impl Reynolds {
     ) {
         let nx = grid.nx;
         let nodes = &self.nodes;
-        let (wx, wy) = (1.0 / (grid.dx * grid.dx), 1.0 / (grid.dy * grid.dy));
+        let (wx, wy) = grid.flow_weights();
         let interior = grid.interior_rows();
         let row_scale = &self.row_scale;
         jacobian
@@ -185,7 +185,7 @@ impl Reynolds {
                 if !interior.contains(&j) {
                     return;
                 }
-                let (south, north) = (grid.row_below(j) * nx, (j + 1) * nx);
+                let (south, north) = (grid.row_below(j) * nx, grid.row_above(j) * nx);
                 for (i, row) in rows.iter_mut().enumerate().take(nx - 1).skip(1) {
                     let n = j * nx + i;
                     if !active[n] {
@@ -326,7 +326,7 @@ mod tests {
 
     #[test]
     fn the_linearisation_is_the_derivative() {
-        for symmetry in [Symmetry::MirrorY, Symmetry::General] {
+        for symmetry in [Symmetry::MirrorY, Symmetry::General, Symmetry::Line] {
             let grid = Grid::new(17, -2.0, 1.5, 1.6, symmetry);
             let mut elastic = Elastic::new(&grid, 0.2);
             let medium = Medium {

@@ -9,11 +9,13 @@
 //! | q | traction on body 1 along +x (body 2 carries −q) | ny × nx |
 //! | S | odd in x, even in y | |
 //!
+//! A line is the limit of strips of infinite length: S = κ_s π dx ahead of the cell, 0 below its middle.
+//!
 //! The gap opens ahead of and closes behind a loaded patch. Sources: Johnson, Contact Mechanics (1985),
 //! eq. 3.71 ff. (Cerruti); the frequency response is −2βQ/(E*k), β Dundurs' constant.
 
 use crate::math::filter::{Filter, Padding};
-use crate::math::grid::Grid;
+use crate::math::grid::{Grid, Symmetry};
 use crate::math::kernel_symbol::odd_kernel_symbol;
 use crate::solve::traction::TractionLaw;
 
@@ -40,7 +42,13 @@ impl Tangential {
         let mut filter = Filter::new(grid, Padding::Doubled, 1).odd_in_x();
         let (dx, dy) = (grid.dx, grid.dy);
         let symbol = odd_kernel_symbol(filter.lx(), filter.ly(), |i, j| {
-            kappa_s * cell(i as f64 * dx, j as f64 * dy, dx, dy)
+            kappa_s
+                * match grid.symmetry {
+                    Symmetry::Line => std::f64::consts::PI * dx,
+                    Symmetry::MirrorY | Symmetry::General => {
+                        cell(i as f64 * dx, j as f64 * dy, dx, dy)
+                    }
+                }
         });
         let nky = filter.ly() / 2 + 1;
         filter.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);

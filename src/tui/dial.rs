@@ -1,7 +1,7 @@
 //! A dial: one knob on the screen, with its range, its steps and where it is going.
 
 use crate::scene::keys::{self, Kind};
-use crate::scene::{Scene, Surface};
+use crate::scene::{ContactKind, Scene, Surface};
 use crate::sim::{Knob, Metrics};
 use crate::tui::units::{NO_UNIT, Unit, Units};
 
@@ -87,6 +87,12 @@ impl Dial {
         self.clamped(value)
     }
 
+    /// Whether it is the dial for `knob`; a lesson that turns the load means either kind of it.
+    pub fn answers(&self, knob: Knob) -> bool {
+        let load = |knob| matches!(knob, Knob::ForceN | Knob::ForceNPerM);
+        self.knob == knob || load(self.knob) && load(knob)
+    }
+
     /// Where on the slider a value is, 0 to 1.
     pub fn fraction(&self, value: f64) -> f64 {
         let fraction = match self.scale {
@@ -110,6 +116,7 @@ impl Dial {
         match self.knob {
             Knob::SlideRoll => NO_UNIT,
             Knob::ForceN => units.force(),
+            Knob::ForceNPerM => units.force_per_length(),
             Knob::Amplitude1M | Knob::Amplitude2M => units.height(),
             Knob::EntrainmentMS => units.speed(),
         }
@@ -131,7 +138,7 @@ impl Dial {
 pub fn knob_value(metrics: &Metrics, knob: Knob) -> f64 {
     match knob {
         Knob::SlideRoll => metrics.slide_roll,
-        Knob::ForceN => metrics.load_n,
+        Knob::ForceN | Knob::ForceNPerM => metrics.load_n,
         Knob::Amplitude1M => metrics.amplitude_1_m,
         Knob::Amplitude2M => metrics.amplitude_2_m,
         Knob::EntrainmentMS => metrics.entrainment_m_s,
@@ -142,21 +149,23 @@ pub fn knob_value(metrics: &Metrics, knob: Knob) -> f64 {
 pub fn knob_target(metrics: &Metrics, knob: Knob) -> Option<f64> {
     match knob {
         Knob::SlideRoll => Some(metrics.slide_roll_target),
-        Knob::ForceN => Some(metrics.load_target_n),
+        Knob::ForceN | Knob::ForceNPerM => Some(metrics.load_target_n),
         Knob::Amplitude1M | Knob::Amplitude2M | Knob::EntrainmentMS => None,
     }
 }
 
-/// The dials of a scene whose load is `load_n` and gives `p_hertz_pa`.
+/// The dials of a scene whose load is `load_n` (a line: N/m) and gives `p_hertz_pa`.
 pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
     Knob::ALL
         .into_iter()
-        .map(|knob| match knob {
-            Knob::SlideRoll => slide_roll(scene.motion.slide_roll),
-            Knob::ForceN => load(load_n, p_hertz_pa),
-            Knob::Amplitude1M => amplitude(knob, &scene.body_1.surface),
-            Knob::Amplitude2M => amplitude(knob, &scene.body_2.surface),
-            Knob::EntrainmentMS => speed(scene.motion.entrainment_m_s),
+        .filter_map(|knob| match knob {
+            Knob::SlideRoll => Some(slide_roll(scene.motion.slide_roll)),
+            // One place for the load, whichever kind it is.
+            Knob::ForceN => Some(load(scene.kind(), load_n, p_hertz_pa)),
+            Knob::ForceNPerM => None,
+            Knob::Amplitude1M => Some(amplitude(knob, &scene.body_1.surface)),
+            Knob::Amplitude2M => Some(amplitude(knob, &scene.body_2.surface)),
+            Knob::EntrainmentMS => Some(speed(scene.motion.entrainment_m_s)),
         })
         .map(within_the_scenes_range)
         .collect()
@@ -192,19 +201,23 @@ fn slide_roll(home: f64) -> Dial {
 
 /// From a ninth of the scene's load to four times it, up to the Hertz pressure that scenes may
 /// have; typical values by Hertz pressure.
-fn load(home: f64, p_hertz_pa: f64) -> Dial {
+fn load(kind: ContactKind, home: f64, p_hertz_pa: f64) -> Dial {
     const MOST_PA: f64 = 1e10;
-    let most = home * (MOST_PA / p_hertz_pa).powi(3);
+    let order = kind.hertz_shape().order();
+    let most = home * (MOST_PA / p_hertz_pa).powi(order);
     let (min, max) = (home / 9.0, (home * 4.0).min(most).max(home));
     let typical = [
         0.75e9, 1.0e9, 1.25e9, 1.5e9, 1.75e9, 2.0e9, 2.25e9, 2.5e9, 3.0e9,
     ]
     .into_iter()
-    .map(|p: f64| home * (p / p_hertz_pa).powi(3))
+    .map(|p: f64| home * (p / p_hertz_pa).powi(order))
     .filter(|force| (min..=max).contains(force))
     .collect();
     Dial {
-        knob: Knob::ForceN,
+        knob: match kind {
+            ContactKind::Point => Knob::ForceN,
+            ContactKind::Line => Knob::ForceNPerM,
+        },
         label: "load",
         scale: Scale::Ratio { ratio: 1.05 },
         far: 5,
@@ -285,7 +298,7 @@ mod tests {
 
     #[test]
     fn ratio_steps_return_to_the_scenes_value() {
-        let mut dial = load(800.0, 1.73e9);
+        let mut dial = load(ContactKind::Point, 800.0, 1.73e9);
         for _ in 0..5 {
             dial.target = dial.turned(1);
         }
@@ -296,7 +309,11 @@ mod tests {
 
     #[test]
     fn sliders_go_both_ways() {
-        for dial in [slide_roll(0.5), load(800.0, 1.73e9), speed(1.0)] {
+        for dial in [
+            slide_roll(0.5),
+            load(ContactKind::Point, 800.0, 1.73e9),
+            speed(1.0),
+        ] {
             assert_relative_eq!(dial.fraction(dial.min), 0.0);
             assert_relative_eq!(dial.fraction(dial.max), 1.0, epsilon = 1e-12);
             for part in [0.0, 0.25, 0.5, 0.9, 1.0] {
@@ -309,7 +326,7 @@ mod tests {
 
     #[test]
     fn typical_loads_are_round_hertz_pressures_inside_the_range() {
-        let dial = load(800.0, 1.73e9);
+        let dial = load(ContactKind::Point, 800.0, 1.73e9);
         assert!(!dial.typical.is_empty() && dial.typical.len() <= 9);
         for force in &dial.typical {
             let p = 1.73 * (force / 800.0).cbrt();

@@ -10,6 +10,7 @@ pub fn basis(setup: &Setup) -> EstimateBasis {
     EstimateBasis {
         crests_1_per_m: crests_per_m(&setup.scene.body_1.surface),
         crests_2_per_m: crests_per_m(&setup.scene.body_2.surface),
+        shape: setup.scene.kind().hertz_shape(),
         load_n: setup.load_n,
         half_width_m: setup.half_width_m,
         p_hertz_pa: setup.p_hertz_pa,
@@ -20,7 +21,8 @@ pub fn basis(setup: &Setup) -> EstimateBasis {
 /// scene computes no life, by the default one).
 pub fn life_at_pressure(setup: &Setup, ratio: f64) -> f64 {
     let life = setup.scene.life.clone().unwrap_or_default();
-    load_factor(ratio, life.stress_exponent, life.weibull_slope)
+    let shape = setup.scene.kind().hertz_shape();
+    load_factor(shape, ratio, life.stress_exponent, life.weibull_slope)
 }
 
 /// Crests that a streamline along x meets per metre.

@@ -86,6 +86,14 @@ impl Units {
         }
     }
 
+    /// Load of a line.
+    pub fn force_per_length(self) -> Unit {
+        match self {
+            Self::Gpa | Self::Mpa => unit("N/m", 1.0),
+            Self::Shop => unit("lbf/in", 0.0254 / 4.448_221_615_260_5),
+        }
+    }
+
     /// Speed.
     pub fn speed(self) -> Unit {
         match self {

@@ -78,7 +78,7 @@ pub type SaveScene = Box<dyn FnMut(&str) -> Result<PathBuf, String>>;
 pub struct Wiring {
     /// The scene that runs.
     pub scene: Arc<Scene>,
-    /// The load, N (the scene may give it as a Hertz pressure).
+    /// The load, N, of a line N/m (the scene may give it as a Hertz pressure).
     pub load_n: f64,
     /// Hertz half-width along x at that load, m.
     pub half_width_m: f64,

@@ -40,7 +40,7 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
         contact: Contact {
             kind: ContactKind::Point,
             rx_m: RADIUS,
-            ry_m: RADIUS,
+            ry_m: Some(RADIUS),
         },
         body_1: body(surface(f64::INFINITY)),
         body_2: body(surface(WAVELENGTH)),
@@ -52,6 +52,7 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
         },
         load: Load {
             force_n: Some(800.0),
+            force_n_per_m: None,
             hertz_pressure_pa: None,
         },
         grid: Grid {

@@ -64,7 +64,7 @@ pub(crate) fn scene() -> Scene {
         contact: Contact {
             kind: ContactKind::Point,
             rx_m: 0.01905,
-            ry_m: 0.01905,
+            ry_m: Some(0.01905),
         },
         body_1: wave(f64::INFINITY),
         body_2: wave(WAVE_M),
@@ -76,6 +76,7 @@ pub(crate) fn scene() -> Scene {
         },
         load: Load {
             force_n: Some(800.0),
+            force_n_per_m: None,
             hertz_pressure_pa: None,
         },
         grid: asperity::scene::Grid::default(),

@@ -1,5 +1,6 @@
 //! Where things are, in millimetres: the unit of every picture in the recording.
 
+use crate::scene::ContactKind;
 use crate::sim::Frame;
 
 /// Metres to millimetres.
@@ -8,6 +9,7 @@ pub(super) const MM: f64 = 1.0e3;
 /// Nodes and lengths of a run's frames; they do not change while it runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Geometry {
+    pub(super) kind: ContactKind,
     pub(super) nx: usize,
     pub(super) ny: usize,
     pub(super) x_min: f64,
@@ -22,6 +24,7 @@ pub(super) struct Geometry {
 impl Geometry {
     pub(super) fn of(frame: &Frame) -> Self {
         Self {
+            kind: frame.kind,
             nx: frame.nx,
             ny: frame.ny,
             x_min: frame.x_min_m * MM,

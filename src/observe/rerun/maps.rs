@@ -6,7 +6,7 @@ use rerun::{AnnotationContext, ChannelDatatype, Rgba32, SegmentationImage};
 use super::colour::WHITE;
 use super::geometry::{Geometry, ticks};
 use super::interferogram::Interferogram;
-use super::plot::{PlotBox, log_ellipse, ticks_at};
+use super::plot::{PlotBox, log_hertz, ticks_at};
 use super::raster::{Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use crate::observe::ObserveError;
@@ -97,7 +97,7 @@ impl Maps {
             scales,
         };
         log_contact_style(stream, geometry)?;
-        log_ellipse(stream, HERTZ, [geometry.a, geometry.b])?;
+        log_hertz(stream, HERTZ, &geometry)?;
         Ok(maps)
     }
 

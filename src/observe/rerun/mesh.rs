@@ -118,6 +118,7 @@ mod tests {
         for n in [33, 129, 257, 513] {
             let step = 4.0 / (n - 1) as f64;
             let g = Geometry {
+                kind: crate::scene::ContactKind::Point,
                 nx: n,
                 ny: n,
                 x_min: -2.5,

@@ -6,9 +6,10 @@
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREY, WHITE, faded};
-use super::geometry::number;
+use super::geometry::{Geometry, number};
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::scene::ContactKind;
 
 /// A tick: where, in units of the view, and its text.
 pub(super) type Tick = (f64, String);
@@ -152,19 +153,26 @@ impl Labels {
     }
 }
 
-/// An ellipse: where Hertz's contact is.
-pub(super) fn log_ellipse(
+/// Where Hertz's contact is: an ellipse, or the two edges of a line.
+pub(super) fn log_hertz(
     stream: &Stream,
     entity: &str,
-    [a, b]: [f64; 2],
+    geometry: &Geometry,
 ) -> Result<(), ObserveError> {
-    let strip: Vec<[f64; 2]> = (0..=96)
-        .map(|k| {
-            let angle = std::f64::consts::TAU * f64::from(k) / 96.0;
-            [a * angle.cos(), b * angle.sin()]
-        })
-        .collect();
-    let line = LineStrips2D::new([points(&strip)])
+    let (a, b) = (geometry.a, geometry.b);
+    let (low, high) = (geometry.y_min, geometry.y_max());
+    let strips: Vec<Vec<[f64; 2]>> = match geometry.kind {
+        ContactKind::Point => vec![
+            (0..=96)
+                .map(|k| {
+                    let angle = std::f64::consts::TAU * f64::from(k) / 96.0;
+                    [a * angle.cos(), b * angle.sin()]
+                })
+                .collect(),
+        ],
+        ContactKind::Line => vec![vec![[-a, low], [-a, high]], vec![[a, low], [a, high]]],
+    };
+    let line = LineStrips2D::new(strips.iter().map(|strip| points(strip)))
         .with_colors([faded(WHITE, 150)])
         .with_radii([Radius::new_ui_points(0.75)])
         .with_draw_order(15.0);

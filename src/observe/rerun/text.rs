@@ -7,6 +7,7 @@ use rerun::{TextDocument, TextLog, TextLogLevel};
 use super::raster::Scale;
 use super::stream::Stream;
 use crate::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
+use crate::scene::ContactKind;
 use crate::sim::Frame;
 
 pub(super) const ABOUT: &str = "text/about";
@@ -102,10 +103,14 @@ fn now(frame: &Frame, caption: &str) -> String {
             m.residual
         );
     }
+    let unit = match frame.kind {
+        ContactKind::Point => "N",
+        ContactKind::Line => "N/m",
+    };
     let _ = writeln!(
         text,
         "| time | {:.3} ms, passage {:.2} |\n|---|---|\n| S | {:.3}, going to {:.3} |\n\
-         | U1, U2 | {:.3}, {:.3} m/s |\n| load, p_Hertz | {:.1} N, {:.3} GPa |\n| p_max | {:.3} GPa |\n\
+         | U1, U2 | {:.3}, {:.3} m/s |\n| load, p_Hertz | {:.1} {unit}, {:.3} GPa |\n| p_max | {:.3} GPa |\n\
          | h central, min | {:.1}, {:.1} nm |\n| contact | {:.2} % of area, {:.2} % of load |",
         frame.time_s * 1e3,
         frame.passages,

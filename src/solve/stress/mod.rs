@@ -47,6 +47,7 @@ mod engine;
 mod fft;
 mod lanes;
 mod layer;
+mod line;
 mod load;
 mod measure;
 mod peak;
@@ -58,6 +59,7 @@ mod window;
 
 pub use depth::{DEPTH_SCALE_A, depth_rule, gauss_legendre};
 pub use engine::{Loading, StressEngine, StressError, StressSpec, Symmetry};
+pub use line::LineStress;
 pub use peak::Peak;
 pub use plane::{Cut, Plane};
 pub use slice::SliceOut;

@@ -103,6 +103,34 @@ impl VolumeSums {
         }
     }
 
+    /// Of a line contact: one row a depth.
+    pub(super) fn of_line(weights: &[f64]) -> Self {
+        let depths = weights.len();
+        Self {
+            depths,
+            logs: vec![f64::NEG_INFINITY; MAX_LAWS * 4 * depths],
+            peaks: [Peak::default(); 4],
+            row_tops: [0, 1, 2, 3].map(|_| vec![0.0; depths]),
+            rows: weights.iter().map(|weight| weight.ln()).collect(),
+            first_row: (0..depths).collect(),
+        }
+    }
+
+    /// Forgets the greatest stresses.
+    pub(super) fn clear(&mut self) {
+        self.peaks = [Peak::default(); 4];
+    }
+
+    /// Sets one depth of a line contact.
+    pub(super) fn set(&mut self, loading: Loading, law: usize, k: usize, sum: LayerSum) {
+        let at = loading.index();
+        self.logs[(law * 4 + at) * self.depths + k] = sum.ln;
+        self.row_tops[at][k] = (sum.peak.value * sum.peak.value) as f32;
+        if sum.peak.value > self.peaks[at].value {
+            self.peaks[at] = sum.peak;
+        }
+    }
+
     /// ln of the share of every depth, weight included, under the `law`-th law of the call.
     pub fn layers(&self, loading: Loading, law: usize) -> &[f64] {
         &self.logs[(law * 4 + loading.index()) * self.depths..][..self.depths]

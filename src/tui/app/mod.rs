@@ -90,7 +90,7 @@ pub struct LifeSample {
 pub struct Setup {
     /// The scene that runs.
     pub scene: Arc<Scene>,
-    /// Load, N.
+    /// Load, N; of a line N/m.
     pub load_n: f64,
     /// Hertz half-width along x at that load, m.
     pub half_width_m: f64,
@@ -326,6 +326,10 @@ fn put(scene: &mut Scene, dial: &Dial) {
             scene.load.force_n = Some(dial.target);
             scene.load.hertz_pressure_pa = None;
         }
+        Knob::ForceNPerM => {
+            scene.load.force_n_per_m = Some(dial.target);
+            scene.load.hertz_pressure_pa = None;
+        }
         Knob::Amplitude1M => amplitude(&mut scene.body_1.surface),
         Knob::Amplitude2M => amplitude(&mut scene.body_2.surface),
         Knob::EntrainmentMS => scene.motion.entrainment_m_s = dial.target,
@@ -336,7 +340,8 @@ fn put(scene: &mut Scene, dial: &Dial) {
 fn point_of(dials: &[Dial]) -> OperatingPoint {
     OperatingPoint {
         slide_roll: target_of(dials, Knob::SlideRoll),
-        load_n: target_of(dials, Knob::ForceN),
+        // A scene has a dial for one of the two.
+        load_n: target_of(dials, Knob::ForceN) + target_of(dials, Knob::ForceNPerM),
         amplitude_1_m: target_of(dials, Knob::Amplitude1M),
         amplitude_2_m: target_of(dials, Knob::Amplitude2M),
     }

@@ -249,7 +249,7 @@ impl App {
         }
         let mut effects = Vec::new();
         for (knob, setting) in beat.sets {
-            if let Some(place) = self.dials.iter().position(|dial| dial.knob == *knob) {
+            if let Some(place) = self.dials.iter().position(|dial| dial.answers(*knob)) {
                 let value = setting.value(&self.dials[place]);
                 effects.extend(self.set(place, value));
             }

@@ -5,6 +5,7 @@ use ratatui::layout::{Margin, Position, Rect};
 use ratatui::text::{Line, Span};
 
 use crate::physics::estimate::speed_ratios;
+use crate::scene::ContactKind;
 use crate::sim::Knob;
 use crate::tui::action::Action;
 use crate::tui::app::App;
@@ -238,13 +239,14 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     if dial.life != Life::Live {
         return;
     }
-    if dial.knob != Knob::ForceN || slot.width >= 24 {
+    let is_load = matches!(dial.knob, Knob::ForceN | Knob::ForceNPerM);
+    if !is_load || slot.width >= 24 {
         let ends = Line::styled(tick(unit.of(dial.min)), theme.style(Role::Dim));
         put(slot, 2, &ends, buffer);
         let end = Line::styled(tick(unit.of(dial.max)), theme.style(Role::Dim));
         put_right(slot, 2, &end, buffer);
     }
-    if dial.knob == Knob::ForceN {
+    if is_load {
         let text = format!(
             "p_h {}",
             app.units.pressure().show(app.estimate.p_hertz_pa, 3)
@@ -288,7 +290,10 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
         ("sliding |U₂−U₁|/U₁", specific(u1), Role::Body1),
         ("sliding |U₂−U₁|/U₂", specific(u2), Role::Body2),
         ("a half-width x", length.show(frame.a_m, 3), Role::Text),
-        ("b half-width y", length.show(frame.b_m, 3), Role::Text),
+        match frame.kind {
+            ContactKind::Point => ("b half-width y", length.show(frame.b_m, 3), Role::Text),
+            ContactKind::Line => ("line: uniform along y", String::new(), Role::Dim),
+        },
         (
             "µ friction",
             sig(metrics.friction_coefficient, 2),

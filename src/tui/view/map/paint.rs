@@ -110,12 +110,12 @@ fn ink(
     }
 }
 
-/// Whether the Hertz ellipse passes through a pixel.
+/// Whether the edge of Hertz's contact passes through a pixel.
 fn on_ellipse(window: &Window, raster: &Raster, column: usize, row: usize) -> bool {
     let x = window.x_at((column as f64 + 0.5) / raster.columns as f64);
     let y = window.y_at((row as f64 + 0.5) / raster.rows as f64);
     let pixel = (window.x[1] - window.x[0]) / raster.columns as f64;
-    (x.hypot(y) - 1.0).abs() < 0.5 * pixel
+    (raster.distance(x, y) - 1.0).abs() < 0.5 * pixel
 }
 
 pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut Buffer) {

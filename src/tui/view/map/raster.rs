@@ -1,6 +1,7 @@
 //! From the nodes of a frame to the pixels of the picture: the mean of the nodes in a pixel, or,
 //! where pixels are finer than nodes, linear interpolation between them.
 
+use crate::scene::ContactKind;
 use crate::sim::Frame;
 use crate::tui::app::MapKind;
 
@@ -31,6 +32,7 @@ pub(super) struct Raster {
     pub(super) rows: usize,
     values: Vec<f32>,
     spots: Vec<bool>,
+    kind: ContactKind,
 }
 
 impl Raster {
@@ -38,6 +40,14 @@ impl Raster {
     pub(super) fn at(&self, column: usize, row: usize) -> f32 {
         let place = row * self.columns + column;
         self.values.get(place).copied().unwrap_or(0.0)
+    }
+
+    /// How far from the middle a place is, 1 on the edge of Hertz's contact: an ellipse, or two lines.
+    pub(super) fn distance(&self, x: f64, y: f64) -> f64 {
+        match self.kind {
+            ContactKind::Point => x.hypot(y),
+            ContactKind::Line => x.abs(),
+        }
     }
 
     /// Whether any node of a pixel is in contact.
@@ -78,6 +88,7 @@ pub(super) fn rasterize(
             rows,
             values,
             spots: Vec::new(),
+            kind: frame.kind,
         });
     }
     let y = axis_of(frame.y_min_m / frame.b_m, frame.dy_m / frame.b_m, frame.ny);
@@ -102,6 +113,7 @@ pub(super) fn rasterize(
         rows,
         values,
         spots,
+        kind: frame.kind,
     })
 }
 

@@ -1,0 +1,424 @@
+//! Plane-strain stress below a line contact: exact influence functions of uniformly loaded strips.
+//!
+//! ```text
+//! σ_i(z) = Σ_j A_{i−j}(z) p_j + B_{i−j}(z) q_j,   A, B = [F]_{x−dx/2}^{x+dx/2},   r² = x² + z²
+//! pressure   xx: −(1/π)[atan(x/z) − xz/r²]    zz: −(1/π)[atan(x/z) + xz/r²]    xz:  (1/π) z²/r²
+//! traction   xx: −(1/π)[ln r² + z²/r²]        zz:  (1/π) z²/r²                 xz: −(1/π)[atan(x/z) − xz/r²]
+//! σyy = ν(σxx + σzz),   σxy = σyz = 0
+//! ```
+//! | symbol | meaning | shape, unit |
+//! |---|---|---|
+//! | p, q | pressure (> 0 presses), traction on the body along +x | nx, p_h |
+//! | σ | stress, tension positive | `[k·nx + i]`, p_h |
+//! | x, z | along rolling, into the body | b |
+//!
+//! The sums over strips are convolutions, done by transforms of twice the length: with p = q = 0 at both
+//! ends of the domain they are the direct sums (free space, no images). Influence functions were taken
+//! rather than windowed frequency responses because in one dimension their tables are small (6 numbers
+//! a mode and depth) and need no window. Error: that of steps in place of the pressure, second order away
+//! from Hertz's edge. The life integral is over x and z, per unit length.
+//!
+//! Proved in `tests/line.rs`: Hertz's maxima, the direct sum, the life integrals.
+//! Source: Johnson, Contact Mechanics (1985), §2.5 (strips), §4.2 (Hertz line).
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+
+use super::depth::depth_rule;
+use super::engine::{Loading, StressSpec, Symmetry};
+use super::peak::{self, Peak};
+use super::slice::SliceOut;
+use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
+use super::volume::VolumeOut;
+use crate::math::kernel_symbol::{even_kernel_symbol, odd_kernel_symbol};
+use crate::physics::cycles::BodyId;
+use crate::scene::StressMeasure;
+
+/// Stress below which a point adds nothing to a life integral, p_h.
+const NEGLIGIBLE: f32 = 1e-6;
+
+/// Symbols of one depth: pressure and traction to each component.
+struct Layer {
+    /// xx, zz, xz; by pressure and by traction, one number a mode. Real where the kernel is even; the
+    /// imaginary part where it is odd.
+    symbols: [[Vec<f32>; 2]; 3],
+}
+
+/// The engine of a line: tables, spectra of the surface loaded last, scratch.
+pub struct LineStress {
+    spec: StressSpec,
+    layers: Vec<Layer>,
+    forward: Arc<dyn RealToComplex<f32>>,
+    inverse: Arc<dyn ComplexToReal<f32>>,
+    /// Spectra of p and q.
+    spectra: [Vec<Complex<f32>>; 2],
+    loaded: Loaded,
+    real: Vec<f32>,
+    product: Vec<Complex<f32>>,
+    scratch: Vec<Complex<f32>>,
+    /// xx, zz, xz of one depth.
+    rows: [Vec<f32>; 3],
+    sums: VolumeSums,
+}
+
+/// What was loaded last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Loaded {
+    Pressure,
+    PressureAndTraction,
+}
+
+impl LineStress {
+    /// Tables for `nx` nodes `dx` apart, the first at `x_first`, and `n_depths` depths down to `depth_max`
+    /// (lengths in half-widths).
+    pub fn new(
+        nx: usize,
+        (x_first, dx): (f64, f64),
+        nu: [f64; 2],
+        depths: (usize, f64),
+        measure: StressMeasure,
+    ) -> Self {
+        let mut spec = StressSpec::new((nx, 1), (dx, 1.0), nu[0], depths, Symmetry::MirrorY);
+        (spec.nu_2, spec.x_first, spec.measure) = (nu[1], x_first, measure);
+        (spec.depths, spec.weights) = depth_rule(depths.0, depths.1);
+        let length = 2 * (nx - 1);
+        let mut planner = RealFftPlanner::<f32>::new();
+        let (forward, inverse) = (
+            planner.plan_fft_forward(length),
+            planner.plan_fft_inverse(length),
+        );
+        let zero = Complex::new(0.0, 0.0);
+        let modes = length / 2 + 1;
+        let scratch = forward.get_scratch_len().max(inverse.get_scratch_len());
+        Self {
+            layers: spec
+                .depths
+                .iter()
+                .map(|&z| Layer::new(length, dx, z))
+                .collect(),
+            spectra: [vec![zero; modes], vec![zero; modes]],
+            loaded: Loaded::Pressure,
+            real: vec![0.0; length],
+            product: vec![zero; modes],
+            scratch: vec![zero; scratch],
+            rows: [vec![0.0; nx], vec![0.0; nx], vec![0.0; nx]],
+            sums: VolumeSums::of_line(&spec.weights),
+            spec,
+            forward,
+            inverse,
+        }
+    }
+
+    /// Nodes, depths, weights and measure; of its rows and `dy` a line has no use.
+    pub fn spec(&self) -> &StressSpec {
+        &self.spec
+    }
+
+    /// Takes a surface: pressure and, where there is any, traction.
+    pub fn load(&mut self, pressure: &[f32], traction: Option<&[f32]>) {
+        self.transform(0, pressure);
+        self.loaded = Loaded::Pressure;
+        if let Some(traction) = traction {
+            self.transform(1, traction);
+            self.loaded = Loaded::PressureAndTraction;
+        }
+    }
+
+    fn transform(&mut self, which: usize, field: &[f32]) {
+        self.real[..field.len()].copy_from_slice(field);
+        self.real[field.len()..].fill(0.0);
+        self.forward
+            .process_with_scratch(&mut self.real, &mut self.spectra[which], &mut self.scratch)
+            .expect("buffer lengths were made for this plan");
+    }
+
+    /// The stress of body 1 in the plane x z under the surface loaded last.
+    pub fn slice(&mut self, out: &mut SliceOut) {
+        self.slice_of(Loading::Full(BodyId::One), out);
+    }
+
+    /// The stress of a body in the plane x z under the surface loaded last.
+    pub fn slice_of(&mut self, loading: Loading, out: &mut SliceOut) {
+        let nx = self.spec.nx;
+        let nu = self.spec.poisson(loading.body()) as f32;
+        for k in 0..self.layers.len() {
+            self.layer(k, loading);
+            let here = k * nx..(k + 1) * nx;
+            let [xx, zz, xz] = &self.rows;
+            out.sxx[here.clone()].copy_from_slice(xx);
+            out.szz[here.clone()].copy_from_slice(zz);
+            out.sxz[here.clone()].copy_from_slice(xz);
+            for i in 0..nx {
+                let yy = nu * (xx[i] + zz[i]);
+                out.syy[here.start + i] = yy;
+                out.effective[here.start + i] =
+                    effective(self.spec.measure, [xx[i], yy, zz[i], xz[i]]);
+            }
+        }
+        out.peak = peak::refine(&self.spec, out);
+    }
+
+    /// ln ∫ s^m dx dz of the surface loaded last, without and with its traction.
+    pub fn volume(&mut self, exponent: f64) -> VolumeOut {
+        self.volume_under(&[StressLaw::power(exponent)], &BodyId::BOTH);
+        let integral = |loading| self.sums.integral(loading, 0);
+        VolumeOut {
+            normal: integral(Loading::Normal(BodyId::One)),
+            full: integral(Loading::Full(BodyId::One)),
+            mate: integral(Loading::Full(BodyId::Two)),
+        }
+    }
+
+    /// Sums of the surface loaded last under one or two laws, for the bodies that are asked for.
+    ///
+    /// # Panics
+    /// Without a law, or with more than two.
+    pub fn volume_under(&mut self, laws: &[StressLaw], bodies: &[BodyId]) -> &VolumeSums {
+        assert!((1..=MAX_LAWS).contains(&laws.len()), "one or two laws");
+        self.sums.clear();
+        let alike = self.spec.materials() == 1;
+        for loading in Loading::ALL {
+            let same = match (loading, self.loaded) {
+                (Loading::Full(body), Loaded::Pressure) => Some(Loading::Normal(body)),
+                (Loading::Normal(BodyId::Two), _) if alike => Some(Loading::Normal(BodyId::One)),
+                _ if bodies.contains(&loading.body()) => None,
+                _ => Some(Loading::Normal(BodyId::One)),
+            };
+            match same {
+                Some(same) if same != loading => self.sums.copy(same, loading),
+                _ => {
+                    for k in 0..self.layers.len() {
+                        self.layer_sums(k, loading, laws);
+                    }
+                }
+            }
+        }
+        &self.sums
+    }
+
+    /// Sums of the last call of [`Self::volume_under`].
+    pub fn sums(&self) -> &VolumeSums {
+        &self.sums
+    }
+
+    /// One depth under one loading.
+    fn layer_sums(&mut self, k: usize, loading: Loading, laws: &[StressLaw]) {
+        self.layer(k, loading);
+        let nu = self.spec.poisson(loading.body()) as f32;
+        let (mut top, mut at) = (0.0_f32, 0);
+        for i in 0..self.spec.nx {
+            let [xx, zz, xz] = [0, 1, 2].map(|c: usize| self.rows[c][i]);
+            let s = effective(self.spec.measure, [xx, nu * (xx + zz), zz, xz]);
+            // The first row is not needed any more.
+            self.rows[0][i] = s;
+            if s > top {
+                (top, at) = (s, i);
+            }
+        }
+        for (law, way) in laws.iter().enumerate() {
+            let greatest = f64::from(top) - way.limit;
+            let beyond = self.rows[0]
+                .iter()
+                .filter(|s| **s > NEGLIGIBLE)
+                .map(|s| (f64::from(*s) - way.limit) / greatest)
+                .filter(|part| *part > 0.0);
+            let ln = if greatest > 0.0 {
+                let sum: f64 = beyond.map(|part| part.powf(way.exponent)).sum();
+                (self.spec.weights[k] * self.spec.dx * sum).ln() + way.exponent * greatest.ln()
+            } else {
+                f64::NEG_INFINITY
+            };
+            let peak = Peak {
+                value: f64::from(top),
+                x: self.spec.x_first + self.spec.dx * at as f64,
+                y: 0.0,
+                z: self.spec.depths[k],
+            };
+            self.sums.set(loading, law, k, LayerSum { ln, peak });
+        }
+    }
+
+    /// xx, zz, xz of depth `k` into `rows`.
+    fn layer(&mut self, k: usize, loading: Loading) {
+        let [p, q] = &self.spectra;
+        let sign = loading.traction_sign();
+        for (component, (row, [by_p, by_q])) in self
+            .rows
+            .iter_mut()
+            .zip(&self.layers[k].symbols)
+            .enumerate()
+        {
+            // xx and zz are even in x under pressure and odd under traction; xz the other way round.
+            let even_by_pressure = component < 2;
+            let turned = |v: Complex<f32>| Complex::new(-v.im, v.re);
+            for ((o, &p), &a) in self.product.iter_mut().zip(p).zip(by_p) {
+                let v = if even_by_pressure { p } else { turned(p) };
+                *o = v * a;
+            }
+            if self.loaded == Loaded::PressureAndTraction && sign != 0.0 {
+                for ((o, &q), &b) in self.product.iter_mut().zip(q).zip(by_q) {
+                    let v = if even_by_pressure { turned(q) } else { q };
+                    *o += v * (sign * b);
+                }
+            }
+            let last = self.product.len() - 1;
+            (self.product[0].im, self.product[last].im) = (0.0, 0.0);
+            self.inverse
+                .process_with_scratch(&mut self.product, &mut self.real, &mut self.scratch)
+                .expect("buffer lengths were made for this plan");
+            let nx = row.len();
+            row.copy_from_slice(&self.real[..nx]);
+        }
+    }
+}
+
+impl Layer {
+    fn new(length: usize, dx: f64, z: f64) -> Self {
+        let strip = |f: fn(f64, f64) -> f64| {
+            move |i: usize, _: usize| {
+                let x = i as f64 * dx;
+                f(x + 0.5 * dx, z) - f(x - 0.5 * dx, z)
+            }
+        };
+        let scale = 1.0 / length as f64;
+        let narrow = |symbol: Vec<f64>| {
+            symbol
+                .into_iter()
+                .map(|s| (s * scale) as f32)
+                .collect::<Vec<_>>()
+        };
+        let even = |f| narrow(even_kernel_symbol(length, 1, strip(f)));
+        let odd = |f| narrow(odd_kernel_symbol(length, 1, strip(f)));
+        Self {
+            symbols: [
+                [even(across), odd(along)],
+                [even(down), odd(shared)],
+                [odd(shared), even(across)],
+            ],
+        }
+    }
+}
+
+/// σxx by pressure, and σxz by traction.
+fn across(x: f64, z: f64) -> f64 {
+    -((x / z).atan() - x * z / (x * x + z * z)) / PI
+}
+
+/// σzz by pressure.
+fn down(x: f64, z: f64) -> f64 {
+    -((x / z).atan() + x * z / (x * x + z * z)) / PI
+}
+
+/// σxz by pressure, and σzz by traction.
+fn shared(x: f64, z: f64) -> f64 {
+    z * z / (x * x + z * z) / PI
+}
+
+/// σxx by traction.
+fn along(x: f64, z: f64) -> f64 {
+    let r2 = x * x + z * z;
+    -(r2.ln() + z * z / r2) / PI
+}
+
+/// The measure of xx, yy, zz, xz with y a principal axis.
+#[inline]
+fn effective(measure: StressMeasure, [xx, yy, zz, xz]: [f32; 4]) -> f32 {
+    let (a, b, c) = (xx - yy, yy - zz, zz - xx);
+    let mises = || (0.5 * (a * a + b * b + c * c) + 3.0 * xz * xz).sqrt();
+    match measure {
+        StressMeasure::VonMises => mises(),
+        StressMeasure::Octahedral => std::f32::consts::SQRT_2 / 3.0 * mises(),
+        StressMeasure::MaxShear => {
+            let (middle, radius) = (0.5 * (xx + zz), (0.25 * c * c + xz * xz).sqrt());
+            // Either in the plane, or between y and the farther of the two principal stresses.
+            radius.max(0.5 * ((middle - yy).abs() + radius))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::invariants::Stress6;
+
+    #[test]
+    fn transforms_are_the_direct_sum() {
+        let (nx, dx) = (33, 0.1);
+        let mut engine =
+            LineStress::new(nx, (-1.5, dx), [0.3; 2], (8, 2.0), StressMeasure::VonMises);
+        let field = |phase: f64| -> Vec<f32> {
+            (0..nx)
+                .map(|i| {
+                    let inside = i > 0 && i + 1 < nx;
+                    if inside {
+                        (0.7 * i as f64 + phase).sin() as f32
+                    } else {
+                        0.0
+                    }
+                })
+                .collect()
+        };
+        let (p, q) = (field(0.2), field(1.3));
+        engine.load(&p, Some(&q));
+        let mut out = SliceOut::new(engine.spec());
+        engine.slice(&mut out);
+        for (k, &z) in engine.spec().depths.iter().enumerate() {
+            for i in 0..nx {
+                let sum = |f: fn(f64, f64) -> f64, field: &[f32]| -> f64 {
+                    field
+                        .iter()
+                        .enumerate()
+                        .map(|(j, &v)| {
+                            let x = (i as f64 - j as f64) * dx;
+                            (f(x + 0.5 * dx, z) - f(x - 0.5 * dx, z)) * f64::from(v)
+                        })
+                        .sum()
+                };
+                let n = k * nx + i;
+                let (xx, zz) = (
+                    sum(across, &p) + sum(along, &q),
+                    sum(down, &p) + sum(shared, &q),
+                );
+                let xz = sum(shared, &p) + sum(across, &q);
+                for (got, exact) in [(out.sxx[n], xx), (out.szz[n], zz), (out.sxz[n], xz)] {
+                    assert!(
+                        (f64::from(got) - exact).abs() < 2e-6,
+                        "{k} {i}: {got} {exact}"
+                    );
+                }
+                assert!((f64::from(out.syy[n]) - 0.3 * (xx + zz)).abs() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn measures_are_the_invariants() {
+        for [xx, yy, zz, xz] in [
+            [-0.7, -0.3, -0.2, 0.25],
+            [0.3, 0.1, -0.9, 0.0],
+            [0.2, 0.9, 0.1, 0.1],
+        ] {
+            let state = Stress6 {
+                xx,
+                yy,
+                zz,
+                xz,
+                ..Stress6::default()
+            };
+            for (measure, exact) in [
+                (StressMeasure::VonMises, state.von_mises()),
+                (StressMeasure::MaxShear, state.max_shear()),
+                (StressMeasure::Octahedral, state.octahedral_shear()),
+            ] {
+                let got = effective(measure, [xx, yy, zz, xz].map(|v: f64| v as f32));
+                assert!(
+                    (f64::from(got) - exact).abs() < 1e-6,
+                    "{measure:?}: {got} {exact}"
+                );
+            }
+        }
+    }
+}
