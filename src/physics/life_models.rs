@@ -96,18 +96,22 @@ impl LifeModel {
     }
 
     /// Exponent s of life against the Hertz pressure of the smooth contact with the same radii, `N ∝ p_h^{−s}`;
-    /// `None` where a limit breaks the power law. Lengths grow with the pressure.
-    pub fn pressure_exponent(self, law: LifeLaw) -> Option<f64> {
+    /// `None` where a limit breaks the power law. `sides` is the number of directions in which the contact
+    /// grows with the pressure: 2 for a point, 1 for a line.
+    pub fn pressure_exponent(self, law: LifeLaw, sides: f64) -> Option<f64> {
         let (c, e) = (law.stress_exponent, law.weibull_slope);
+        let depth = 1.0;
         match self {
-            Self::Zaretsky => Some(c + 3.0 / e),
-            // V ∝ a² z0: the length of the track, which does not change, is divided out.
-            Self::LundbergPalmgren { depth_exponent, .. } => Some((c + 2.0 - depth_exponent) / e),
+            Self::Zaretsky => Some(c + (sides + depth) / e),
+            // V ∝ width · z0: the length of the track does not change.
+            Self::LundbergPalmgren { depth_exponent, .. } => {
+                Some((c + sides - 1.0 + depth - depth_exponent) / e)
+            }
             Self::IoannidesHarris {
                 depth_exponent,
                 limit: 0.0,
                 ..
-            } => Some((c + 3.0 - depth_exponent) / e),
+            } => Some((c + sides + depth - depth_exponent) / e),
             Self::IoannidesHarris { .. } => None,
             Self::DangVan { .. } | Self::Findley { .. } => Some(c),
         }
@@ -181,24 +185,30 @@ mod tests {
 
     #[test]
     fn classical_exponents_of_load() {
-        // Point contact, p ∝ load^{1/3}: Lundberg and Palmgren's life falls with the cube of the load (9.3
-        // on stress with 2-h: (31/3 + 2 − 7/3)/(10/9) = 9, 9/3 = 3).
+        // Point contact, p ∝ load^{1/3}: Lundberg and Palmgren's life falls with the cube of the load,
+        // (31/3 + 2 − 7/3)/(10/9)/3. Line contact, p ∝ load^{1/2}: with its fourth power.
         let law = LifeLaw::default();
         let model = LifeModel::LundbergPalmgren {
             depth_exponent: DEPTH_EXPONENT,
             cut_off: 0.05,
         };
-        let s = model.pressure_exponent(law).unwrap_or(f64::NAN);
+        let s = model.pressure_exponent(law, 2.0).unwrap_or(f64::NAN);
         println!("Lundberg-Palmgren: life falls with load^{:.4}", s / 3.0);
         assert_relative_eq!(s, 9.0, max_relative = 1e-12);
-        let zaretsky = LifeModel::Zaretsky.pressure_exponent(law);
+        let line = LifeLaw {
+            weibull_slope: 1.125,
+            ..law
+        };
+        let s = model.pressure_exponent(line, 1.0).unwrap_or(f64::NAN);
+        assert_relative_eq!(s / 2.0, 4.0, max_relative = 1e-12);
+        let zaretsky = LifeModel::Zaretsky.pressure_exponent(law, 2.0);
         assert_relative_eq!(zaretsky.unwrap_or(f64::NAN), 31.0 / 3.0 + 2.7);
         let limited = LifeModel::IoannidesHarris {
             depth_exponent: DEPTH_EXPONENT,
             cut_off: 0.05,
             limit: 0.4,
         };
-        assert_eq!(limited.pressure_exponent(law), None);
+        assert_eq!(limited.pressure_exponent(law, 2.0), None);
         assert_relative_eq!(calibrated_reference(1e6, 2e9, 1e9, 9.0), 512e6);
     }
 

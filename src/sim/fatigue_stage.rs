@@ -13,7 +13,7 @@ use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::{LifeFactors, LifeLaw};
 use crate::physics::life_models::{CycleProfile, LifeModel, calibrated_reference};
 use crate::plan::Plan;
-use crate::scene::{BodyChoice, CycleBasis, Life, Scene, Spread, VolumeIntegral};
+use crate::scene::{BodyChoice, ContactKind, CycleBasis, Life, Scene, Spread, VolumeIntegral};
 use crate::solve::life::{Coverage, Shares, Sweep, factors};
 use crate::solve::stress::{Loading, StressLaw};
 
@@ -25,6 +25,8 @@ struct Calibration {
     pressure_ratio: f64,
     /// Life at the scene's survival over that at the point's.
     survival_ratio: f64,
+    /// Directions in which the contact grows with the pressure.
+    sides: f64,
 }
 
 /// Life models under way.
@@ -69,6 +71,10 @@ impl LifeStage {
             cycles,
             pressure_ratio: p_pa / p_h,
             survival_ratio: law.survival_ratio(asked.survival, asked.calibration_survival),
+            sides: match scene.kind() {
+                ContactKind::Point => 2.0,
+                ContactKind::Line => 1.0,
+            },
         });
         let wavelength = |body: BodyId| {
             let wave = plan.waves[body.mate().index()];
@@ -172,12 +178,12 @@ impl LifeStage {
         let point = self.calibration?;
         let model = self.variants[0].model;
         let cycles = point.cycles * point.survival_ratio;
-        if let Some(exponent) = model.pressure_exponent(self.law) {
+        if let Some(exponent) = model.pressure_exponent(self.law, point.sides) {
             let ratio = point.pressure_ratio;
             return Some(calibrated_reference(cycles, ratio, 1.0, exponent));
         }
         // A limit breaks the power law: the integral once more with the limit in units of the point's
-        // pressure. It falls with p^{c + 3 − h}, like the model without a limit.
+        // pressure. It grows with p^{c + 3 − h} (line: c + 2 − h), like the model without a limit.
         let LifeModel::IoannidesHarris { depth_exponent, .. } = model else {
             return None;
         };
@@ -189,7 +195,7 @@ impl LifeStage {
         let ln_point = crate::math::ln_sum::ln_sum(
             weighted.map(|(ln, z)| (1.0, ln + model.ln_depth_weight(*z))),
         );
-        let growth = self.law.stress_exponent + 3.0 - depth_exponent;
+        let growth = self.law.stress_exponent + point.sides + 1.0 - depth_exponent;
         let ln_reference = self.variants[0].ln_reference(BodyId::One, VolumeIntegral::Snapshot);
         let ln = ln_point + growth * point.pressure_ratio.ln() - ln_reference;
         ln.is_finite()
