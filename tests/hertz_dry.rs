@@ -1,63 +1,203 @@
-//! The dry limit: Hertz by the same solver without a fluid.
+//! The dry limit: Hertz by constrained conjugate gradients, from nothing and from a poor guess, against
+//! the errors of public codes on as many nodes (`assets/reference/dry.csv`).
 
 mod contact;
 
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::physics::fluid::{Density, Viscosity};
-use asperity::solve::march::{Flow, Guess, March};
-use asperity::solve::newton::{Tolerance, Verdict};
+use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
+use asperity::solve::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
-use contact::{CIRCLE, conditions};
+use asperity::solve::tangential::{Shear, Tangential};
+use asperity::solve::traction::TractionLaw;
+use contact::{CIRCLE, LOAD, conditions};
 
-#[test]
-fn dry_hertz() {
-    let dry = Medium {
-        viscosity: Viscosity::barus(0.0, 1e9),
-        density: Density::Incompressible,
-        lambda: f64::INFINITY,
-        sliding: 0.0,
-    };
-    let tolerance = Tolerance {
-        pressure: 1e-8,
+const DRY: Medium = Medium {
+    viscosity: Viscosity::Barus { alpha_p: 0.0 },
+    density: Density::Incompressible,
+    lambda: f64::INFINITY,
+    sliding: 0.0,
+};
+
+fn tolerance(pressure: f64) -> Tolerance {
+    Tolerance {
+        pressure,
+        film: f64::INFINITY,
         mass: f64::INFINITY,
         load: 1e-8,
         max_iterations: 40,
-    };
-    for symmetry in [Symmetry::MirrorY, Symmetry::General] {
-        let grid = Grid::new(129, -1.5, 1.5, 1.5, symmetry);
-        let mut march = March::from_hertz(grid, &CIRCLE, 0.0, 1.0, Flow::Dry);
-        // Not from the answer: a paraboloid that carries the wrong load.
-        let grid = &march.grid;
-        for (n, p) in march.state.history.pressure_1.iter_mut().enumerate() {
-            let r2 = grid.x(n % grid.nx).powi(2) + grid.y(n / grid.nx).powi(2);
-            *p = (0.8 - r2).max(0.0);
-        }
-        march.state.history.h0[0] = -0.7;
-        let report = march.attempt(&conditions(&dry, tolerance), 1.0, Guess::Last);
-        assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
-        let (p, grid) = (&march.state.pressure, &march.grid);
-        let p_max = p.iter().copied().fold(0.0, f64::max);
-        let moment = grid.integrate(|n| {
-            let (x, y) = (grid.x(n % grid.nx), grid.y(n / grid.nx));
-            p[n] * (x * x + y * y)
-        });
-        // Hertz: the mean of r² over the pressure is 2a²/5.
-        let radius = (2.5 * moment / grid.integrate(|n| p[n])).sqrt();
-        let approach = -march.state.h0;
-        println!(
-            "{symmetry:?}: p_max {p_max:.6}, a {radius:.6}, approach {approach:.6} (all 1 by Hertz), \
-             {} Newton, {} Krylov iterations",
-            report.iterations, report.linear_iterations
-        );
-        for value in [p_max, radius, approach] {
-            assert!((value - 1.0).abs() < 1e-3, "{value}");
-        }
-        let deepest = march
-            .state
-            .film
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min);
-        assert!(deepest > -1e-7, "no penetration: {deepest}");
     }
+}
+
+/// Hertz from a uniform pressure over the whole domain: the dearest start.
+fn solved(nodes: usize, symmetry: Symmetry) -> (March, NewtonReport) {
+    let grid = Grid::new(nodes, -1.5, 1.5, 1.5, symmetry);
+    let mut march = March::from_hertz(grid, &CIRCLE, 0.0, 1.0, Flow::Dry);
+    march.state.history.pressure_1.fill(0.0);
+    let report = march.attempt(&conditions(&DRY, tolerance(1e-8)), 1.0, Guess::Last);
+    assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+    (march, report)
+}
+
+#[test]
+fn hertz_is_as_near_as_the_public_codes() {
+    // dry.csv: p_max error in per cent and relative L2 error of the field in per cent, domain 3 a. The
+    // public grids have an even number of nodes a side, 1 % coarser or finer than ours; their errors are
+    // given to 1e-4 %, and 0.0001 there stands for anything up to 0.00015.
+    let rows = [
+        (129, 0.0020, 0.342),
+        (257, 0.0006, 0.175),
+        (513, 0.0001, 0.086),
+    ];
+    for (nodes, p_max_percent, l2_percent) in rows {
+        for symmetry in [Symmetry::MirrorY, Symmetry::General] {
+            let (march, report) = solved(nodes, symmetry);
+            let (p, grid) = (&march.state.pressure, &march.grid);
+            let exact = |n: usize| {
+                let r2 = grid.x(n % nodes).powi(2) + grid.y(n / nodes).powi(2);
+                (1.0 - r2).max(0.0).sqrt()
+            };
+            let p_max = p.iter().copied().fold(0.0, f64::max);
+            let error = 100.0 * (p_max - 1.0).abs();
+            let l2 = 100.0
+                * (grid.integrate(|n| (p[n] - exact(n)).powi(2))
+                    / grid.integrate(|n| exact(n).powi(2)))
+                .sqrt();
+            println!(
+                "{nodes} {symmetry:?}: p_max {error:.5} % ({p_max_percent}), L2 {l2:.4} % ({l2_percent}), \
+                 approach {:.6}, {} directions, {} searches, {} exact deflections",
+                -march.state.h0, report.linear_iterations, report.iterations, report.evaluations
+            );
+            assert!(error <= p_max_percent + 5e-5, "{error}");
+            assert!(l2 <= l2_percent * 1.005, "{l2}");
+            assert!((march.state.h0 + 1.0).abs() < 1e-4);
+            let film = &march.state.film;
+            let deepest = film.iter().copied().fold(f64::INFINITY, f64::min);
+            assert!(deepest > -1e-8, "no penetration: {deepest}");
+            // The preconditioner keeps the count from growing with the nodes.
+            assert!(report.linear_iterations <= 30, "{report:?}");
+        }
+    }
+}
+
+/// Both paths on a rough contact whose waves have moved by a node: the same pressure.
+#[test]
+fn conjugate_gradients_and_newton_agree_on_a_rough_contact() {
+    let nodes = 129;
+    let grid = Grid::new(nodes, -1.5, 1.5, 1.5, Symmetry::MirrorY);
+    let mut march = March::from_hertz(grid, &CIRCLE, 0.0, 1.0, Flow::Dry);
+    let wave = |x: f64, y: f64| {
+        use std::f64::consts::TAU;
+        0.04 * ((TAU * x / 0.25).cos() + (TAU * x / 0.4).cos() * (TAU * y / 0.3).cos())
+    };
+    let roughen = |march: &mut March, shift: f64| {
+        let grid = &march.grid;
+        for (n, gap) in march.gap.iter_mut().enumerate() {
+            let (x, y) = (grid.x(n % nodes), grid.y(n / nodes));
+            *gap = march.macroscopic[n] - wave(x - shift, y);
+        }
+    };
+    let asked = tolerance(1e-7);
+    roughen(&mut march, 0.0);
+    let first = march.attempt(&conditions(&DRY, asked), 1.0, Guess::Last);
+    march.commit(1.0);
+    let (mut p, mut h, mut h0) = (
+        march.state.pressure.clone(),
+        march.state.film.clone(),
+        march.state.h0,
+    );
+    let dx = march.grid.dx;
+    roughen(&mut march, dx);
+    let second = march.attempt(&conditions(&DRY, asked), 1.0, Guess::Last);
+    assert_eq!(second.verdict, Verdict::Converged);
+
+    let grid = &march.grid;
+    let mut newton = Newton::new(grid, CIRCLE.kappa, 2.0 / 3.0 * dx);
+    let zero = vec![0.0; grid.len()];
+    let report = newton.solve(
+        &Problem {
+            grid,
+            medium: &DRY,
+            law: None,
+            gap: &march.gap,
+            c_star: &zero,
+            s: &zero,
+            load: LOAD,
+            tolerance: asked,
+        },
+        &mut Iterate {
+            p: &mut p,
+            h: &mut h,
+            h0: &mut h0,
+        },
+    );
+    println!("from Hertz: {first:?}\none node on: {second:?}\nNewton:      {report:?}");
+    assert_eq!(report.verdict, Verdict::Converged);
+    let moved = grid.integrate(|n| (p[n] - march.state.pressure[n]).abs()) / LOAD;
+    let loaded = p.iter().filter(|&&p| p > 0.0).count();
+    let area = |p: &[f64]| grid.integrate(|n| f64::from(u8::from(p[n] > 0.0)));
+    println!(
+        "loaded nodes {loaded}, areas {} {}, difference of pressure {moved:.2e}, of H0 {:.2e}",
+        area(&p),
+        area(&march.state.pressure),
+        h0 - march.state.h0
+    );
+    assert!(moved < 1e-5, "{moved}");
+    // A truly rough contact: part of the nominal area is empty.
+    assert!(area(&p) < 0.8 * std::f64::consts::PI);
+}
+
+/// Unlike bodies under friction: the deflection by traction, by both paths.
+#[test]
+fn unlike_bodies_slide_alike_by_both_paths() {
+    let nodes = 65;
+    let shape = Shape {
+        kappa_s: 0.3 * CIRCLE.kappa,
+        ..CIRCLE
+    };
+    let grid = Grid::new(nodes, -1.5, 1.5, 1.5, Symmetry::MirrorY);
+    let law = TractionLaw {
+        film: None,
+        viscosity: DRY.viscosity,
+        boundary: 0.3,
+        contact_film: 0.0,
+        direction: 1.0,
+    };
+    let asked = Conditions {
+        law: Some(&law),
+        ..conditions(&DRY, tolerance(1e-7))
+    };
+    let mut march = March::from_hertz(grid, &shape, 0.0, 1.0, Flow::Dry);
+    let report = march.attempt(&asked, 1.0, Guess::Last);
+    assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+    let grid = &march.grid;
+    let mut newton = Newton::new(grid, shape.kappa, 2.0 / 3.0 * grid.dx);
+    newton.shear = Some(Shear::new(grid, Tangential::new(grid, shape.kappa_s)));
+    let zero = vec![0.0; grid.len()];
+    let (mut p, mut h, mut h0) = (march.state.history.pressure_1.clone(), zero.clone(), -1.0);
+    let newton_report = newton.solve(
+        &Problem {
+            grid,
+            medium: &DRY,
+            law: Some(&law),
+            gap: &march.gap,
+            c_star: &zero,
+            s: &zero,
+            load: LOAD,
+            tolerance: asked.tolerance,
+        },
+        &mut Iterate {
+            p: &mut p,
+            h: &mut h,
+            h0: &mut h0,
+        },
+    );
+    println!("{report:?}\n{newton_report:?}");
+    assert_eq!(newton_report.verdict, Verdict::Converged);
+    let moved = grid.integrate(|n| (p[n] - march.state.pressure[n]).abs()) / LOAD;
+    // Traction moves the load along x.
+    let moment = grid.integrate(|n| p[n] * grid.x(n % nodes)) / LOAD;
+    println!("difference {moved:.2e}, centre of load at {moment:.4}");
+    assert!(moved < 1e-5, "{moved}");
+    assert!(moment.abs() > 1e-3);
 }

@@ -343,8 +343,8 @@ fn convergence_in_nodes_and_depths() {
     let error = |n, depths| integral(n, depths, 10.0, 0.0, hertz).normal.ln.exp() / exact - 1.0;
     let by_nodes = [32, 64, 128, 256].map(|n| error(n, 32));
     let by_depths = [8, 12, 16, 24].map(|depths| error(256, depths));
-    println!("error by N = 32, 64, 128, 256 (32 depths): {by_nodes:.2e?}");
-    println!("error by 8, 12, 16, 24 depths (N = 256): {by_depths:.2e?}");
+    println!("error by N = 32, 64, 128, 256 (32 depths): {by_nodes:.5?}");
+    println!("error by 8, 12, 16, 24 depths (N = 256): {by_depths:.5?}");
     assert!(by_nodes[2].abs() < 5e-4, "0.05 % at N = 128");
     assert!(by_nodes[3].abs() < 0.2 * by_nodes[0].abs());
     assert!(by_depths[3].abs() < 0.05 * by_depths[0].abs());

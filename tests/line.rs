@@ -38,6 +38,7 @@ fn dry_hertz() {
     };
     let tolerance = Tolerance {
         pressure: 1e-8,
+        film: f64::INFINITY,
         mass: f64::INFINITY,
         load: 1e-8,
         max_iterations: 40,

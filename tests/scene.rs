@@ -110,13 +110,13 @@ fn bad_values_are_refused_with_key_value_and_range() {
             "motion.entrainment_m_s=0",
             "motion.entrainment_m_s",
             "0",
-            "1e-6 to 200 m/s",
+            "1e-6 to 200 m/s, or -200 to -1e-6 m/s; never 0",
         ),
         (
             "motion.entrainment_m_s=inf",
             "motion.entrainment_m_s",
             "inf",
-            "1e-6 to 200 m/s",
+            "1e-6 to 200 m/s, or -200 to -1e-6 m/s; never 0",
         ),
         (
             "load.hertz_pressure_pa=1e11",
@@ -150,10 +150,10 @@ fn bad_values_are_refused_with_key_value_and_range() {
             "\"point\" (more in later versions)",
         ),
         (
-            "body_1.surface.kind=height_map",
+            "body_1.surface.kind=fractal",
             "body_1.surface.kind",
-            "\"height_map\"",
-            "\"smooth\" or \"sinusoid\"",
+            "\"fractal\"",
+            "\"smooth\" or \"sinusoid\" or \"height_map\"",
         ),
         (
             "numerics.max_iterations=0",
@@ -177,6 +177,7 @@ fn every_number_key_refuses_what_is_no_number_or_out_of_range() {
         let bad: &[&str] = match key.kind {
             keys::Kind::Text(_) => &["1.0"],
             keys::Kind::Number(..) => &["nan", "-inf", "inf", "\"x\"", "1e300", "true"],
+            keys::Kind::EitherSign(..) => &["nan", "-inf", "inf", "\"x\"", "0.0", "-1e300", "true"],
             keys::Kind::NumberOrInf(..) => &["nan", "-inf", "-1.0", "0.0", "\"x\""],
             keys::Kind::Integer(..) | keys::Kind::IntegerOf(_) => &["1.5", "-1", "99999999", "nan"],
             keys::Kind::Choice(_) => &["\"nonsense\"", "1.0", "nan"],

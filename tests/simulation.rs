@@ -131,6 +131,21 @@ fn other_materials_and_mass_conservation_converge() {
 }
 
 #[test]
+fn a_dry_scene_is_the_same_on_one_and_two_threads() {
+    let bits = |threads| {
+        let sets = ["grid.nodes=65", "lubricant=none", "life=none"];
+        let mut sim = simulation("demonstration", &sets, threads);
+        let mut all: Vec<u32> = Vec::new();
+        run(&mut sim, 4, |frame| {
+            all.extend(frame.pressure_pa.iter().map(|v| v.to_bits()));
+            all.extend(frame.film_m.iter().map(|v| v.to_bits()));
+        });
+        all
+    };
+    assert!(bits(1) == bits(2));
+}
+
+#[test]
 fn a_dry_rough_scene_converges_and_slides_with_boundary_friction() {
     let sets = ["grid.nodes=65", "lubricant=none", "life=none"];
     let mut sim = simulation("demonstration", &sets, 2);

@@ -18,7 +18,8 @@ use rustfft::{Fft, FftNum, FftPlanner};
 
 use super::grid::{Grid, Symmetry};
 
-const ROWS: usize = 4;
+/// Rows of one task: eight single-precision complex numbers of a column fill a cache line.
+const ROWS: usize = 8;
 const COLUMNS: usize = 8;
 
 /// Padding of the transforms.
@@ -42,7 +43,8 @@ pub enum Parity {
 /// Buffers of one block of rows.
 struct RowWork<T> {
     real: Vec<T>,
-    spectrum: Vec<Complex<T>>,
+    /// Of [`ROWS`] rows.
+    spectra: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
 }
 
@@ -106,7 +108,7 @@ impl<T: FftNum> Filter<T> {
         let row_work = (0..grid.ny.div_ceil(ROWS))
             .map(|_| RowWork {
                 real: vec![T::zero(); lx],
-                spectrum: vec![zero; n_kx],
+                spectra: vec![zero; ROWS * n_kx],
                 scratch: vec![zero; row_scratch],
             })
             .collect();
@@ -245,30 +247,39 @@ impl<T: FftNum> Filter<T> {
             .zip(self.row_work.par_iter_mut())
             .enumerate()
             .for_each(|(block, (rows, work))| {
-                for (r, row) in rows.chunks_exact_mut(nx).enumerate() {
-                    let j = block * ROWS + r;
-                    row.fill(T::zero());
-                    for b in 0..n_symbols {
-                        let weight = weights.map(|w| &w[(b * ny + j) * nx..(b * ny + j + 1) * nx]);
-                        if weight.is_some_and(|w| w.iter().all(T::is_zero)) {
+                rows.fill(T::zero());
+                let (j0, n_rows) = (block * ROWS, rows.len() / nx);
+                for b in 0..n_symbols {
+                    let weights = weights.map(|w| &w[(b * ny + j0) * nx..][..n_rows * nx]);
+                    if weights.is_some_and(is_zero) {
+                        continue;
+                    }
+                    // Eight rows at a time: a column's values of neighbouring rows share a cache line.
+                    for kx in 0..n_kx {
+                        let column = &columns[(kx * n_symbols + b) * ny + j0..][..n_rows];
+                        for (r, &v) in column.iter().enumerate() {
+                            work.spectra[r * n_kx + kx] = v;
+                        }
+                    }
+                    for (r, row) in rows.chunks_exact_mut(nx).enumerate() {
+                        let weight = weights.map(|w| &w[r * nx..(r + 1) * nx]);
+                        if weight.is_some_and(is_zero) {
                             continue;
                         }
-                        for (kx, s) in work.spectrum.iter_mut().enumerate() {
-                            *s = columns[(kx * n_symbols + b) * ny + j];
-                        }
-                        work.spectrum[0].im = T::zero();
-                        work.spectrum[n_kx - 1].im = T::zero();
-                        plan.process_with_scratch(
-                            &mut work.spectrum,
-                            &mut work.real,
-                            &mut work.scratch,
-                        )
-                        .expect("buffer lengths were made for this plan");
+                        let spectrum = &mut work.spectra[r * n_kx..(r + 1) * n_kx];
+                        spectrum[0].im = T::zero();
+                        spectrum[n_kx - 1].im = T::zero();
+                        plan.process_with_scratch(spectrum, &mut work.real, &mut work.scratch)
+                            .expect("buffer lengths were made for this plan");
                         accumulate(row, &work.real, lx, weight);
                     }
                 }
             });
     }
+}
+
+fn is_zero<T: FftNum>(values: &[T]) -> bool {
+    values.iter().all(T::is_zero)
 }
 
 fn accumulate<T: FftNum>(row: &mut [T], real: &[T], lx: usize, weight: Option<&[T]>) {

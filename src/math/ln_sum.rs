@@ -13,6 +13,31 @@ pub fn ln_sum(terms: impl IntoIterator<Item = (f64, f64)> + Clone) -> f64 {
     top + sum.ln()
 }
 
+/// Logarithms in a format that has no infinity: −∞ is left empty. For serde's `with`.
+pub mod ln_list {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    /// Writes −∞ as nothing.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(logs: &[f64], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(logs.iter().map(|ln| ln.is_finite().then_some(*ln)))
+    }
+
+    /// Reads nothing as −∞.
+    ///
+    /// # Errors
+    /// Those of the deserializer.
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+        let logs = Vec::<Option<f64>>::deserialize(from)?;
+        Ok(logs
+            .into_iter()
+            .map(|ln| ln.unwrap_or(f64::NEG_INFINITY))
+            .collect())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

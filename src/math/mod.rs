@@ -1,8 +1,10 @@
 //! Grids, fixed-order sums, planned FFTs, roots, elliptic integrals. No contact words here.
 
+pub mod elementary;
 pub mod elliptic;
 pub mod filter;
 pub mod grid;
 pub mod kernel_symbol;
 pub mod ln_sum;
 pub mod root;
+pub mod spectrum;

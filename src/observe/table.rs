@@ -13,7 +13,7 @@ use crate::sim::{Frame, LifeEstimate, Metrics, Stage};
 
 /// Columns in the order of [`Row::write`], which destructures every field: a new metric that is
 /// not given a column does not compile.
-const COLUMNS: [&str; 50] = [
+const COLUMNS: [&str; 51] = [
     "step",
     "time_s",
     "passages",
@@ -41,6 +41,7 @@ const COLUMNS: [&str; 50] = [
     "contact_ratio",
     "contact_load_ratio",
     "load_error",
+    "film_error",
     "mass_error",
     "friction_coefficient",
     "sigma_eff_max_pa",
@@ -219,6 +220,7 @@ impl Row {
             contact_ratio,
             contact_load_ratio,
             load_error,
+            film_error,
             mass_error,
             friction_coefficient,
             sigma_eff_max_pa,
@@ -250,6 +252,7 @@ impl Row {
         self.cell(contact_ratio);
         self.cell(contact_load_ratio);
         self.cell(load_error);
+        self.cell(film_error);
         self.cell(mass_error);
         self.cell(friction_coefficient);
         self.optional(*sigma_eff_max_pa);

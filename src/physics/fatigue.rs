@@ -19,8 +19,10 @@
 //!
 //! Left out: wear, heat, plastic flow, crack growth. No absolute life without a calibration point.
 
+use serde::{Deserialize, Serialize};
+
 /// Exponents of the life law.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LifeLaw {
     /// Stress exponent c.
     pub stress_exponent: f64,

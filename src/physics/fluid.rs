@@ -14,7 +14,10 @@
 //!
 //! Sources: Barus (1893); Roelands (1966), slope matched to α at p = 0; Dowson and Higginson (1966);
 //! Eyring (1936) in the effective-viscosity form along the sliding direction (Conry et al. 1987).
+//! Free of branches on values, so that loops over nodes become vector code.
 //! The exponent is capped at 300 so that a trial pressure cannot overflow; nothing else is clamped.
+
+use crate::math::elementary::{exp, ln};
 
 /// Greatest exponent used for the viscosity.
 const EXPONENT_CAP: f64 = 300.0;
@@ -61,13 +64,13 @@ impl Viscosity {
     }
 
     /// `ln η̄` and its derivative with respect to P.
-    #[inline]
+    #[inline(always)]
     pub fn ln_eta(self, p: f64) -> (f64, f64) {
         let (value, slope) = match self {
             Self::Barus { alpha_p } => (alpha_p * p, alpha_p),
             Self::Roelands { scale, p_ratio, z } => {
                 let base = 1.0 + p_ratio * p.max(0.0);
-                let power = (z * base.ln()).exp();
+                let power = exp(z * ln(base));
                 (scale * (power - 1.0), scale * z * p_ratio * power / base)
             }
         };
@@ -93,7 +96,7 @@ pub enum Density {
 
 impl Density {
     /// ρ̄ and its derivative with respect to P.
-    #[inline]
+    #[inline(always)]
     pub fn rho(self, p: f64) -> (f64, f64) {
         match self {
             Self::Incompressible => (1.0, 0.0),
@@ -107,22 +110,24 @@ impl Density {
 }
 
 /// `ln(ζ/asinh ζ)` and its derivative with respect to ln ζ: 0 for ζ → 0, 1 for ζ → ∞.
-#[inline]
+#[inline(always)]
 pub fn eyring_ln_factor(zeta: f64) -> (f64, f64) {
-    if zeta < 1e-2 {
-        // ζ/asinh ζ = 1 + ζ²/6 − 17 ζ⁴/360: next term below 1e-13.
-        let z2 = zeta * zeta;
-        (
-            z2 / 6.0 - 11.0 * z2 * z2 / 180.0,
-            z2 / 3.0 - 11.0 * z2 * z2 / 45.0,
-        )
+    // ζ/asinh ζ = 1 + ζ²/6 − 17 ζ⁴/360: next term below 1e-13 for ζ < 0.01.
+    let z2 = zeta.min(1e-2).powi(2);
+    let series = (
+        z2 / 6.0 - 11.0 * z2 * z2 / 180.0,
+        z2 / 3.0 - 11.0 * z2 * z2 / 45.0,
+    );
+    // asinh ζ = ln(ζ + √(1+ζ²)); beyond 1e8 the root is ζ to rounding and its square might overflow.
+    let root = (1.0 + zeta.min(1e8).powi(2)).sqrt();
+    let asinh = if zeta < 1e8 {
+        ln(zeta + root)
     } else {
-        let a = zeta.asinh();
-        (
-            (zeta / a).ln(),
-            1.0 - zeta / (a * (1.0 + zeta * zeta).sqrt()),
-        )
-    }
+        ln(zeta) + std::f64::consts::LN_2
+    };
+    let asinh = asinh.max(f64::MIN_POSITIVE);
+    let closed = (ln(zeta) - ln(asinh), 1.0 - zeta.min(1e8) / (asinh * root));
+    if zeta < 1e-2 { series } else { closed }
 }
 
 #[cfg(test)]

@@ -24,10 +24,12 @@
 //! Mech. Eng. 1 (3); Ioannides, E. & Harris, T.A. (1985), J. Tribol. 107, 367-378; Dang Van, K. et al. (1989),
 //! in Biaxial and Multiaxial Fatigue, EGF 3; Findley, W.N. (1959), J. Eng. Ind. 81, 301-306.
 
+use serde::{Deserialize, Serialize};
+
 use super::fatigue::LifeLaw;
 
 /// A life model; stress in p_h, lengths in a.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum LifeModel {
     /// Volume integral of σ^{c e}.
     Zaretsky,

@@ -6,6 +6,7 @@ pub mod fatigue;
 pub mod film_regression;
 pub mod fluid;
 pub mod groups;
+pub mod height_map;
 pub mod hertz;
 pub mod invariants;
 pub mod iso281;

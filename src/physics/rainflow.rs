@@ -19,6 +19,8 @@
 //! A material point's history must begin and end at zero stress: without those ends most of the damage is
 //! lost.
 
+use serde::{Deserialize, Serialize};
+
 /// A counted cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cycle {
@@ -31,7 +33,7 @@ pub struct Cycle {
 }
 
 /// How often a history happens.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ends {
     /// Once: half cycles are left over.
     Once,
@@ -40,7 +42,7 @@ pub enum Ends {
 }
 
 /// A history under way.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Rainflow {
     gate: f64,
     ends: Ends,
@@ -55,7 +57,7 @@ pub struct Rainflow {
     forced: u64,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 enum Heading {
     /// No value yet.
     Empty,

@@ -192,6 +192,18 @@ pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
     }
     if let Some(life) = plan.life {
         leave_parts_of_life(&life.asked, &mut leave);
+        for (surface, stage) in scene
+            .surfaces()
+            .into_iter()
+            .zip(["damage of body 1", "damage of body 2"])
+        {
+            if !surface.has_block() {
+                leave(
+                    stage,
+                    "its height map stands once: no place on it comes back",
+                );
+            }
+        }
     } else {
         leave("fatigue life", "the scene has no [life]");
     }

@@ -320,7 +320,7 @@ impl Plan {
             dy_m,
             symmetry: decide::symmetry(scene),
             march,
-            dt_s: step_m / scene.motion.entrainment_m_s,
+            dt_s: step_m / scene.motion.entrainment_m_s.abs(),
             steps,
             steps_per_passage,
             waves,

@@ -8,11 +8,12 @@ use crate::scene::{Scene, Surface};
 pub struct WavePlan {
     /// A, m.
     pub amplitude_m: f64,
-    /// Nodes of one wavelength along x and along y; infinite where the surface does not vary.
+    /// Nodes of one wavelength along x and along y, of a height map the shortest significant one;
+    /// infinite where the surface does not vary.
     pub nodes: [f64; 2],
-    /// Crests per metre along x, f = 1/Wx, 1/m.
+    /// Crests per metre along x, f = 1/Wx, of a height map the upcrossings of its level, 1/m.
     pub crests_per_m: f64,
-    /// Crests that pass a fixed place in one time step.
+    /// Crests (of a height map: shortest waves) that pass a fixed place in one time step.
     pub crests_per_step: f64,
 }
 
@@ -81,7 +82,7 @@ pub(super) fn plan(
         waves[index] = Some(WavePlan {
             amplitude_m: surface.amplitude_m(),
             nodes,
-            crests_per_m: k_x,
+            crests_per_m: surface.crests_per_m(),
             crests_per_step: k_x * speed_ratio * step_m,
         });
     }
@@ -89,19 +90,28 @@ pub(super) fn plan(
 }
 
 fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<(), PlanError> {
-    let Surface::Sinusoid {
-        wavelength_x_m,
-        wavelength_y_m,
-        ..
-    } = *surface
-    else {
-        return Ok(());
-    };
     let [k_x, k_y] = surface.wavenumbers_per_m();
     let nodes = (1.0 / (k_x * spacing_m[0])).min(1.0 / (k_y * spacing_m[1]));
     if nodes >= NODES_MIN {
         return Ok(());
     }
+    let &Surface::Sinusoid {
+        wavelength_x_m,
+        wavelength_y_m,
+        ..
+    } = surface
+    else {
+        let wave_m = (1.0 / k_x).min(1.0 / k_y);
+        return Err(PlanError::Unresolved {
+            key: format!("body_{body}.surface.file"),
+            value: format!("a map whose shortest significant wave is {wave_m:.3e} m"),
+            allowed: format!(
+                "waves of at least 4 nodes (now {nodes:.1} on a spacing of {:.2} by {:.2} um): smooth the map, or more grid.nodes",
+                spacing_m[0] * 1e6,
+                spacing_m[1] * 1e6,
+            ),
+        });
+    };
     // The key to change is the wave that varies fastest in the coarse direction: without a turn, the
     // wave along that axis.
     let coarse_along_x = k_x * spacing_m[0] >= k_y * spacing_m[1];

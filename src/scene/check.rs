@@ -17,20 +17,20 @@ pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
 }
 
 fn check_section(path: &str, table: &mut Table) -> Result<(), SceneError> {
-    let is_smooth = table.get("kind").and_then(Value::as_str) == Some("smooth");
+    let kind = kind_of(table);
     for (name, value) in table.iter_mut() {
         let full = joined(path, name);
         if path.is_empty() && name == "event" {
             check_events(value)?;
         } else if let Some(key) = keys::find(&full) {
-            if is_smooth && path.ends_with("surface") && name != "kind" {
+            check_value(&full, key, value)?;
+            if key.need_in(path, kind.as_deref()).is_none() {
                 return Err(SceneError::value(
                     full,
                     shown(value),
-                    format!("only with {path}.kind = \"sinusoid\""),
+                    format!("only with {path}.kind = {}", key.kinds()),
                 ));
             }
-            check_value(&full, key, value)?;
         } else if keys::section(&full).is_some() {
             match value {
                 Value::Table(inner) => check_section(&full, inner)?,
@@ -47,6 +47,11 @@ fn check_section(path: &str, table: &mut Table) -> Result<(), SceneError> {
         }
     }
     Ok(())
+}
+
+/// The word that says which kind of thing a table is.
+fn kind_of(table: &Table) -> Option<String> {
+    table.get("kind").and_then(Value::as_str).map(str::to_owned)
 }
 
 /// The error for a key that no scene has.
@@ -73,11 +78,11 @@ fn check_presence(section: &Section, root: &Table) -> Result<(), SceneError> {
             Ok(())
         };
     };
-    let is_smooth = table.get("kind").and_then(Value::as_str) == Some("smooth");
+    let kind = kind_of(table);
     let missing = section
         .keys
         .iter()
-        .filter(|key| key.need == Need::Required && !(is_smooth && key.name != "kind"))
+        .filter(|key| key.need_in(section.path, kind.as_deref()) == Some(Need::Required))
         .find(|key| !table.contains_key(key.name));
     match missing {
         Some(key) => Err(SceneError::Missing {
@@ -158,15 +163,16 @@ fn check_settings(path: &str, value: &mut Value) -> Result<(), SceneError> {
 }
 
 fn check_value(full: &str, key: &Key, value: &mut Value) -> Result<(), SceneError> {
-    if let (Kind::Number(..) | Kind::NumberOrInf(..), Value::Integer(whole)) = (key.kind, &*value) {
+    let is_number = matches!(
+        key.kind,
+        Kind::Number(..) | Kind::EitherSign(..) | Kind::NumberOrInf(..)
+    );
+    if let (true, Value::Integer(whole)) = (is_number, &*value) {
         *value = Value::Float(*whole as f64);
     }
     let fits = match (key.kind, &*value) {
         (Kind::Text(longest), Value::String(text)) => text.chars().count() <= longest,
-        (Kind::Number(min, max), Value::Float(number)) => (min..=max).contains(number),
-        (Kind::NumberOrInf(min, max), Value::Float(number)) => {
-            (min..=max).contains(number) || *number == f64::INFINITY
-        }
+        (kind, Value::Float(number)) => kind.takes(*number),
         (Kind::Integer(min, max), Value::Integer(whole)) => (min..=max).contains(whole),
         (Kind::IntegerOf(values), Value::Integer(whole)) => values.contains(whole),
         (Kind::Choice(words), Value::String(text)) => words.contains(&text.as_str()),
@@ -353,16 +359,37 @@ fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), SceneError>
 }
 
 fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
-    let Surface::Sinusoid {
-        amplitude_m,
-        wavelength_x_m,
-        wavelength_y_m,
-        ..
-    } = *surface
-    else {
-        return Ok(());
+    let amplitude_m = surface.amplitude_m();
+    let shortest = match *surface {
+        Surface::Smooth {} => return Ok(()),
+        Surface::Sinusoid {
+            wavelength_x_m,
+            wavelength_y_m,
+            ..
+        } => wavelength_x_m.min(wavelength_y_m),
+        Surface::HeightMap { ref map, .. } => {
+            // Its steepest significant wave is lower than its greatest height: the bound is generous.
+            let [k_x, k_y] = surface.wavenumbers_per_m();
+            if map.is_none() {
+                return Err(SceneError::Missing {
+                    key: joined(path, "file"),
+                    allowed: "a height map that has been read (Scene::read_maps)".to_owned(),
+                });
+            }
+            let slope = surface.rq_m() * std::f64::consts::TAU * k_x.max(k_y);
+            return if slope > SLOPE_MAX {
+                Err(SceneError::value(
+                    joined(path, "amplitude_m"),
+                    format!("{} m", short(amplitude_m)),
+                    format!(
+                        "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {slope:.2}, W the shortest significant wave"
+                    ),
+                ))
+            } else {
+                Ok(())
+            };
+        }
     };
-    let shortest = wavelength_x_m.min(wavelength_y_m);
     if shortest == f64::INFINITY {
         return Err(SceneError::value(
             joined(path, "wavelength_x_m"),
@@ -411,6 +438,13 @@ fn check_event_fits(scene: &Scene, index: usize, event: &Event) -> Result<(), Sc
             "load.force_n" | "load.force_n_per_m" => {
                 check_event_load(scene, &full, name, value)?;
                 continue;
+            }
+            "motion.entrainment_m_s" if value * scene.motion.entrainment_m_s < 0.0 => {
+                return Err(SceneError::value(
+                    full,
+                    short(value),
+                    "a speed of the scene's own sign: to turn the flow round is another run",
+                ));
             }
             _ => continue,
         };

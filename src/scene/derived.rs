@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::model::{ContactKind, Scene, Surface};
+use super::model::{ContactKind, MapEdge, Scene, Surface};
 use crate::physics::groups::OperatingPoint;
 use crate::physics::hertz::{self, Hertz};
 use crate::physics::line::{self, LinePoint};
@@ -96,7 +96,8 @@ impl Scene {
             e_prime_pa: self.e_prime_pa(),
             viscosity_pa_s: lubricant.viscosity_pa_s,
             alpha_per_pa: lubricant.pressure_viscosity_per_pa,
-            entrainment_m_s: self.motion.entrainment_m_s,
+            // Films do not know which way the oil flows.
+            entrainment_m_s: self.motion.entrainment_m_s.abs(),
             force_n: self.force_n(),
         })
     }
@@ -114,12 +115,34 @@ impl Scene {
 }
 
 impl Surface {
-    /// Phase of the wave along x' at t = 0, x = 0, in turns; 0 without a wave.
-    pub fn phase_turns(&self) -> f64 {
-        match *self {
-            Self::Sinusoid { phase_deg, .. } => phase_deg / 360.0,
-            Self::Smooth {} => 0.0,
+    /// A stretch along x that repeats itself, m, and the way from a crest (of a map: from its first column) to
+    /// the body's origin, m: one wavelength of a sinusoid, one period of a map; `None`: nothing repeats.
+    pub fn block_m(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Smooth {} => None,
+            Self::Sinusoid { phase_deg, .. } => {
+                let k = self.wavenumbers_per_m()[0];
+                (k > 0.0).then(|| (1.0 / k, phase_deg / 360.0 / k))
+            }
+            Self::HeightMap {
+                pixel_m, edge, map, ..
+            } => {
+                let nx = map.as_ref()?.nx();
+                (*edge == MapEdge::Periodic).then(|| (nx as f64 * pixel_m, 0.0))
+            }
         }
+    }
+
+    /// Whether damage can be gathered in a block: a map that stands once never comes back.
+    pub fn has_block(&self) -> bool {
+        self.block_m().is_some()
+            || !matches!(
+                self,
+                Self::HeightMap {
+                    edge: MapEdge::Windowed,
+                    ..
+                }
+            )
     }
 
     /// A, m; 0 for a smooth surface.
@@ -127,10 +150,25 @@ impl Surface {
         match *self {
             Self::Smooth {} => 0.0,
             Self::Sinusoid { amplitude_m, .. } => amplitude_m,
+            Self::HeightMap {
+                amplitude_m,
+                ref map,
+                ..
+            } => amplitude_m.unwrap_or_else(|| map.as_ref().map_or(0.0, |map| map.peak_m)),
         }
     }
 
-    /// Root-mean-square height: A/√2 for ridges, A/2 for the product of two waves, m.
+    /// Sets A; a smooth surface has none.
+    pub fn set_amplitude_m(&mut self, value_m: f64) {
+        match self {
+            Self::Smooth {} => {}
+            Self::Sinusoid { amplitude_m, .. } => *amplitude_m = value_m,
+            Self::HeightMap { amplitude_m, .. } => *amplitude_m = Some(value_m),
+        }
+    }
+
+    /// Root-mean-square height: A/√2 for ridges, A/2 for the product of two waves, m; of a height map by
+    /// its pixels.
     pub fn rq_m(&self) -> f64 {
         match *self {
             Self::Smooth {} => 0.0,
@@ -141,6 +179,9 @@ impl Surface {
                 ..
             } if wavelength_x_m.is_finite() && wavelength_y_m.is_finite() => 0.5 * amplitude_m,
             Self::Sinusoid { amplitude_m, .. } => amplitude_m / SQRT_2,
+            Self::HeightMap { ref map, .. } => {
+                self.amplitude_m() * map.as_ref().map_or(0.0, |map| map.rms)
+            }
         }
     }
 
@@ -149,8 +190,27 @@ impl Surface {
         matches!(self, Self::Smooth {})
     }
 
-    /// Wavenumbers of the surface along x and y, 1/m: the greatest that the turned product holds.
+    /// Crests per metre along x, f: one a wave; of a height map the upcrossings of its level.
+    pub fn crests_per_m(&self) -> f64 {
+        match *self {
+            Self::HeightMap {
+                pixel_m, ref map, ..
+            } => map.as_ref().map_or(0.0, |map| map.crests / pixel_m),
+            _ => self.wavenumbers_per_m()[0],
+        }
+    }
+
+    /// Wavenumbers of the surface along x and y, 1/m: the greatest that the turned product holds; of a
+    /// height map that of its shortest significant waves.
     pub fn wavenumbers_per_m(&self) -> [f64; 2] {
+        if let Self::HeightMap {
+            pixel_m,
+            map: Some(map),
+            ..
+        } = self
+        {
+            return map.shortest.map(|pixels| 1.0 / (pixels * pixel_m));
+        }
         let Self::Sinusoid {
             wavelength_x_m,
             wavelength_y_m,
@@ -175,6 +235,9 @@ impl Surface {
 
     /// Whether the surface is its own mirror image in y = 0, wherever it has moved along x.
     pub fn is_even_in_y(&self) -> bool {
+        if let Self::HeightMap { map: Some(map), .. } = self {
+            return map.is_even_in_y;
+        }
         let Self::Sinusoid {
             wavelength_x_m,
             angle_deg,

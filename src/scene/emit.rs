@@ -48,12 +48,17 @@ fn push_section(text: &mut String, section: &Section, table: Option<&Table>) {
             );
         }
     }
-    let is_smooth = table.get("kind").and_then(Value::as_str) == Some("smooth");
+    let kind = table.get("kind").and_then(Value::as_str);
     for key in section.keys {
-        match table.get(key.name) {
-            Some(value) => push_key(text, key, value),
-            None if !is_smooth => push_left_out(text, key),
-            None => {}
+        if let Some(value) = table.get(key.name) {
+            push_key(text, key, value);
+            continue;
+        }
+        let need = key.need_in(section.path, kind);
+        push_left_out(text, key, need);
+        // The keys of other surfaces are told once.
+        if need.is_none() && section.path == "body_1.surface" {
+            push_of_other_kind(text, key);
         }
     }
 }
@@ -70,8 +75,8 @@ fn push_key(text: &mut String, key: &Key, value: &Value) {
     }
 }
 
-fn push_left_out(text: &mut String, key: &Key) {
-    if let Need::Optional(meaning) = key.need {
+fn push_left_out(text: &mut String, key: &Key, need: Option<Need>) {
+    if let Some(Need::Optional(meaning)) = need {
         let setting = format!("# {} =", key.name);
         push(
             text,
@@ -81,6 +86,18 @@ fn push_left_out(text: &mut String, key: &Key) {
             ),
         );
     }
+}
+
+fn push_of_other_kind(text: &mut String, key: &Key) {
+    let setting = format!("# {} =", key.name);
+    push(
+        text,
+        format_args!(
+            "{setting:<COMMENT_COLUMN$}# {}; only with kind = {}\n",
+            comment(key),
+            key.kinds()
+        ),
+    );
 }
 
 fn comment(key: &Key) -> String {

@@ -80,6 +80,17 @@ impl SceneError {
     }
 }
 
+impl SceneError {
+    /// A file that is refused: `found` is at most a path and a reason, both shortened already.
+    pub(super) fn map(key: String, found: String, allowed: String) -> Self {
+        Self::Value {
+            key,
+            value: found,
+            allowed,
+        }
+    }
+}
+
 fn suggestion(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |key| format!("; did you mean {key}?"))
 }

@@ -8,6 +8,8 @@ pub enum Kind {
     Text(usize),
     /// A finite number between two bounds, both included.
     Number(f64, f64),
+    /// A finite number of either sign whose size lies between two bounds, both included and above 0.
+    EitherSign(f64, f64),
     /// A finite number between two bounds, or `inf`.
     NumberOrInf(f64, f64),
     /// A whole number between two bounds, both included.
@@ -73,7 +75,7 @@ const fn key(
     }
 }
 
-use Kind::{Choice, Integer, IntegerOf, Number, NumberOrInf, Text};
+use Kind::{Choice, EitherSign, Integer, IntegerOf, Number, NumberOrInf, Text};
 use Need::{Defaulted, Optional, Required};
 
 #[rustfmt::skip]
@@ -84,8 +86,13 @@ const BODY: &[Key] = &[
 
 #[rustfmt::skip]
 const SURFACE: &[Key] = &[
-    key("kind", "", Choice(&["smooth", "sinusoid"]), Required, "micro-geometry that moves with the body"),
-    key("amplitude_m", "m", Number(0.0, 1e-4), Required, "A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy); peak to valley is 2 A"),
+    key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
+    key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file"),
+    key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
+    key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean taken off), or once (mean of the rim taken off, tapered to 0)"),
+    key("unit_m", "m", Number(1e-12, 1e3), Defaulted, "height that a value of 1 stands for"),
+    key("start_x_m", "m", Number(-1e3, 1e3), Optional("just upstream of the domain"), "where the middle of a windowed map is at t = 0"),
+    key("amplitude_m", "m", Number(0.0, 1e-4), Required, "sinusoid: A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy), peak to valley is 2 A; height map: greatest departure from its level, left out: as in the file"),
     key("wavelength_x_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wx, at least 4 nodes; inf: longitudinal ridges"),
     key("wavelength_y_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wy, at least 4 nodes; inf: transverse ridges"),
     key("angle_deg", "degrees", Number(-360.0, 360.0), Defaulted, "angle of x' from the rolling direction x"),
@@ -165,9 +172,9 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "motion",
         need: Required,
-        doc: "U = (U1 + U2)/2 and S = (U2 - U1)/U, so U1 = U (1 - S/2), U2 = U (1 + S/2).",
+        doc: "U = (U1 + U2)/2 and S = (U2 - U1)/U, so U1 = U (1 - S/2), U2 = U (1 + S/2). U1 = -U2 is no scene: it entrains no oil, and S has no value.",
         keys: &[
-            key("entrainment_m_s", "m/s", Number(1e-6, 200.0), Required, "entrainment speed U along +x"),
+            key("entrainment_m_s", "m/s", EitherSign(1e-6, 200.0), Required, "entrainment speed U along +x; below 0 the oil flows towards -x"),
             key("slide_roll", "", Number(-2.0, 2.0), Defaulted, "slide-to-roll ratio S; 0: pure rolling"),
         ],
     },
@@ -187,8 +194,8 @@ pub const SECTIONS: &[Section] = &[
         doc: "Nodes and domain, in Hertz half-widths along x and along y.",
         keys: &[
             key("nodes", "", IntegerOf(&[33, 65, 129, 257, 513, 1025]), Defaulted, "nodes per side, 2^k + 1"),
-            key("x_min_a", "a", Number(-20.0, -1.2), Optional("chosen by the plan"), "inlet edge"),
-            key("x_max_a", "a", Number(1.1, 10.0), Optional("chosen by the plan"), "outlet edge"),
+            key("x_min_a", "a", Number(-20.0, -1.2), Optional("chosen by the plan"), "inlet edge, x along the flow"),
+            key("x_max_a", "a", Number(1.1, 10.0), Optional("chosen by the plan"), "outlet edge, x along the flow"),
             key("y_half_a", "b", Number(1.1, 10.0), Optional("chosen by the plan"), "half-width across, in half-widths along y"),
         ],
     },
@@ -272,6 +279,18 @@ pub const KNOB_KEYS: &[&str] = &[
     "load.force_n_per_m",
 ];
 
+impl Kind {
+    /// Whether it takes that number.
+    pub fn takes(&self, number: f64) -> bool {
+        match *self {
+            Number(min, max) => (min..=max).contains(&number),
+            EitherSign(min, max) => (min..=max).contains(&number.abs()),
+            NumberOrInf(min, max) => (min..=max).contains(&number) || number == f64::INFINITY,
+            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) => false,
+        }
+    }
+}
+
 impl Key {
     /// What the key takes, in words, with its unit.
     pub fn allowed(&self) -> String {
@@ -283,6 +302,13 @@ impl Key {
         match self.kind {
             Text(longest) => format!("a text of at most {longest} characters"),
             Number(min, max) => format!("{} to {}{unit}", short(min), short(max)),
+            EitherSign(min, max) => format!(
+                "{} to {}{unit}, or {} to {}{unit}; never 0",
+                short(min),
+                short(max),
+                short(-max),
+                short(-min)
+            ),
             NumberOrInf(min, max) => format!("{} to {}{unit}, or inf", short(min), short(max)),
             Integer(min, max) => format!("a whole number, {min} to {max}{unit}"),
             IntegerOf(values) => {
@@ -297,6 +323,38 @@ impl Key {
                     list.join(" or ")
                 }
             }
+        }
+    }
+}
+
+impl Key {
+    /// Whether the key may be left out of a `table` of that `kind` (its key `kind`); `None`: it has no
+    /// place there.
+    pub fn need_in(&self, table: &str, kind: Option<&str>) -> Option<Need> {
+        if !table.ends_with(".surface") || self.name == "kind" {
+            return Some(self.need);
+        }
+        let of_map = matches!(
+            self.name,
+            "file" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
+        );
+        match (kind, self.name) {
+            (Some("smooth"), _) => None,
+            (Some("height_map"), "amplitude_m") => Some(Optional("as in the file")),
+            (Some("height_map"), _) => of_map.then_some(self.need),
+            _ => (!of_map).then_some(self.need),
+        }
+    }
+
+    /// The kinds of surface that take the key, for messages.
+    pub(super) fn kinds(&self) -> &'static str {
+        match (
+            self.need_in(".surface", Some("sinusoid")),
+            self.need_in(".surface", Some("height_map")),
+        ) {
+            (Some(_), None) => "\"sinusoid\"",
+            (None, Some(_)) => "\"height_map\"",
+            _ => "\"sinusoid\" or \"height_map\"",
         }
     }
 }

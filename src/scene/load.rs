@@ -2,14 +2,18 @@
 
 use std::fs::File;
 use std::io::Read as _;
+use std::path::Path;
+use std::sync::Arc;
 
 use toml::{Table, Value};
 
 use super::check;
 use super::error::{SceneError, nearest};
+use super::height_map;
 use super::keys;
-use super::model::Scene;
+use super::model::{MapEdge, Scene, Surface};
 use super::presets;
+use crate::physics::height_map::Beyond;
 
 /// Longest scene file, bytes. Scenes are some kilobytes; anything longer is not one.
 const LONGEST_FILE: u64 = 1 << 20;
@@ -78,9 +82,11 @@ impl Override {
             }
             return;
         }
-        if self.key.ends_with("surface.kind") && self.value.as_str() == Some("smooth") {
-            // A body made smooth keeps nothing of its former waves.
-            if let Some(table) = descend(root, path) {
+        if self.key.ends_with("surface.kind") {
+            // A body of another kind keeps nothing of its former surface.
+            if let Some(table) = descend(root, path)
+                && table.get("kind") != Some(&self.value)
+            {
                 table.clear();
             }
         }
@@ -128,7 +134,8 @@ impl Scene {
             return Self::from_toml_with(preset.toml, name_or_path, overrides);
         }
         let text = read(name_or_path)?;
-        Self::from_toml_with(&text, name_or_path, overrides)
+        let folder = Path::new(name_or_path).parent().unwrap_or(Path::new(""));
+        Self::parsed(&text, name_or_path, overrides, folder)
     }
 
     /// A scene from TOML text.
@@ -148,6 +155,16 @@ impl Scene {
         origin: &str,
         overrides: &[Override],
     ) -> Result<Self, SceneError> {
+        Self::parsed(text, origin, overrides, Path::new(""))
+    }
+
+    /// Height maps are sought from `folder`.
+    fn parsed(
+        text: &str,
+        origin: &str,
+        overrides: &[Override],
+        folder: &Path,
+    ) -> Result<Self, SceneError> {
         let mut table = text
             .parse::<Table>()
             .map_err(|error| syntax(origin, &error))?;
@@ -157,9 +174,47 @@ impl Scene {
         check::check_table(&mut table)?;
         // The check knows every key and kind, so this cannot fail unless the two disagree (a test
         // walks all presets and keys); an error is still better than a panic.
-        let scene: Self = table.try_into().map_err(|error| syntax(origin, &error))?;
+        let mut scene: Self = table.try_into().map_err(|error| syntax(origin, &error))?;
+        scene.read_maps(folder)?;
         check::check_rules(&scene)?;
         Ok(scene)
+    }
+
+    /// Reads the height maps that have not been read yet, relative paths from `folder`; the paths become
+    /// absolute, so that a copy of the scene finds them from anywhere.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] that names the key, the file and what is wrong with it.
+    pub fn read_maps(&mut self, folder: &Path) -> Result<(), SceneError> {
+        let bodies = [
+            ("body_1.surface", &mut self.body_1),
+            ("body_2.surface", &mut self.body_2),
+        ];
+        for (table, body) in bodies {
+            if let Surface::HeightMap {
+                file,
+                edge,
+                unit_m,
+                map,
+                ..
+            } = &mut body.surface
+                && map.is_none()
+            {
+                let beyond = match edge {
+                    MapEdge::Periodic => Beyond::Repeated,
+                    MapEdge::Windowed => Beyond::Nothing,
+                };
+                *map = Some(Arc::new(height_map::read(
+                    table, folder, file, *unit_m, beyond,
+                )?));
+                if let Ok(absolute) = std::path::absolute(folder.join(&*file))
+                    && let Some(text) = absolute.to_str()
+                {
+                    text.clone_into(file);
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Checks a scene that was made or changed in code by the same rules as a file.

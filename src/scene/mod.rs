@@ -8,6 +8,7 @@ mod check;
 mod derived;
 mod emit;
 mod error;
+mod height_map;
 pub mod keys;
 mod load;
 mod lubricant;
@@ -19,6 +20,6 @@ pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
     Body, BodyChoice, Contact, ContactKind, CycleBasis, DamageMaps, Event, Grid, Life, LifeModel,
-    Load, Motion, Numerics, Record, Scene, Spread, Stress, StressMeasure, Surface, Time,
+    Load, MapEdge, Motion, Numerics, Record, Scene, Spread, Stress, StressMeasure, Surface, Time,
     VolumeIntegral,
 };

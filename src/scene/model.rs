@@ -1,10 +1,12 @@
 //! The scene's types: one field per key of the scene file, SI units in the names.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::lubricant::{Friction, Lubricant};
+use crate::physics::height_map::HeightMap;
 use crate::physics::hertz::HertzShape;
 
 /// A whole scene: what the user asks for.
@@ -133,6 +135,44 @@ pub enum Surface {
         #[serde(default)]
         phase_deg: f64,
     },
+    /// Heights from a file, by cubic interpolation.
+    HeightMap {
+        /// `.npy` or `.csv`; relative paths are relative to the scene file, and become absolute when the
+        /// scene is read.
+        file: String,
+        /// Side of a pixel, m.
+        pixel_m: f64,
+        /// What lies beyond the map.
+        #[serde(default)]
+        edge: MapEdge,
+        /// Height that a value of 1 stands for, m.
+        #[serde(default = "one")]
+        unit_m: f64,
+        /// Greatest departure from the map's level, m; `None`: as in the file.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        amplitude_m: Option<f64>,
+        /// Where the middle of a windowed map is at t = 0, m; `None`: just upstream of the domain.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        start_x_m: Option<f64>,
+        /// The heights, once read.
+        #[serde(skip)]
+        map: Option<Arc<HeightMap>>,
+    },
+}
+
+/// What lies beyond a height map.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MapEdge {
+    /// The map again and again.
+    #[default]
+    Periodic,
+    /// Nothing: the map stands once and is tapered to zero at its edges.
+    Windowed,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 fn infinite() -> f64 {

@@ -1,5 +1,7 @@
 //! Material points of both bodies on the line y = 0 that count cycles and collect damage.
 
+use serde::{Deserialize, Serialize};
+
 use super::stress_stage::StressStage;
 use crate::math::grid::Grid;
 use crate::physics::cycles::{BodyId, Kinematics};
@@ -15,6 +17,7 @@ const SHOWN_DEPTH: f64 = 0.1;
 const MAP_COLUMNS: usize = 24;
 
 /// Counts of both bodies, and the point that is shown.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Counting {
     trackers: [MaterialTracker; 2],
     row: Vec<f32>,
@@ -28,7 +31,7 @@ pub(super) struct Counting {
 }
 
 /// Counted and equivalent cycles of a body by depth, on one basis.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 struct Profile {
     known: Option<()>,
     counted: Vec<f64>,

@@ -14,11 +14,34 @@ use crate::physics::hertz::Hertz;
 use crate::scene::{ContactKind, DensityLaw, Rheology, Scene, ViscosityLaw};
 use crate::solve::reynolds::Medium;
 
+/// Which way the oil flows. Everything below the door is solved with the flow along +x; a scene that flows
+/// towards −x is solved as its mirror image, ξ = −x, and mirrored back where numbers leave: places, fields,
+/// and the sign of shear along x.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Heading {
+    /// Towards +x.
+    Forward,
+    /// Towards −x.
+    Backward,
+}
+
+impl Heading {
+    /// +1 or −1.
+    pub(super) fn sign(self) -> f64 {
+        match self {
+            Self::Forward => 1.0,
+            Self::Backward => -1.0,
+        }
+    }
+}
+
 /// Scales and constants of one scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Door {
     /// Point or line.
     pub(super) kind: ContactKind,
+    /// Which way the oil flows.
+    pub(super) heading: Heading,
     /// Half-width along x, m.
     pub(super) a_m: f64,
     /// Maximum Hertz pressure, Pa.
@@ -47,6 +70,11 @@ impl Door {
         let rx = scene.contact.rx_m;
         let mut door = Self {
             kind: scene.kind(),
+            heading: if scene.motion.entrainment_m_s < 0.0 {
+                Heading::Backward
+            } else {
+                Heading::Forward
+            },
             a_m: a,
             p_hertz_pa: p,
             film_m: a * a / rx,
@@ -139,6 +167,11 @@ impl Door {
     /// Dimensionless film.
     pub(super) fn h_from_m(&self, h_m: f64) -> f64 {
         h_m / self.film_m
+    }
+
+    /// Place along x, m.
+    pub(super) fn place_m(&self, x: f64) -> f64 {
+        self.heading.sign() * self.m_from_x(x)
     }
 
     /// Length along the surface, m.

@@ -5,6 +5,8 @@
 //! scene unless it names one. As a system both bodies are compared in time, as equal discs:
 //! `L = [½ Σ (N_i U/|U_i|)^{−e}]^{−1/e}` relative to the two bodies of the reference.
 
+use serde::{Deserialize, Serialize};
+
 use super::counting::Counting;
 use super::frame::{LifeDetail, LifeEstimate};
 use super::stress_stage::StressStage;
@@ -18,7 +20,7 @@ use crate::solve::life::{Coverage, Shares, Sweep, factors};
 use crate::solve::stress::{Loading, StressLaw};
 
 /// Loading cycles of the smooth contact, where the scene gives a point of them.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Calibration {
     cycles: f64,
     /// p_cal/p_h.
@@ -30,6 +32,7 @@ struct Calibration {
 }
 
 /// Life models under way.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct LifeStage {
     law: LifeLaw,
     asked: Life,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::door::Heading;
 use super::{DamageBlock, Frame, MaterialPoint, Simulation, StressSlice};
 use crate::physics::cycles::BodyId;
 use crate::plan::LINE_ROWS;
@@ -26,7 +27,11 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
         ContactKind::Line => 0,
     };
     (frame.nx, frame.ny) = (grid.nx, rows);
-    frame.x_min_m = door.m_from_x(grid.x_min);
+    let heading = door.heading;
+    frame.x_min_m = match heading {
+        Heading::Forward => door.m_from_x(grid.x_min),
+        Heading::Backward => -door.m_from_x(grid.x(grid.nx - 1)),
+    };
     frame.dx_m = door.m_from_x(grid.dx);
     frame.dy_m = match door.kind {
         ContactKind::Point => door.m_from_x(grid.dy),
@@ -47,12 +52,16 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
             for (to, &from) in row.iter_mut().zip(&from[start..start + grid.nx]) {
                 *to = (from * unit) as f32;
             }
+            if heading == Heading::Backward {
+                row.reverse();
+            }
         }
     };
     let state = &sim.march.state;
     expand(&state.pressure, door.p_hertz_pa, &mut frame.pressure_pa);
     expand(&state.film, door.film_m, &mut frame.film_m);
-    expand(&sim.traction, door.p_hertz_pa, &mut frame.traction_pa);
+    let along_x = heading.sign() * door.p_hertz_pa;
+    expand(&sim.traction, along_x, &mut frame.traction_pa);
     expand(
         &sim.terrain.heights[0],
         door.film_m,
@@ -99,14 +108,37 @@ fn fill_slice(sim: &Simulation, frame: &mut Frame) {
             .collect::<Arc<[f64]>>();
     }
     let unit = sim.door.p_hertz_pa as f32;
-    let scaled = |from: &[f32], to: &mut Vec<f32>| {
+    let (nx, heading) = (sim.march.grid.nx, sim.door.heading);
+    let scaled = |from: &[f32], unit: f32, to: &mut Vec<f32>| {
         to.resize(from.len(), 0.0);
         for (to, &from) in to.iter_mut().zip(from) {
             *to = from * unit;
         }
+        if heading == Heading::Backward {
+            to.chunks_exact_mut(nx).for_each(<[f32]>::reverse);
+        }
     };
-    scaled(&stress.slice.effective, &mut slice.effective_pa);
-    scaled(&stress.slice.sxz, &mut slice.tau_xz_pa);
+    scaled(&stress.slice.effective, unit, &mut slice.effective_pa);
+    // Shear along x changes its sign in the mirror.
+    let shear_unit = heading.sign() as f32 * unit;
+    scaled(&stress.slice.sxz, shear_unit, &mut slice.tau_xz_pa);
+}
+
+/// Way from a crest along +x; the solver's x is a mirror image where the flow runs towards −x.
+pub(super) fn place_m(sim: &Simulation, place: f64, length: f64) -> f64 {
+    match sim.door.heading {
+        Heading::Forward => sim.door.m_from_x(place),
+        Heading::Backward => sim.door.m_from_x(length - place),
+    }
+}
+
+/// Columns in the opposite order.
+fn mirror_columns(damage: &mut [f32], depths: usize) {
+    let columns = damage.len() / depths.max(1);
+    for column in 0..columns / 2 {
+        let (low, high) = damage.split_at_mut((columns - 1 - column) * depths);
+        low[column * depths..][..depths].swap_with_slice(&mut high[..depths]);
+    }
 }
 
 /// The damage map of a body.
@@ -128,7 +160,11 @@ fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) 
     block.columns = map.spec().columns;
     block.filled = map.filled();
     map.relative_into(unit, &mut block.damage);
-    block.pit_place_m = sim.door.m_from_x(pit.place);
+    if sim.door.heading == Heading::Backward {
+        let depths = map.spec().depths;
+        mirror_columns(&mut block.damage, depths);
+    }
+    block.pit_place_m = place_m(sim, pit.place, map.spec().length);
     block.pit_depth_m = block.depths_m.get(pit.depth).copied().unwrap_or(0.0);
     block.pit_damage = pit.damage;
 }
@@ -145,13 +181,13 @@ fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
     let effective = |n: usize| f64::from(stress.slice.effective[n]);
     Some(MaterialPoint {
         body: 1,
-        x_m: sim.door.m_from_x(shown.x),
+        x_m: sim.door.place_m(shown.x),
         depth_m: sim.door.m_from_x(stress.depths()[depth]),
         pressure_pa: sim.door.pa_from_p(shown.pressure),
         effective_pa: sim
             .door
             .pa_from_p(effective(at) * (1.0 - t) + effective(at + 1) * t),
-        tau_xz_pa: sim.door.pa_from_p(shown.tau_xz),
+        tau_xz_pa: sim.door.heading.sign() * sim.door.pa_from_p(shown.tau_xz),
         cycles_counted: shown.counted,
     })
 }

@@ -167,7 +167,9 @@ pub struct Metrics {
     pub contact_load_ratio: f64,
     /// |carried - asked|/asked.
     pub load_error: f64,
-    /// Sum of |mass residual| over sum of the mass in the pressurised zone.
+    /// Σ|film equation's residual| over the mass in the pressurised zone; the next step takes it over.
+    pub film_error: f64,
+    /// The part of that which no step takes over: mass lost or made.
     pub mass_error: f64,
     /// Friction force over load, positive.
     pub friction_coefficient: f64,

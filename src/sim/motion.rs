@@ -14,8 +14,19 @@ pub(super) struct Motion {
     pub(super) travelled: [f64; 2],
     /// η0/(p_h × film unit), s/m: shear stress per sliding speed.
     pub(super) shear_rate: f64,
+    /// Where both bodies were when the passage began; `None`: it has not begun.
+    launched_at: Option<[f64; 2]>,
     /// Time (a/U) that must pass until a steady contact is steady again.
     unsettled: f64,
+}
+
+/// How far a body has come, in a.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Way {
+    /// Since the run began.
+    pub(super) travelled: f64,
+    /// Since the passage began; `None`: it has not.
+    pub(super) in_passage: Option<f64>,
 }
 
 impl Motion {
@@ -25,6 +36,7 @@ impl Motion {
             nodes,
             travelled: [0.0; 2],
             shear_rate: 0.0,
+            launched_at: None,
             unsettled: 0.0,
         }
     }
@@ -35,6 +47,19 @@ impl Motion {
         self.travelled[0] += (1.0 - 0.5 * s) * dt;
         self.travelled[1] += (1.0 + 0.5 * s) * dt;
         self.unsettled = (self.unsettled - dt).max(0.0);
+    }
+
+    /// The passage begins: what stands on a body once is let go.
+    pub(super) fn launch(&mut self) {
+        self.launched_at = Some(self.travelled);
+    }
+
+    /// The ways of both bodies.
+    pub(super) fn ways(&self) -> [Way; 2] {
+        [0, 1].map(|body: usize| Way {
+            travelled: self.travelled[body],
+            in_passage: self.launched_at.map(|at| self.travelled[body] - at[body]),
+        })
     }
 
     /// Time of a full step, s.

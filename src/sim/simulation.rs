@@ -88,6 +88,7 @@ impl Simulation {
             Phase::Develop { left: 0 } => {
                 self.phase = Phase::Passage;
                 self.time_s = 0.0;
+                self.motion.launch();
                 self.forget_passage();
                 self.passage_step()
             }
@@ -161,8 +162,7 @@ impl Simulation {
             allowed,
         };
         if let Some(key) = crate::scene::keys::find(knob.key())
-            && let crate::scene::keys::Kind::Number(min, max) = key.kind
-            && !(min..=max).contains(&value)
+            && !key.kind.takes(value)
         {
             return Err(refuse(key.allowed()));
         }
@@ -171,6 +171,16 @@ impl Simulation {
                 "{} in this kind of contact",
                 self.door.load_knob().key()
             )));
+        }
+        let mut value = value;
+        if knob == Knob::EntrainmentMS {
+            value *= self.door.heading.sign();
+            if value < 0.0 {
+                return Err(refuse(
+                    "a speed of the sign that the run began with: to turn the flow round is another run"
+                        .to_owned(),
+                ));
+            }
         }
         let body = match knob {
             Knob::Amplitude1M => Some(0),

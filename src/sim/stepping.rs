@@ -13,7 +13,7 @@ use crate::solve::traction::TractionLaw;
 
 /// Most times a step is halved.
 const MAX_HALVINGS: u32 = 2;
-/// Mass error above which an unconverged step is not kept: it would pump mass into the history.
+/// Film error above which an unconverged step is not kept: it would pump mass into the history.
 const HOPELESS: f64 = 0.05;
 
 /// What a step took and reached.
@@ -23,6 +23,8 @@ pub(super) struct Attempted {
     pub(super) converged: bool,
     /// Worst relative change of pressure.
     pub(super) residual: f64,
+    /// Worst film error.
+    pub(super) film_error: f64,
     /// Worst mass error.
     pub(super) mass_error: f64,
     /// Worst load error.
@@ -53,6 +55,7 @@ impl Attempted {
         Self {
             converged: metrics.converged,
             residual: metrics.residual,
+            film_error: metrics.film_error,
             mass_error: metrics.mass_error,
             load_error: metrics.load_error,
             ..Self::default()
@@ -84,6 +87,7 @@ impl Attempted {
     fn keep(&mut self, report: &NewtonReport) {
         self.converged &= report.verdict == Verdict::Converged;
         self.residual = self.residual.max(report.change);
+        self.film_error = self.film_error.max(report.film_error);
         self.mass_error = self.mass_error.max(report.mass_error);
         self.load_error = self.load_error.max(report.load_error);
     }
@@ -160,11 +164,11 @@ impl Mover<'_> {
         done.keep(report);
         if report.verdict == Verdict::NotFinite {
             done.failure = Some(Failure::NotFinite);
-        } else if report.mass_error > HOPELESS {
+        } else if report.film_error > HOPELESS {
             let grid = &self.march.grid;
             let (i, j) = (report.worst_node % grid.nx, report.worst_node / grid.nx);
             done.failure = Some(Failure::Hopeless {
-                x_m: self.door.m_from_x(grid.x(i)),
+                x_m: self.door.place_m(grid.x(i)),
                 y_m: self.door.m_from_x(grid.y(j)),
             });
         } else {
@@ -191,8 +195,7 @@ impl Mover<'_> {
             self.march.gap.copy_from_slice(&self.march.macroscopic);
             return;
         }
-        for (body, (way, amplitude)) in self.motion.travelled.into_iter().zip(amplitude).enumerate()
-        {
+        for (body, (way, amplitude)) in self.motion.ways().into_iter().zip(amplitude).enumerate() {
             self.terrain.place(grid, body, way, amplitude);
         }
         self.terrain

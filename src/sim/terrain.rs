@@ -5,9 +5,15 @@
 //! cos(ax + by + φ) = cos(ax + φ) cos(by) − sin(ax + φ) sin(by):  one table per direction
 //! ```
 //! The product of two waves is the sum of two plane waves, so a surface costs four multiplications a
-//! node whatever its lay. Heights in film units; gap = macroscopic − z1 − z2.
+//! node whatever its lay. A height map is resampled to the grid's rows once; a step then takes four
+//! multiplications a node too. Heights in film units; gap = macroscopic − z1 − z2.
 
+use std::sync::Arc;
+
+use super::door::Heading;
+use super::motion::Way;
 use crate::math::grid::Grid;
+use crate::physics::height_map::{Beyond, HeightMap};
 use crate::scene::Surface;
 
 /// One plane wave of a surface.
@@ -27,38 +33,62 @@ struct Waves {
     across: [Vec<(f64, f64)>; 2],
 }
 
+/// One body's height map on the grid.
+#[derive(Debug, Clone)]
+struct Drawn {
+    map: Arc<HeightMap>,
+    /// The map at the grid's rows, shape ny × pixels along x.
+    rows: Vec<f32>,
+    /// Pixel along x, in a; negative: mirrored.
+    pixel: f64,
+    /// Where the middle stands at the start, in a.
+    start: f64,
+    /// Four pixels and their weights for each column of the grid.
+    along: Vec<([u32; 4], [f32; 4])>,
+}
+
+/// What a body carries.
+#[derive(Debug, Clone)]
+enum Relief {
+    Waves(Waves),
+    Map(Drawn),
+}
+
 /// Both surfaces.
 #[derive(Debug, Clone)]
 pub(super) struct Terrain {
-    waves: [Option<Waves>; 2],
+    reliefs: [Option<Relief>; 2],
     /// Heights of both bodies, film units, shape ny × nx.
     pub(super) heights: [Vec<f64>; 2],
 }
 
 impl Terrain {
-    /// The surfaces of a scene on `grid` (lengths over `a_m`).
-    pub(super) fn new(grid: &Grid, surfaces: [&Surface; 2], a_m: f64) -> Self {
-        let waves = surfaces.map(|surface| Waves::new(grid, surface, a_m));
+    /// The surfaces of a scene on `grid` (lengths over `a_m`), mirrored where the flow goes backward.
+    pub(super) fn new(grid: &Grid, surfaces: [&Surface; 2], a_m: f64, heading: Heading) -> Self {
+        let reliefs = surfaces.map(|surface| Relief::new(grid, surface, a_m, heading));
         let heights = [0, 1].map(|body| {
-            let n = if waves[body as usize].is_some() {
+            let n = if reliefs[body as usize].is_some() {
                 grid.len()
             } else {
                 0
             };
             vec![0.0; n]
         });
-        Self { waves, heights }
+        Self { reliefs, heights }
     }
 
-    /// Whether body `body` (0 or 1) has waves.
+    /// Whether body `body` (0 or 1) has waves or a map.
     pub(super) fn is_rough(&self, body: usize) -> bool {
-        self.waves[body].is_some()
+        self.reliefs[body].is_some()
     }
 
-    /// Moves body `body` to `travelled` (in a) with amplitude `amplitude` (film units).
-    pub(super) fn place(&mut self, grid: &Grid, body: usize, travelled: f64, amplitude: f64) {
-        if let Some(waves) = &mut self.waves[body] {
-            waves.heights(grid, travelled, amplitude, &mut self.heights[body]);
+    /// Moves body `body` to `way` with amplitude `amplitude` (film units).
+    pub(super) fn place(&mut self, grid: &Grid, body: usize, way: Way, amplitude: f64) {
+        let out = &mut self.heights[body];
+        match &mut self.reliefs[body] {
+            Some(Relief::Waves(waves)) => waves.heights(grid, way.travelled, amplitude, out),
+            Some(Relief::Map(drawn)) => drawn.heights(grid, way, amplitude, out),
+            None => {}
         }
     }
 
@@ -73,8 +103,88 @@ impl Terrain {
     }
 }
 
+impl Relief {
+    fn new(grid: &Grid, surface: &Surface, a_m: f64, heading: Heading) -> Option<Self> {
+        match surface {
+            Surface::Smooth {} => None,
+            Surface::Sinusoid { .. } => Waves::new(grid, surface, a_m, heading).map(Self::Waves),
+            Surface::HeightMap {
+                pixel_m,
+                start_x_m,
+                map,
+                ..
+            } => map.as_ref().map(|map| {
+                let start = start_x_m.map(|x_m| heading.sign() * x_m / a_m);
+                // Columns that run the other way are a pixel of the opposite sign.
+                let pixels = [heading.sign() * pixel_m / a_m, pixel_m / a_m];
+                Self::Map(Drawn::new(grid, map, pixels, start))
+            }),
+        }
+    }
+}
+
+impl Drawn {
+    fn new(
+        grid: &Grid,
+        map: &Arc<HeightMap>,
+        [pixel, pixel_y]: [f64; 2],
+        start: Option<f64>,
+    ) -> Self {
+        let mut rows = vec![0.0; grid.ny * map.nx()];
+        for (j, row) in rows.chunks_exact_mut(map.nx()).enumerate() {
+            map.row_into(grid.y(j) / pixel_y, row);
+        }
+        let start = match map.beyond() {
+            Beyond::Repeated => 0.0,
+            // Its downstream edge, and the reach of the interpolation, at the inlet.
+            Beyond::Nothing => {
+                start.unwrap_or(grid.x_min - (0.5 * (map.nx() - 1) as f64 + 2.0) * pixel_y)
+            }
+        };
+        Self {
+            map: Arc::clone(map),
+            rows,
+            pixel,
+            start,
+            along: vec![([0; 4], [0.0; 4]); grid.nx],
+        }
+    }
+
+    fn heights(&mut self, grid: &Grid, way: Way, amplitude: f64, out: &mut [f64]) {
+        let way = match self.map.beyond() {
+            Beyond::Repeated => Some(way.travelled),
+            Beyond::Nothing => way.in_passage,
+        };
+        let Some(way) = way else {
+            out.fill(0.0);
+            return;
+        };
+        let nx = self.map.nx();
+        for (i, (pixels, weights)) in self.along.iter_mut().enumerate() {
+            let (first, w) = HeightMap::stencil((grid.x(i) - way - self.start) / self.pixel, nx);
+            for k in 0..4 {
+                let pixel = self.map.wrapped(first + k as i64, nx);
+                pixels[k] = pixel.unwrap_or(0) as u32;
+                weights[k] = if pixel.is_some() { w[k] as f32 } else { 0.0 };
+            }
+        }
+        for (row, line) in out
+            .chunks_exact_mut(grid.nx)
+            .zip(self.rows.chunks_exact(nx))
+        {
+            for (z, (pixels, weights)) in row.iter_mut().zip(&self.along) {
+                let mut sum = 0.0;
+                for (&pixel, &w) in pixels.iter().zip(weights) {
+                    sum += w * line[pixel as usize];
+                }
+                *z = amplitude * f64::from(sum);
+            }
+        }
+    }
+}
+
 impl Waves {
-    fn new(grid: &Grid, surface: &Surface, a_m: f64) -> Option<Self> {
+    fn new(grid: &Grid, surface: &Surface, a_m: f64, heading: Heading) -> Option<Self> {
         use std::f64::consts::TAU;
         let Surface::Sinusoid {
             wavelength_x_m,
@@ -87,13 +197,17 @@ impl Waves {
             return None;
         };
         let (kx, ky) = (TAU * a_m / wavelength_x_m, TAU * a_m / wavelength_y_m);
+        // A right angle has no component of 6e-17.
+        let exact = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
         let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let (sin, cos) = (exact(sin), exact(cos));
         let plane = |sign: f64| Plane {
-            a: kx * cos - sign * ky * sin,
+            a: heading.sign() * (kx * cos - sign * ky * sin),
             b: kx * sin + sign * ky * cos,
         };
         let mut waves = Self {
-            planes: [plane(1.0), plane(-1.0)],
+            // In the mirror the two change places: summed in the same order, to the last bit.
+            planes: [plane(heading.sign()), plane(-heading.sign())],
             phase: phase_deg.to_radians(),
             along: [vec![(0.0, 0.0); grid.nx], vec![(0.0, 0.0); grid.nx]],
             across: [vec![(0.0, 0.0); grid.ny], vec![(0.0, 0.0); grid.ny]],
@@ -141,12 +255,76 @@ mod tests {
             angle_deg: 25.0,
             phase_deg: 40.0,
         };
-        let mut terrain = Terrain::new(&grid, [&surface, &Surface::Smooth {}], 1e-3);
-        terrain.place(&grid, 0, 0.3, 0.02);
+        let mut terrain = Terrain::new(
+            &grid,
+            [&surface, &Surface::Smooth {}],
+            1e-3,
+            Heading::Forward,
+        );
+        let way = Way {
+            travelled: 0.3,
+            in_passage: None,
+        };
+        terrain.place(&grid, 0, way, 0.02);
         let wave = Waviness::new(0.7, 0.4, 25_f64.to_radians(), 40_f64.to_radians());
         for n in 0..grid.len() {
             let exact = 0.02 * wave.shape(grid.x(n % 17) - 0.3, grid.y(n / 17));
             assert!((terrain.heights[0][n] - exact).abs() < 1e-14);
+        }
+    }
+    #[test]
+    fn a_map_moves_with_its_body() {
+        let grid = Grid::new(33, -2.0, 1.5, 2.0, Symmetry::General);
+        let n = 24;
+        let heights: Vec<f64> = (0..n * n)
+            .map(|m| {
+                let (x, y) = (m % n, m / n);
+                1e-7 * ((x * x + 3 * y) % 7) as f64
+            })
+            .collect();
+        for (beyond, travelled) in [(Beyond::Repeated, 0.4), (Beyond::Nothing, 0.9)] {
+            let map = Arc::new(HeightMap::new(n, &heights, beyond).expect("it has heights"));
+            let surface = Surface::HeightMap {
+                file: String::new(),
+                pixel_m: 0.05e-3,
+                edge: crate::scene::MapEdge::Periodic,
+                unit_m: 1.0,
+                amplitude_m: None,
+                start_x_m: Some(-0.5e-3),
+                map: Some(Arc::clone(&map)),
+            };
+            let mut terrain = Terrain::new(
+                &grid,
+                [&Surface::Smooth {}, &surface],
+                1e-3,
+                Heading::Forward,
+            );
+            let way = Way {
+                travelled: 0.4,
+                in_passage: Some(0.9),
+            };
+            let start = if beyond == Beyond::Repeated {
+                0.0
+            } else {
+                -0.5
+            };
+            terrain.place(&grid, 1, way, 0.02);
+            let mut rough = 0;
+            for m in 0..grid.len() {
+                let x = (grid.x(m % 33) - travelled - start) / 0.05;
+                let exact = 0.02 * map.sample(x, grid.y(m / 33) / 0.05);
+                assert!((terrain.heights[1][m] - exact).abs() < 1e-7);
+                rough += usize::from(exact != 0.0);
+            }
+            assert!(rough > 50, "{rough}");
+            // Before the passage a windowed map is not there yet.
+            let before = Way {
+                travelled: 0.4,
+                in_passage: None,
+            };
+            terrain.place(&grid, 1, before, 0.02);
+            let is_flat = terrain.heights[1].iter().all(|&z| z == 0.0);
+            assert_eq!(is_flat, beyond == Beyond::Nothing);
         }
     }
 }

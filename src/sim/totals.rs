@@ -142,9 +142,10 @@ fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
     let counting = sim.counting.as_ref()?;
     let pit = counting.pit(body)?;
     let depth = *sim.stress.as_ref()?.depths().get(pit.depth)?;
+    let length = counting.map(body)?.0.spec().length;
     Some(PitStart {
         depth_m: sim.door.m_from_x(depth),
-        place_m: sim.door.m_from_x(pit.place),
+        place_m: super::fill::place_m(sim, pit.place, length),
         damage: pit.damage,
     })
 }

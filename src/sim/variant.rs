@@ -1,6 +1,9 @@
 //! One life model under way: its mean over the phases, its greatest over the track, its reference.
 
+use serde::{Deserialize, Serialize};
+
 use super::stress_stage::StressStage;
+use crate::math::ln_sum::ln_list;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::physics::life_models::LifeModel;
@@ -10,7 +13,7 @@ use crate::solve::life::{LifeMeter, Shares, Sweep};
 use crate::solve::stress::{Loading, StressLaw};
 
 /// A model with its accumulators: plain data, all of it state.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Variant {
     pub(super) model: LifeModel,
     /// Place of its stress law in the volume pass; `None`: it reads slices.
@@ -18,8 +21,9 @@ pub(super) struct Variant {
     meter: LifeMeter,
     /// Greatest shares over all samples (models of one depth), or the swept integral.
     swept: Shares,
-    /// ln J of the reference of each body, snapshot and swept.
-    reference: [[f64; 2]; 2],
+    /// ln J of the reference, `[2 · body + form]`.
+    #[serde(with = "ln_list")]
+    reference: Vec<f64>,
     /// Stress by depth of the last sample under full load, body 1 (models of one depth), p_h.
     pub(super) by_depth: Vec<f32>,
 }
@@ -44,7 +48,7 @@ impl Variant {
             law,
             meter: LifeMeter::new(depths, period, capacity),
             swept: Shares::new(depths),
-            reference: [[f64::NEG_INFINITY; 2]; 2],
+            reference: vec![f64::NEG_INFINITY; 4],
             by_depth: vec![0.0; depths],
         }
     }
@@ -53,19 +57,19 @@ impl Variant {
     pub(super) fn set_reference(&mut self, stress: &mut StressStage, shared: &mut Shared) {
         self.take(stress, shared);
         for body in BodyId::BOTH {
-            self.reference[body.index()] = [
-                shared.scratch.ln(Loading::Normal(body)),
-                self.swept.ln(Loading::Normal(body)),
-            ];
+            let at = 2 * body.index();
+            self.reference[at] = shared.scratch.ln(Loading::Normal(body));
+            self.reference[at + 1] = self.swept.ln(Loading::Normal(body));
         }
         self.restart();
     }
 
     /// ln J of the reference.
     pub(super) fn ln_reference(&self, body: BodyId, form: VolumeIntegral) -> f64 {
-        self.reference[body.index()][form_index(form)]
+        self.reference[2 * body.index() + form_index(form)]
     }
 
+    /// Forgets all samples.
     pub(super) fn restart(&mut self) {
         self.meter.restart();
         self.swept.clear();

@@ -87,13 +87,14 @@ impl Simulation {
         m.newton_iterations = attempted.newton;
         m.linear_iterations = attempted.linear;
         m.retries = attempted.retries;
+        m.film_error = attempted.film_error;
         m.mass_error = attempted.mass_error;
         m.load_error = attempted.load_error;
         let load = door.load_knob();
         let (s, force) = (self.drive.get(Knob::SlideRoll), self.drive.get(load));
         (m.slide_roll, m.slide_roll_target) = (s.now, self.wanted.get(Knob::SlideRoll).target);
         (m.load_n, m.load_target_n) = (force.now, self.wanted.get(load).target);
-        m.entrainment_m_s = self.drive.get(Knob::EntrainmentMS).now;
+        m.entrainment_m_s = door.heading.sign() * self.drive.get(Knob::EntrainmentMS).now;
         m.amplitude_1_m = self.drive.get(Knob::Amplitude1M).now;
         m.amplitude_2_m = self.drive.get(Knob::Amplitude2M).now;
         m.p_max_pa = door.pa_from_p(measured.p_max);
@@ -113,7 +114,7 @@ impl Simulation {
             let peak = stress.slice.peak;
             m.sigma_eff_max_pa = Some(door.pa_from_p(peak.value));
             m.sigma_eff_max_depth_m = Some(door.m_from_x(peak.z));
-            m.sigma_eff_max_x_m = Some(door.m_from_x(peak.x));
+            m.sigma_eff_max_x_m = Some(door.place_m(peak.x));
         }
         let n = contacts(&self.plan, m.entrainment_m_s, m.slide_roll);
         (m.n_body_1, m.n_body_2) = (n[0], n[1]);

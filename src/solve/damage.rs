@@ -8,8 +8,10 @@
 //! spectrum to the column of its place. A pit starts where D is greatest. Given relative to the greatest of
 //! the smooth contact in pure rolling, D says how many times sooner that place fails.
 
+use serde::{Deserialize, Serialize};
+
 /// Shape of a map.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BlockSpec {
     /// Columns along the surface.
     pub columns: usize,
@@ -22,7 +24,7 @@ pub struct BlockSpec {
 }
 
 /// Damage collected so far.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DamageMap {
     spec: BlockSpec,
     /// Σ damage, `[column · depths + k]`.

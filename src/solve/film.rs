@@ -21,11 +21,21 @@ use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
 use crate::math::kernel_symbol::even_kernel_symbol;
 
+/// What lies on the outer boundary of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Edge {
+    /// Free space: P = 0 on the boundary.
+    Free,
+    /// The last row and column are the first again.
+    Periodic,
+}
+
 /// Deflection by filters in double precision (residuals) and single precision (search directions).
 pub struct Elastic {
     double: Filter<f64>,
     single: Filter<f32>,
     symbol: Vec<f64>,
+    edge: Edge,
     /// Deflection of a node under its own unit pressure.
     pub k00: f64,
 }
@@ -83,7 +93,46 @@ impl Elastic {
             double,
             single,
             symbol,
+            edge: Edge::Free,
             k00: influence(0, 0),
+        }
+    }
+
+    /// The deflection of a surface that repeats: `K̂ = 2πκ/k`, the mean left to H0 (Westergaard 1939).
+    pub fn periodic(grid: &Grid, kappa: f64) -> Self {
+        use std::f64::consts::TAU;
+        let mut double = Filter::new(grid, Padding::Periodic, 1);
+        let mut single = Filter::new(grid, Padding::Periodic, 1);
+        let (lx, ly) = (double.lx(), double.ly());
+        let (side_x, side_y) = (lx as f64 * grid.dx, ly as f64 * grid.dy);
+        let nky = ly / 2 + 1;
+        let symbol: Vec<f64> = (0..(lx / 2 + 1) * nky)
+            .map(|n| {
+                let k = TAU * ((n / nky) as f64 / side_x).hypot((n % nky) as f64 / side_y);
+                if k > 0.0 { TAU * kappa / k } else { 0.0 }
+            })
+            .collect();
+        double.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
+        single.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
+        Self {
+            double,
+            single,
+            symbol,
+            edge: Edge::Periodic,
+            k00: kappa * cell_potential(0.0, 0.0, grid.dx, grid.dy),
+        }
+    }
+
+    /// What lies on the outer boundary.
+    pub fn edge(&self) -> Edge {
+        self.edge
+    }
+
+    /// The symbol of K at wavenumber indices of the domain without padding.
+    pub fn symbol_on_domain(&self, kx: usize, ky: usize) -> f64 {
+        match self.edge {
+            Edge::Free => self.symbol(2 * kx, 2 * ky),
+            Edge::Periodic => self.symbol(kx, ky),
         }
     }
 

@@ -1,46 +1,47 @@
-//! The linearised Reynolds equation, rows in pressure units.
+//! The linearised Reynolds equation, rows divided by their scale.
 //!
 //! ```text
 //! (J v)_n = Σ_m A_P[n,m] v_m + A_H[n,m] (w_m + h0),   w = K v,   m over n and its four neighbours
 //! ```
-//! Single precision: search directions need no more, because the residual is double.
+//! Single precision: search directions need no more, because the residual is double. A grid row is stored
+//! as ten lines, one per coefficient, so that products run along the row in vector registers.
 
 use rayon::prelude::*;
 
 use crate::math::grid::Grid;
 
-/// One row: self, west, east, south, north, by P and by H.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Row {
-    /// ∂F/∂P over D.
-    pub a_p: [f32; 5],
-    /// ∂F/∂H over D.
-    pub a_h: [f32; 5],
-}
+/// Lines of a stencil: self, west, east, south, north.
+pub const STENCIL: usize = 5;
 
-impl Row {
-    /// Sets both stencils, times `scale`.
-    #[inline]
-    pub fn set(&mut self, scale: f64, a_p: &[f64; 5], a_h: &[f64; 5]) {
-        for k in 0..5 {
-            self.a_p[k] = (a_p[k] * scale) as f32;
-            self.a_h[k] = (a_h[k] * scale) as f32;
-        }
-    }
-}
-
-/// All rows, `ny × nx`; rows of boundary and inactive nodes are zero.
+/// All rows, `[row][A_P then A_H][self, west, east, south, north][i]`; of boundary and inactive nodes zero.
 pub struct Jacobian {
-    /// Rows.
-    pub rows: Vec<Row>,
+    nx: usize,
+    lines: Vec<f32>,
 }
 
 impl Jacobian {
     /// Zero rows for `grid`.
     pub fn new(grid: &Grid) -> Self {
         Self {
-            rows: vec![Row::default(); grid.len()],
+            nx: grid.nx,
+            lines: vec![0.0; grid.len() * 2 * STENCIL],
         }
+    }
+
+    /// The ten lines of every grid row, to be filled in parallel.
+    pub fn rows_mut(&mut self) -> rayon::slice::ChunksExactMut<'_, f32> {
+        self.lines.par_chunks_exact_mut(2 * STENCIL * self.nx)
+    }
+
+    /// Line `k` of A_P in grid row `j`.
+    pub fn a_p(&self, j: usize, k: usize) -> &[f32] {
+        let start = (2 * STENCIL * j + k) * self.nx;
+        &self.lines[start..start + self.nx]
+    }
+
+    fn row(&self, j: usize) -> &[f32] {
+        let size = 2 * STENCIL * self.nx;
+        &self.lines[j * size..(j + 1) * size]
     }
 
     /// `out = A_P v + A_H (w + h0)`.
@@ -51,57 +52,110 @@ impl Jacobian {
             .enumerate()
             .with_min_len(8)
             .for_each(|(j, out)| {
-                out.fill(0.0);
                 if !interior.contains(&j) {
+                    out.fill(0.0);
                     return;
                 }
-                let line = |a: &'_ [f32], j: usize| -> std::ops::Range<usize> {
-                    debug_assert!(a.len() >= (j + 1) * nx);
-                    j * nx..(j + 1) * nx
-                };
-                let (south, north) = (line(v, grid.row_below(j)), line(v, grid.row_above(j)));
-                let here = line(v, j);
-                let rows = &self.rows[here.clone()];
-                let (v0, vs, vn) = (&v[here.clone()], &v[south.clone()], &v[north.clone()]);
-                let (w0, ws, wn) = (&w[here], &w[south], &w[north]);
-                for i in 1..nx - 1 {
-                    let (p, h) = (&rows[i].a_p, &rows[i].a_h);
-                    out[i] = p[0] * v0[i]
-                        + p[1] * v0[i - 1]
-                        + p[2] * v0[i + 1]
-                        + p[3] * vs[i]
-                        + p[4] * vn[i]
-                        + h[0] * (w0[i] + h0)
-                        + h[1] * (w0[i - 1] + h0)
-                        + h[2] * (w0[i + 1] + h0)
-                        + h[3] * (ws[i] + h0)
-                        + h[4] * (wn[i] + h0);
-                }
+                let v = around(grid, v, j);
+                let w = around(grid, w, j);
+                let row = self.row(j);
+                let (a_p, a_h) = row.split_at(STENCIL * nx);
+                apply_row(a_p, v[0], v[1], v[2], out);
+                add_deflected_row(a_h, w[0], w[1], w[2], h0, out);
             });
     }
 
-    /// `out = A_P v + e v`: the local part with an extra diagonal `e`.
-    pub fn apply_local(&self, grid: &Grid, extra: &[f32], v: &[f32], out: &mut [f32]) {
+    /// `out = (r − A_P v − e v) f`: what the local part with an extra diagonal `e` leaves of `r`, times `f`.
+    pub fn local_rest(
+        &self,
+        grid: &Grid,
+        extra: &[f32],
+        v: &[f32],
+        r: &[f32],
+        factor: &[f32],
+        out: &mut [f32],
+    ) {
         let nx = grid.nx;
         let interior = grid.interior_rows();
         out.par_chunks_mut(nx)
             .enumerate()
             .with_min_len(8)
             .for_each(|(j, out)| {
-                out.fill(0.0);
                 if !interior.contains(&j) {
+                    out.fill(0.0);
                     return;
                 }
-                let (south, north) = (grid.row_below(j) * nx, grid.row_above(j) * nx);
-                for i in 1..nx - 1 {
-                    let n = j * nx + i;
-                    let p = &self.rows[n].a_p;
-                    out[i] = (p[0] + extra[n]) * v[n]
-                        + p[1] * v[n - 1]
-                        + p[2] * v[n + 1]
-                        + p[3] * v[south + i]
-                        + p[4] * v[north + i];
-                }
+                let here = j * nx..(j + 1) * nx;
+                let v = around(grid, v, j);
+                apply_row(&self.row(j)[..STENCIL * nx], v[0], v[1], v[2], out);
+                rest_row(
+                    &extra[here.clone()],
+                    v[0],
+                    &r[here.clone()],
+                    &factor[here],
+                    out,
+                );
             });
     }
+}
+
+/// Row `j` of a field and the rows below and above it.
+fn around<'a>(grid: &Grid, field: &'a [f32], j: usize) -> [&'a [f32]; 3] {
+    let row = |j: usize| &field[j * grid.nx..(j + 1) * grid.nx];
+    [row(j), row(grid.row_below(j)), row(grid.row_above(j))]
+}
+
+/// The five lines of a stencil, each of length `nx`.
+#[inline(always)]
+fn lines(stencil: &[f32], nx: usize) -> [&[f32]; STENCIL] {
+    std::array::from_fn(|k| &stencil[k * nx..(k + 1) * nx])
+}
+
+dispatched! {
+fn apply_row(a: &[f32], here: &[f32], south: &[f32], north: &[f32], out: &mut [f32]) {
+    let nx = out.len();
+    let [c, w, e, s, n] = lines(a, nx);
+    let (here, south, north) = (&here[..nx], &south[..nx], &north[..nx]);
+    out[0] = 0.0;
+    out[nx - 1] = 0.0;
+    for i in 1..nx - 1 {
+        out[i] = c[i] * here[i]
+            + w[i] * here[i - 1]
+            + e[i] * here[i + 1]
+            + s[i] * south[i]
+            + n[i] * north[i];
+    }
+}
+}
+
+dispatched! {
+fn add_deflected_row(
+    a: &[f32],
+    here: &[f32],
+    south: &[f32],
+    north: &[f32],
+    h0: f32,
+    out: &mut [f32],
+) {
+    let nx = out.len();
+    let [c, w, e, s, n] = lines(a, nx);
+    let (here, south, north) = (&here[..nx], &south[..nx], &north[..nx]);
+    for i in 1..nx - 1 {
+        out[i] += c[i] * (here[i] + h0)
+            + w[i] * (here[i - 1] + h0)
+            + e[i] * (here[i + 1] + h0)
+            + s[i] * (south[i] + h0)
+            + n[i] * (north[i] + h0);
+    }
+}
+}
+
+dispatched! {
+fn rest_row(extra: &[f32], v: &[f32], r: &[f32], factor: &[f32], out: &mut [f32]) {
+    let nx = out.len();
+    let (extra, v, r, factor) = (&extra[..nx], &v[..nx], &r[..nx], &factor[..nx]);
+    for i in 0..nx {
+        out[i] = (r[i] - out[i] - extra[i] * v[i]) * factor[i];
+    }
+}
 }

@@ -185,9 +185,7 @@ impl Krylov {
                 out.copy_from_slice(&work[j * nx..(j + 1) * nx]);
                 for (m, b) in known.iter().enumerate() {
                     let h = column[m] as f32;
-                    for (o, &b) in out.iter_mut().zip(&b[j * nx..(j + 1) * nx]) {
-                        *o -= h * b;
-                    }
+                    subtract(h, &b[j * nx..(j + 1) * nx], out);
                 }
                 partial[0] = dot(out, out);
             });
@@ -237,6 +235,7 @@ impl Krylov {
     }
 }
 
+dispatched! {
 fn dot(a: &[f32], b: &[f32]) -> f64 {
     let mut lanes = [0.0_f32; 16];
     let (a_chunks, b_chunks) = (a.chunks_exact(16), b.chunks_exact(16));
@@ -252,6 +251,16 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
         }
     }
     lanes.iter().map(|&v| f64::from(v)).sum::<f64>() + f64::from(tail)
+}
+}
+
+dispatched! {
+/// `y −= h x`.
+fn subtract(h: f32, x: &[f32], y: &mut [f32]) {
+    for (y, &x) in y.iter_mut().zip(x) {
+        *y -= h * x;
+    }
+}
 }
 
 fn norm(a: &[f32]) -> f64 {

@@ -12,18 +12,21 @@
 //! is given in (time, or distance at U). Memory is bounded: when the samples of one period do not fit,
 //! neighbours are merged in pairs, which leaves the mean as it is. A warm `push` allocates nothing.
 
+use serde::{Deserialize, Serialize};
+
 use std::collections::VecDeque;
 
 use super::stress::Loading;
-use crate::math::ln_sum::ln_sum;
+use crate::math::ln_sum::{ln_list, ln_sum};
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::{CyclePair, IntegralLogs, LifeFactors, LifeLaw};
 use crate::physics::life_models::CycleProfile;
 
 /// ln of every depth's share of J, for each of the four loadings (`[loading · depths + k]`).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Shares {
     depths: usize,
+    #[serde(with = "ln_list")]
     logs: Vec<f64>,
 }
 
@@ -58,14 +61,14 @@ impl Shares {
 }
 
 /// One sample, or several merged.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Phase {
     span: f64,
     shares: Shares,
 }
 
 /// Mean over the last period.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LifeMeter {
     period: f64,
     phases: VecDeque<Phase>,
@@ -103,6 +106,18 @@ impl LifeMeter {
             samples: 0,
             mean: Shares::new(depths),
         }
+    }
+
+    /// Makes the room again that a copy or a file does not keep.
+    pub fn make_room(&mut self) {
+        let room = |held: usize| (self.capacity + 1).saturating_sub(held);
+        self.phases.reserve_exact(room(self.phases.len()));
+        self.spare.reserve_exact(room(self.spare.len()));
+    }
+
+    /// Takes the mean over `period` from now on.
+    pub fn set_period(&mut self, period: f64) {
+        self.period = period;
     }
 
     /// Forgets the samples (after a change of load, speed or roughness).
@@ -183,7 +198,7 @@ impl LifeMeter {
 }
 
 /// The greatest of every row, or of every depth, over all samples since the last restart.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
     tops: [Vec<f32>; 4],
 }

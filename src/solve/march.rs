@@ -3,9 +3,10 @@
 //! One attempt of a step: predict, convect, solve; nothing is committed until the caller has seen the
 //! verdict. `State` is what a restart needs; everything else can be made again.
 
+use super::dry::{Dry, DryProblem};
 use super::film::macroscopic_gap;
 use super::history::History;
-use super::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance};
+use super::newton::{CARRIED, Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
 use super::reynolds::Medium;
 use super::tangential::{Shear, Tangential};
 use super::traction::TractionLaw;
@@ -45,6 +46,8 @@ pub struct March {
     pub gap: Vec<f64>,
     /// Solver.
     pub newton: Newton,
+    /// Solver of dry contacts; `None`: there is a film.
+    pub dry: Option<Dry>,
     c_star: Vec<f64>,
     s: Vec<f64>,
     mass: Vec<f64>,
@@ -146,7 +149,9 @@ impl March {
         let mut macroscopic = vec![0.0; n];
         macroscopic_gap(&grid, shape.curvature_y, &mut macroscopic);
         let zero = vec![0.0; n];
+        let dry = (flow == Flow::Dry).then(|| Dry::new(&grid, &newton.elastic));
         Self {
+            dry,
             state: State {
                 pressure: zero.clone(),
                 film: zero.clone(),
@@ -180,6 +185,9 @@ impl March {
                 self.state.h0 = history.h0[0];
             }
         }
+        if self.flow == Flow::Dry {
+            return self.attempt_dry(conditions);
+        }
         let problem = Problem {
             grid: &self.grid,
             medium: conditions.medium,
@@ -200,13 +208,68 @@ impl March {
         )
     }
 
+    /// A dry step. Deflection by traction (unlike bodies) is at most βμ, some per cent, of that by
+    /// pressure: it is taken from the last pressure and solved again until nothing moves.
+    fn attempt_dry(&mut self, conditions: &Conditions) -> NewtonReport {
+        /// Solutions at most; each gains a factor of about βμ ≤ 0.1.
+        const PASSES: usize = 12;
+        let mut whole = NewtonReport::nothing();
+        let Some(dry) = &mut self.dry else {
+            return whole;
+        };
+        let newton = &mut self.newton;
+        // Without a film nothing is convected: C* is free to hold the gap.
+        let gap = &mut self.c_star;
+        for pass in 0..PASSES {
+            gap.copy_from_slice(&self.gap);
+            let shear = newton.shear.as_mut().zip(conditions.law);
+            let is_coupled = shear.is_some();
+            if let Some((shear, law)) = shear {
+                shear.add_to_dry(law, &self.state.pressure, gap);
+            }
+            let report = dry.solve(
+                &mut newton.elastic,
+                &DryProblem {
+                    grid: &self.grid,
+                    gap,
+                    load: conditions.load,
+                    tolerance: conditions.tolerance,
+                },
+                &mut Iterate {
+                    p: &mut self.state.pressure,
+                    h: &mut self.state.film,
+                    h0: &mut self.state.h0,
+                },
+            );
+            whole.add(&report);
+            let settled = !is_coupled || (pass > 0 && report.iterations == 0);
+            if settled || report.verdict != Verdict::Converged {
+                return whole;
+            }
+        }
+        whole.verdict = Verdict::Stalled;
+        whole
+    }
+
     /// Commits the step that was attempted last.
     pub fn commit(&mut self, nodes: f64) {
+        if self.flow == Flow::Dry {
+            let State {
+                film,
+                history,
+                pressure,
+                h0,
+            } = &mut self.state;
+            return history.commit(film, pressure, *h0, nodes);
+        }
         for (n, mass) in self.mass.iter_mut().enumerate() {
             let full = self.newton.reynolds.rho(n) * self.state.film[n];
-            let ruptured = self.flow == Flow::MassConserving && self.state.pressure[n] == 0.0;
-            let missing = if ruptured {
-                self.newton.reynolds.residual[n].max(0.0)
+            let left = self.newton.reynolds.residual[n];
+            let missing = if self.state.pressure[n] > 0.0 {
+                // The unbalanced rest of a converged step is mass that the next one must find again.
+                left.clamp(-CARRIED * full.abs(), CARRIED * full.abs())
+            } else if self.flow == Flow::MassConserving {
+                left.max(0.0)
             } else {
                 0.0
             };

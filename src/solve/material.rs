@@ -28,6 +28,8 @@
 //!
 //! Lengths in a, stress in p_h. Memory is made once; steps allocate nothing.
 
+use serde::{Deserialize, Serialize};
+
 pub use super::axis::Line;
 use super::damage::{BlockSpec, DamageMap};
 use super::tally::{Crossing, History, mean};
@@ -38,7 +40,7 @@ pub use super::tally::{DamageBasis, Tally};
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// What is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TrackerSpec {
     /// Points, staggered over the track; at least 8 for a mean over phases.
     pub points: usize,
@@ -92,7 +94,7 @@ impl TrackerSpec {
     }
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Point {
     x: f64,
     crossing: Crossing,
@@ -112,7 +114,7 @@ impl Point {
 }
 
 /// A sample of the shown point.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sample {
     /// Where it is, a.
     pub x: f64,
@@ -125,7 +127,7 @@ pub struct Sample {
 }
 
 /// Points of one body under way.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct MaterialTracker {
     spec: TrackerSpec,
     points: Vec<Point>,
@@ -143,23 +145,19 @@ impl MaterialTracker {
     pub fn new(spec: TrackerSpec) -> Self {
         let length = spec.x_last - spec.x_first;
         let count = spec.points.max(1);
+        let below = |gate: f64, basis: DamageBasis| History::new(gate, basis, History::OPEN_BELOW);
         let point = |i: usize| Point {
             x: spec.x_first + length * (GOLDEN * i as f64).fract(),
             crossing: Crossing::New,
             place: 0.0,
             pressure: History::new(spec.pressure_gate, DamageBasis::Ranges, History::OPEN),
-            shear: vec![
-                History::new(spec.shear_gate, DamageBasis::Ranges, History::OPEN_BELOW);
-                spec.depths
-            ],
-            effective: vec![
-                History::new(
-                    spec.effective_gate,
-                    DamageBasis::Peaks,
-                    History::OPEN_BELOW
-                );
-                spec.depths
-            ],
+            // Each made anew: a clone would not have the room.
+            shear: (0..spec.depths)
+                .map(|_| below(spec.shear_gate, DamageBasis::Ranges))
+                .collect(),
+            effective: (0..spec.depths)
+                .map(|_| below(spec.effective_gate, DamageBasis::Peaks))
+                .collect(),
         };
         let mut tracker = Self {
             spec,

@@ -7,9 +7,10 @@
 //! update    P ← max(P + t v, 0), H0 ← H0 + t h0,  t halved until the natural residual falls
 //! natural residual  φ = min(P, F/D): zero exactly at the solution
 //! ```
-//! Converged when the last change of pressure Σ|dP|/ΣP, the mass error Σ|F|/Σρ̄H over the
-//! pressurised nodes and the load error are below their tolerances. Not converging is a verdict,
-//! never a panic; nothing is committed by this file.
+//! Converged when the last change of pressure Σ|dP|/ΣP, the film error Σ|F|/Σρ̄H over the pressurised
+//! nodes, the mass error and the load error are below their tolerances. What is left of F up to
+//! [`CARRIED`] of the film is not lost: the next step takes it over (`march.rs`), so the mass error counts
+//! only what lies beyond. Not converging is a verdict, never a panic; nothing is committed by this file.
 
 use super::film::Elastic;
 use super::jacobian::Jacobian;
@@ -27,11 +28,17 @@ const FORCING: f64 = 0.1;
 /// Most halvings of the line search.
 const MAX_HALVINGS: u32 = 4;
 
+/// Part of a node's film that a step may leave unbalanced and hand on to the next one. Steps that leave
+/// more are not trusted with their own residual: a loose step that hands on all of it blows up near dry.
+pub const CARRIED: f64 = 0.1;
+
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// Σ|dP|/ΣP of the last iteration.
     pub pressure: f64,
+    /// Film error.
+    pub film: f64,
     /// Mass error.
     pub mass: f64,
     /// Load error.
@@ -65,11 +72,39 @@ pub struct NewtonReport {
     /// Last Σ|dP|/ΣP.
     pub change: f64,
     /// Σ|F| over Σ ρ̄H, pressurised nodes.
+    pub film_error: f64,
+    /// The part of it that the next step does not take over.
     pub mass_error: f64,
     /// |ΣP − load|/load.
     pub load_error: f64,
     /// Node of the largest |φ|.
     pub worst_node: usize,
+}
+
+impl NewtonReport {
+    /// Nothing done yet.
+    pub(super) fn nothing() -> Self {
+        Self {
+            verdict: Verdict::Stalled,
+            iterations: 0,
+            linear_iterations: 0,
+            evaluations: 0,
+            change: f64::INFINITY,
+            film_error: 0.0,
+            mass_error: 0.0,
+            load_error: 0.0,
+            worst_node: 0,
+        }
+    }
+
+    /// Takes what a further solution reached and adds what it took.
+    pub(super) fn add(&mut self, further: &Self) {
+        let before = *self;
+        *self = *further;
+        self.iterations += before.iterations;
+        self.linear_iterations += before.linear_iterations;
+        self.evaluations += before.evaluations;
+    }
 }
 
 /// What a step is solved against.
@@ -127,10 +162,38 @@ pub struct Newton {
 
 struct Evaluation {
     merit: f64,
+    film_error: f64,
     mass_error: f64,
     load: f64,
-    worst: usize,
+    worst_row: usize,
     finite: bool,
+}
+
+/// Sums over the nodes of a row, or of the grid by area.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    /// φ².
+    merit: f64,
+    /// |F|, pressurised nodes.
+    film: f64,
+    /// |F| beyond what is carried, pressurised nodes.
+    lost: f64,
+    /// ρ̄H, pressurised nodes.
+    mass: f64,
+    /// P.
+    load: f64,
+    /// Largest |φ|.
+    largest: f64,
+}
+
+impl Sums {
+    fn add(&mut self, row: &Self, weight: f64) {
+        self.merit += weight * row.merit;
+        self.film += weight * row.film;
+        self.lost += weight * row.lost;
+        self.mass += weight * row.mass;
+        self.load += weight * row.load;
+    }
 }
 
 impl Newton {
@@ -166,6 +229,7 @@ impl Newton {
             linear_iterations: 0,
             evaluations: 0,
             change: f64::INFINITY,
+            film_error: f64::INFINITY,
             mass_error: f64::INFINITY,
             load_error: f64::INFINITY,
             worst_node: 0,
@@ -173,13 +237,13 @@ impl Newton {
         let mut now = self.evaluate(problem, iterate, &mut report);
         loop {
             // Dry: there is no flow whose mass could be lost.
-            report.mass_error = if problem.medium.lambda.is_finite() {
-                now.mass_error
+            (report.film_error, report.mass_error) = if problem.medium.lambda.is_finite() {
+                (now.film_error, now.mass_error)
             } else {
-                0.0
+                (0.0, 0.0)
             };
             report.load_error = (now.load / problem.load - 1.0).abs();
-            report.worst_node = now.worst;
+            report.worst_node = self.worst_node(problem.grid, iterate.p, now.worst_row);
             if !now.finite {
                 report.verdict = Verdict::NotFinite;
                 return report;
@@ -199,6 +263,7 @@ impl Newton {
 
     fn is_converged(tolerance: &Tolerance, report: &NewtonReport) -> bool {
         report.change <= tolerance.pressure
+            && report.film_error <= tolerance.film
             && report.mass_error <= tolerance.mass
             && report.load_error <= tolerance.load
     }
@@ -235,36 +300,43 @@ impl Newton {
 
     fn judge(&self, problem: &Problem, iterate: &Iterate) -> Evaluation {
         let grid = problem.grid;
-        let (mut merit, mut lost, mut mass, mut load) = (0.0, 0.0, 0.0, 0.0);
-        let (mut worst, mut largest) = (0, 0.0);
+        let mut total = Sums::default();
+        let (mut worst_row, mut largest) = (0, 0.0);
         for j in grid.interior_rows() {
-            let weight = grid.weight(j);
-            let (mut m, mut l, mut c, mut q) = (0.0, 0.0, 0.0, 0.0);
-            for n in j * grid.nx + 1..(j + 1) * grid.nx - 1 {
-                let (f, p) = (self.reynolds.residual[n], iterate.p[n]);
-                let phi = p.min(f / self.reference[n]);
-                m += phi * phi;
-                if phi.abs() > largest {
-                    (worst, largest) = (n, phi.abs());
-                }
-                if p > 0.0 {
-                    l += f.abs();
-                    c += (self.reynolds.rho(n) * iterate.h[n]).abs();
-                    q += p;
-                }
+            let here = j * grid.nx..(j + 1) * grid.nx;
+            let row = sum_row(
+                &self.reynolds.residual[here.clone()],
+                &iterate.p[here.clone()],
+                &self.reference[here.clone()],
+                &self.reynolds.densities()[here.clone()],
+                &iterate.h[here],
+            );
+            if row.largest > largest {
+                (worst_row, largest) = (j, row.largest);
             }
-            merit += m * weight;
-            lost += l * weight;
-            mass += c * weight;
-            load += q * weight;
+            total.add(&row, grid.weight(j));
         }
+        let mass = total.mass.max(f64::MIN_POSITIVE);
         Evaluation {
-            merit,
-            mass_error: lost / mass.max(f64::MIN_POSITIVE),
-            load,
-            worst,
-            finite: merit.is_finite() && load.is_finite(),
+            merit: total.merit,
+            film_error: total.film / mass,
+            mass_error: total.lost / mass,
+            load: total.load,
+            worst_row,
+            finite: total.merit.is_finite() && total.load.is_finite(),
         }
+    }
+
+    /// Node of the largest |φ|.
+    fn worst_node(&self, grid: &Grid, p: &[f64], row: usize) -> usize {
+        let phi = |n: usize| {
+            p[n].min(self.reynolds.residual[n] / self.reference[n])
+                .abs()
+        };
+        let nodes = row * grid.nx + 1..(row + 1) * grid.nx - 1;
+        nodes
+            .max_by(|&a, &b| phi(a).total_cmp(&phi(b)))
+            .unwrap_or_default()
     }
 
     /// Marks the active nodes, P − F/D > 0, and notes v = −P of the others; whether any of them carries
@@ -401,4 +473,45 @@ impl Newton {
         }
         unreachable!("the last halving returns")
     }
+}
+
+/// Values side by side in the sums of a row.
+const LANES: usize = 8;
+
+dispatched! {
+/// Sums over one row; the boundary adds nothing, because F and P are zero there.
+fn sum_row(f: &[f64], p: &[f64], reference: &[f64], rho: &[f64], h: &[f64]) -> Sums {
+    let mut lanes = [[0.0_f64; LANES]; 6];
+    let n = f.len();
+    let (p, reference, rho, h) = (&p[..n], &reference[..n], &rho[..n], &h[..n]);
+    let mut take = |i: usize, k: usize| {
+        let phi = p[i].min(f[i] / reference[i]);
+        let pressed = if p[i] > 0.0 { 1.0 } else { 0.0 };
+        let (left, full) = (f[i].abs(), (rho[i] * h[i]).abs());
+        lanes[0][k] += phi * phi;
+        lanes[1][k] += pressed * left;
+        lanes[2][k] += pressed * (left - CARRIED * full).max(0.0);
+        lanes[3][k] += pressed * full;
+        lanes[4][k] += p[i];
+        lanes[5][k] = if phi.abs() > lanes[5][k] { phi.abs() } else { lanes[5][k] };
+    };
+    let blocks = n / LANES;
+    for b in 0..blocks {
+        for k in 0..LANES {
+            take(b * LANES + k, k);
+        }
+    }
+    for i in blocks * LANES..n {
+        take(i, 0);
+    }
+    let sum = |lane: &[f64; LANES]| lane.iter().sum::<f64>();
+    Sums {
+        merit: sum(&lanes[0]),
+        film: sum(&lanes[1]),
+        lost: sum(&lanes[2]),
+        mass: sum(&lanes[3]),
+        load: sum(&lanes[4]),
+        largest: lanes[5].iter().copied().fold(0.0, f64::max),
+    }
+}
 }

@@ -20,7 +20,9 @@
 
 use rayon::prelude::*;
 
-use super::jacobian::Jacobian;
+use super::faces::{Faces, Nodes, Slopes, conductances};
+use super::jacobian::{Jacobian, STENCIL};
+use crate::math::elementary::exp;
 use crate::math::grid::Grid;
 use crate::physics::fluid::{Density, Viscosity, eyring_ln_factor};
 
@@ -40,36 +42,33 @@ pub struct Medium {
     pub sliding: f64,
 }
 
-/// Values of one node that the faces need.
-#[derive(Debug, Clone, Copy, Default)]
-struct Node {
-    /// ρ̄H³ and derivatives with respect to P and H.
-    q: f64,
-    q_p: f64,
-    q_h: f64,
-    /// 1/η̄*, its logarithm and derivatives.
-    g: f64,
-    ln_g: f64,
-    g_p: f64,
-    g_h: f64,
-    /// ρ̄ and its derivative.
-    rho: f64,
-    rho_p: f64,
-}
-
-/// A face's conductance and derivatives; "a" is this node, "b" the neighbour.
-#[derive(Debug, Clone, Copy, Default)]
-struct Face {
-    tau: f64,
-    p_a: f64,
-    h_a: f64,
-    p_b: f64,
-    h_b: f64,
+/// Scratch of one block of rows.
+struct Scratch {
+    east: Faces,
+    /// Faces below and above the row at hand.
+    south: Faces,
+    north: Faces,
+    /// ∂q/∂P and ∂q/∂H of the row below, at hand and above.
+    q_p: [Vec<f64>; 2],
+    q_h: [Vec<f64>; 2],
 }
 
 /// Node properties and the residual of the current iterate.
 pub struct Reynolds {
-    nodes: Vec<Node>,
+    /// ρ̄H³.
+    q: Vec<f64>,
+    /// g = 1/η̄*, its logarithm and the logarithm's derivatives.
+    g: Vec<f64>,
+    ln_g: Vec<f64>,
+    ln_g_p: Vec<f64>,
+    ln_g_h: Vec<f64>,
+    /// ρ̄ and its derivative.
+    rho: Vec<f64>,
+    rho_p: Vec<f64>,
+    /// Conductance over λ of the faces with the eastern neighbour and with the row above.
+    east: Vec<f64>,
+    north: Vec<f64>,
+    scratch: Vec<Scratch>,
     /// F, film units.
     pub residual: Vec<f64>,
     /// D.
@@ -85,32 +84,98 @@ impl Reynolds {
     /// Buffers for `grid`.
     pub fn new(grid: &Grid) -> Self {
         let n = grid.len();
+        let zero = vec![0.0; n];
+        let scratch = (0..grid.ny.div_ceil(ROWS))
+            .map(|_| Scratch {
+                east: Faces::new(grid.nx),
+                south: Faces::new(grid.nx),
+                north: Faces::new(grid.nx),
+                q_p: [vec![0.0; grid.nx], vec![0.0; grid.nx]],
+                q_h: [vec![0.0; grid.nx], vec![0.0; grid.nx]],
+            })
+            .collect();
         Self {
-            nodes: vec![Node::default(); n],
-            residual: vec![0.0; n],
+            q: zero.clone(),
+            g: zero.clone(),
+            ln_g: zero.clone(),
+            ln_g_p: zero.clone(),
+            ln_g_h: zero.clone(),
+            rho: vec![1.0; n],
+            rho_p: zero.clone(),
+            east: zero.clone(),
+            north: zero.clone(),
+            scratch,
+            residual: zero.clone(),
             diagonal: vec![1.0; n],
-            conductance: vec![0.0; n],
+            conductance: zero,
             row_scale: vec![1.0; n],
         }
     }
 
     /// Density of node `n` at the last call of [`Reynolds::properties`].
     pub fn rho(&self, n: usize) -> f64 {
-        self.nodes[n].rho
+        self.rho[n]
+    }
+
+    /// Densities of all nodes at the last call of [`Reynolds::properties`].
+    pub fn densities(&self) -> &[f64] {
+        &self.rho
     }
 
     /// Evaluates the fluid laws at every node.
     pub fn properties(&mut self, grid: &Grid, medium: &Medium, p: &[f64], h: &[f64]) {
+        let block = ROWS * grid.nx;
+        self.q
+            .par_chunks_mut(block)
+            .zip(self.g.par_chunks_mut(block))
+            .zip(self.ln_g.par_chunks_mut(block))
+            .zip(self.ln_g_p.par_chunks_mut(block))
+            .zip(self.ln_g_h.par_chunks_mut(block))
+            .zip(self.rho.par_chunks_mut(block))
+            .zip(self.rho_p.par_chunks_mut(block))
+            .zip(p.par_chunks(block))
+            .zip(h.par_chunks(block))
+            .for_each(
+                |((((((((q, g), ln_g), ln_g_p), ln_g_h), rho), rho_p), p), h)| {
+                    density_values(medium.density, p, h, q, rho, rho_p);
+                    shear_values(medium, p, h, g, ln_g, ln_g_p, ln_g_h);
+                },
+            );
+    }
+
+    /// Values of grid row `j` that faces need.
+    fn nodes(&self, range: std::ops::Range<usize>) -> Nodes<'_> {
+        Nodes {
+            q: &self.q[range.clone()],
+            g: &self.g[range.clone()],
+            ln_g: &self.ln_g[range],
+        }
+    }
+
+    /// Conductances of all faces.
+    fn fill_faces(&mut self, grid: &Grid, lambda: f64) {
         let nx = grid.nx;
-        self.nodes
-            .par_chunks_mut(ROWS * nx)
-            .zip(p.par_chunks(ROWS * nx))
-            .zip(h.par_chunks(ROWS * nx))
-            .for_each(|((nodes, p), h)| {
-                for ((node, &p), &h) in nodes.iter_mut().zip(p).zip(h) {
-                    *node = node_values(medium, p, h);
+        let (mut east, mut north) = (
+            std::mem::take(&mut self.east),
+            std::mem::take(&mut self.north),
+        );
+        let this = &*self;
+        east.par_chunks_mut(nx)
+            .zip(north.par_chunks_mut(nx))
+            .enumerate()
+            .with_min_len(ROWS)
+            .for_each(|(j, (east, north))| {
+                let a = this.nodes(j * nx..(j + 1) * nx - 1);
+                let b = this.nodes(j * nx + 1..(j + 1) * nx);
+                let out = &mut east[..nx - 1];
+                conductances(a.q, a.g, a.ln_g, b.q, b.g, b.ln_g, 1.0 / lambda, out);
+                if j + 1 < grid.ny {
+                    let a = this.nodes(j * nx..(j + 1) * nx);
+                    let b = this.nodes((j + 1) * nx..(j + 2) * nx);
+                    conductances(a.q, a.g, a.ln_g, b.q, b.g, b.ln_g, 1.0 / lambda, north);
                 }
             });
+        (self.east, self.north) = (east, north);
     }
 
     /// F and D from the properties.
@@ -124,10 +189,11 @@ impl Reynolds {
         c_star: &[f64],
         s: &[f64],
     ) {
+        self.fill_faces(grid, lambda);
         let nx = grid.nx;
-        let nodes = &self.nodes;
-        let (wx, wy) = grid.flow_weights();
+        let weights = grid.flow_weights();
         let interior = grid.interior_rows();
+        let (rho, east, north) = (&self.rho, &self.east, &self.north);
         self.residual
             .par_chunks_mut(nx)
             .zip(self.diagonal.par_chunks_mut(nx))
@@ -143,25 +209,38 @@ impl Reynolds {
                 if !interior.contains(&j) {
                     return;
                 }
-                let (south, north) = (grid.row_below(j) * nx, grid.row_above(j) * nx);
-                for i in 1..nx - 1 {
-                    let n = j * nx + i;
-                    let conductance = |m: usize| face_conductance(&nodes[n], &nodes[m]) / lambda;
-                    let (w, e) = (conductance(n - 1), conductance(n + 1));
-                    let (so, no) = (conductance(south + i), conductance(north + i));
-                    let flow = wx * (e * (p[n + 1] - p[n]) + w * (p[n - 1] - p[n]))
-                        + wy * (no * (p[north + i] - p[n]) + so * (p[south + i] - p[n]));
-                    f[i] = nodes[n].rho * h[n] - c_star[n] - s[n] * flow;
-                    d[i] = nodes[n].rho * k00 + s[n] * (wx * (e + w) + wy * (no + so));
-                    scale[i] = (d[i] * k00).sqrt();
-                    t[i] = 0.25 * (e + w + no + so);
-                }
+                let row = |j: usize| j * nx..(j + 1) * nx;
+                let here = row(j);
+                let (south, above) = (row(grid.row_below(j)), row(grid.row_above(j)));
+                let below = row(face_below(grid, j));
+                balance_row(
+                    &p[here.clone()],
+                    &p[south],
+                    &p[above],
+                    &east[here.clone()],
+                    &north[below],
+                    &north[here.clone()],
+                    &s[here.clone()],
+                    weights,
+                    f,
+                    d,
+                    t,
+                );
+                finish_row(
+                    &rho[here.clone()],
+                    &h[here.clone()],
+                    &c_star[here],
+                    k00,
+                    f,
+                    d,
+                    scale,
+                );
             });
     }
 
     /// The derivative of F, rows divided by `row_scale`; rows where `active` is false are zero.
     pub fn linearise(
-        &self,
+        &mut self,
         grid: &Grid,
         lambda: f64,
         p: &[f64],
@@ -170,129 +249,365 @@ impl Reynolds {
         active: &[bool],
         jacobian: &mut Jacobian,
     ) {
-        let nx = grid.nx;
-        let nodes = &self.nodes;
-        let (wx, wy) = grid.flow_weights();
         let interior = grid.interior_rows();
-        let row_scale = &self.row_scale;
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let this = &*self;
         jacobian
-            .rows
-            .par_chunks_mut(nx)
+            .rows_mut()
+            .chunks(ROWS)
+            .zip(scratch.par_iter_mut())
             .enumerate()
-            .with_min_len(ROWS)
-            .for_each(|(j, rows)| {
-                rows.fill(super::jacobian::Row::default());
-                if !interior.contains(&j) {
-                    return;
-                }
-                let (south, north) = (grid.row_below(j) * nx, grid.row_above(j) * nx);
-                for (i, row) in rows.iter_mut().enumerate().take(nx - 1).skip(1) {
-                    let n = j * nx + i;
-                    if !active[n] {
+            .for_each(|(b, (rows, scratch))| {
+                for (k, row) in rows.into_iter().enumerate() {
+                    let j = b * ROWS + k;
+                    if !interior.contains(&j) {
+                        row.fill(0.0);
                         continue;
                     }
-                    let around = [(n - 1, wx), (n + 1, wx), (south + i, wy), (north + i, wy)];
-                    let scale = 1.0 / row_scale[n];
-                    let mut a_p = [0.0_f64; 5];
-                    let mut a_h = [0.0_f64; 5];
-                    a_p[0] = nodes[n].rho_p * h[n];
-                    a_h[0] = nodes[n].rho;
-                    for (k, (m, weight)) in around.into_iter().enumerate() {
-                        let face = face_derivatives(&nodes[n], &nodes[m]);
-                        let w = s[n] * weight / lambda;
-                        let dp = p[m] - p[n];
-                        a_p[0] += w * (face.tau - face.p_a * dp);
-                        a_p[k + 1] = -w * (face.tau + face.p_b * dp);
-                        a_h[0] -= w * face.h_a * dp;
-                        a_h[k + 1] = -w * face.h_b * dp;
-                    }
-                    row.set(scale, &a_p, &a_h);
+                    this.linearise_row(grid, lambda, p, h, s, active, j, scratch, row);
                 }
             });
+        self.scratch = scratch;
+    }
+
+    fn linearise_row(
+        &self,
+        grid: &Grid,
+        lambda: f64,
+        p: &[f64],
+        h: &[f64],
+        s: &[f64],
+        active: &[bool],
+        j: usize,
+        scratch: &mut Scratch,
+        row: &mut [f32],
+    ) {
+        let nx = grid.nx;
+        let range = |j: usize| j * nx..(j + 1) * nx;
+        let here = range(j);
+        let [q_p, other_q_p] = &mut scratch.q_p;
+        let [q_h, other_q_h] = &mut scratch.q_h;
+        let slopes = |range: std::ops::Range<usize>, q_p: &mut [f64], q_h: &mut [f64]| {
+            conductance_slopes(
+                &self.rho[range.clone()],
+                &self.rho_p[range.clone()],
+                &h[range],
+                q_p,
+                q_h,
+            );
+        };
+        slopes(here.clone(), q_p, q_h);
+        let (start, end) = (here.start, here.end);
+        scratch.east.fill(
+            self.nodes(start..end - 1),
+            self.slopes(start..end - 1, &q_p[..nx - 1], &q_h[..nx - 1]),
+            self.nodes(start + 1..end),
+            self.slopes(start + 1..end, &q_p[1..], &q_h[1..]),
+        );
+        for (faces, neighbour) in [
+            (&mut scratch.south, grid.row_below(j)),
+            (&mut scratch.north, grid.row_above(j)),
+        ] {
+            let there = range(neighbour);
+            slopes(there.clone(), other_q_p, other_q_h);
+            faces.fill(
+                self.nodes(here.clone()),
+                self.slopes(here.clone(), q_p, q_h),
+                self.nodes(there.clone()),
+                self.slopes(there, other_q_p, other_q_h),
+            );
+        }
+        let (wx, wy) = grid.flow_weights();
+        let (south, north) = (range(grid.row_below(j)), range(grid.row_above(j)));
+        let s = &s[here.clone()];
+        let row_scale = &self.row_scale[here.clone()];
+        let active = &active[here.clone()];
+        let p_here = &p[here.clone()];
+        row.fill(0.0);
+        let (a_p, a_h) = row.split_at_mut(STENCIL * nx);
+        let mut lines_p = a_p.chunks_exact_mut(nx);
+        let mut lines_h = a_h.chunks_exact_mut(nx);
+        let mut next = || {
+            let p = lines_p.next().expect("ten lines a row");
+            let h = lines_h.next().expect("ten lines a row");
+            (p, h)
+        };
+        let (own_p, own_h) = next();
+        storage_row(
+            &self.rho[here.clone()],
+            &self.rho_p[here.clone()],
+            &h[here],
+            own_p,
+            own_h,
+        );
+        let (west_p, west_h) = next();
+        let (east_p, east_h) = next();
+        let x = &scratch.east;
+        // The western face is the eastern one of the node before, seen from its other side.
+        flow_row(
+            &x.tau,
+            &x.p_b,
+            &x.h_b,
+            &x.p_a,
+            &x.h_a,
+            &p_here[1..],
+            &p_here[..nx - 1],
+            &s[1..],
+            wx / lambda,
+            &mut own_p[1..],
+            &mut own_h[1..],
+            &mut west_p[1..],
+            &mut west_h[1..],
+        );
+        flow_row(
+            &x.tau,
+            &x.p_a,
+            &x.h_a,
+            &x.p_b,
+            &x.h_b,
+            p_here,
+            &p_here[1..],
+            s,
+            wx / lambda,
+            &mut own_p[..nx - 1],
+            &mut own_h[..nx - 1],
+            &mut east_p[..nx - 1],
+            &mut east_h[..nx - 1],
+        );
+        for (y, neighbour) in [(&scratch.south, south), (&scratch.north, north)] {
+            let (other_p, other_h) = next();
+            flow_row(
+                &y.tau,
+                &y.p_a,
+                &y.h_a,
+                &y.p_b,
+                &y.h_b,
+                p_here,
+                &p[neighbour],
+                s,
+                wy / lambda,
+                own_p,
+                own_h,
+                other_p,
+                other_h,
+            );
+        }
+        for line in row.chunks_exact_mut(nx) {
+            scale_row(row_scale, active, line);
+        }
+    }
+
+    fn slopes<'a>(
+        &'a self,
+        range: std::ops::Range<usize>,
+        q_p: &'a [f64],
+        q_h: &'a [f64],
+    ) -> Slopes<'a> {
+        Slopes {
+            q_p,
+            q_h,
+            ln_g_p: &self.ln_g_p[range.clone()],
+            ln_g_h: &self.ln_g_h[range],
+        }
     }
 }
 
-#[inline]
-fn node_values(medium: &Medium, p: f64, h: f64) -> Node {
-    let (rho, rho_p) = medium.density.rho(p);
-    let (ln_eta, ln_eta_p) = if p == 0.0 {
-        (0.0, medium.viscosity.ln_eta(0.0).1)
+/// The row whose faces with the row above it are the faces of row `j` with the row below; mirrored.
+fn face_below(grid: &Grid, j: usize) -> usize {
+    grid.row_below(j).min(j)
+}
+
+dispatched! {
+fn density_values(
+    law: Density,
+    p: &[f64],
+    h: &[f64],
+    q: &mut [f64],
+    rho: &mut [f64],
+    rho_p: &mut [f64],
+) {
+    let n = p.len();
+    let (h, q, rho, rho_p) = (&h[..n], &mut q[..n], &mut rho[..n], &mut rho_p[..n]);
+    for i in 0..n {
+        let (value, slope) = law.rho(p[i]);
+        let open = h[i].max(0.0);
+        rho[i] = value;
+        rho_p[i] = slope;
+        q[i] = value * open * open * open;
+    }
+}
+}
+
+dispatched! {
+fn shear_values(
+    medium: &Medium,
+    p: &[f64],
+    h: &[f64],
+    g: &mut [f64],
+    ln_g: &mut [f64],
+    ln_g_p: &mut [f64],
+    ln_g_h: &mut [f64],
+) {
+    let n = p.len();
+    let (h, g, ln_g) = (&h[..n], &mut g[..n], &mut ln_g[..n]);
+    let (ln_g_p, ln_g_h) = (&mut ln_g_p[..n], &mut ln_g_h[..n]);
+    // One loop a law, so that the law is no branch inside of it.
+    match medium.viscosity {
+        law @ Viscosity::Barus { .. } => {
+            for i in 0..n {
+                (ln_g[i], ln_g_p[i]) = law.ln_eta(p[i]);
+            }
+        }
+        law @ Viscosity::Roelands { .. } => {
+            for i in 0..n {
+                (ln_g[i], ln_g_p[i]) = law.ln_eta(p[i]);
+            }
+        }
+    }
+    if medium.sliding > 0.0 {
+        for i in 0..n {
+            let (ln_eta, slope) = (ln_g[i], ln_g_p[i]);
+            // A closed gap conducts nothing, whatever its viscosity.
+            let open = if h[i] > 0.0 { h[i] } else { 1.0 };
+            let (factor, by_zeta) = eyring_ln_factor(medium.sliding / open * exp(ln_eta));
+            ln_g[i] = factor - ln_eta;
+            ln_g_p[i] = slope * (by_zeta - 1.0);
+            ln_g_h[i] = if h[i] > 0.0 { -by_zeta / open } else { 0.0 };
+            g[i] = exp(ln_g[i]);
+        }
     } else {
-        medium.viscosity.ln_eta(p)
-    };
-    let open = h.max(0.0);
-    let (mut ln_g, mut slope_p, mut slope_h) = (-ln_eta, -ln_eta_p, 0.0);
-    if medium.sliding > 0.0 && open > 0.0 {
-        let zeta = medium.sliding / open * ln_eta.exp();
-        let (factor, slope) = eyring_ln_factor(zeta);
-        ln_g += factor;
-        slope_p += slope * ln_eta_p;
-        slope_h = -slope / open;
-    }
-    let g = ln_g.exp();
-    Node {
-        q: rho * open * open * open,
-        q_p: rho_p * open * open * open,
-        q_h: 3.0 * rho * open * open,
-        g,
-        ln_g,
-        g_p: g * slope_p,
-        g_h: g * slope_h,
-        rho,
-        rho_p,
+        for i in 0..n {
+            ln_g[i] = -ln_g[i];
+            ln_g_p[i] = -ln_g_p[i];
+            ln_g_h[i] = 0.0;
+            g[i] = exp(ln_g[i]);
+        }
     }
 }
-
-/// Logarithmic mean of g and its derivatives with respect to both values.
-#[inline]
-fn log_mean(a: &Node, b: &Node) -> (f64, f64, f64) {
-    let d = a.ln_g - b.ln_g;
-    if d.abs() < 1e-3 {
-        // Series about equal values; the next terms are below 1e-13.
-        let mid = (a.g * b.g).sqrt();
-        let mean = mid * (1.0 + d * d / 24.0);
-        (
-            mean,
-            mid / a.g * (0.5 + d / 12.0),
-            mid / b.g * (0.5 - d / 12.0),
-        )
-    } else {
-        let mean = (a.g - b.g) / d;
-        (mean, (1.0 - mean / a.g) / d, (mean / b.g - 1.0) / d)
-    }
 }
 
-#[inline]
-fn face_conductance(a: &Node, b: &Node) -> f64 {
-    let sum = a.q + b.q;
-    if sum <= 0.0 {
-        return 0.0;
+dispatched! {
+/// `f = −s ∇·(τ∇P)`, `d = s Σ τ/d²`, `t` the mean conductance.
+fn balance_row(
+    p: &[f64],
+    p_south: &[f64],
+    p_north: &[f64],
+    east: &[f64],
+    south: &[f64],
+    north: &[f64],
+    s: &[f64],
+    (wx, wy): (f64, f64),
+    f: &mut [f64],
+    d: &mut [f64],
+    t: &mut [f64],
+) {
+    let n = p.len();
+    let (p_south, p_north, east) = (&p_south[..n], &p_north[..n], &east[..n]);
+    let (south, north, s) = (&south[..n], &north[..n], &s[..n]);
+    let (f, d, t) = (&mut f[..n], &mut d[..n], &mut t[..n]);
+    for i in 1..n - 1 {
+        let (w, e, so, no) = (east[i - 1], east[i], south[i], north[i]);
+        let flow = wx * (e * (p[i + 1] - p[i]) + w * (p[i - 1] - p[i]))
+            + wy * (no * (p_north[i] - p[i]) + so * (p_south[i] - p[i]));
+        f[i] = -s[i] * flow;
+        d[i] = s[i] * (wx * (e + w) + wy * (no + so));
+        t[i] = 0.25 * (e + w + no + so);
     }
-    let d = a.ln_g - b.ln_g;
-    let mean = if d.abs() < 1e-3 {
-        0.5 * (a.g + b.g) * (1.0 - d * d / 12.0)
-    } else {
-        (a.g - b.g) / d
-    };
-    2.0 * a.q * b.q / sum * mean
+}
 }
 
-#[inline]
-fn face_derivatives(a: &Node, b: &Node) -> Face {
-    let sum = a.q + b.q;
-    if sum <= 0.0 {
-        return Face::default();
+dispatched! {
+/// Adds what is stored and convected to F, the deformation to D; the scale of the linear rows.
+fn finish_row(
+    rho: &[f64],
+    h: &[f64],
+    c_star: &[f64],
+    k00: f64,
+    f: &mut [f64],
+    d: &mut [f64],
+    scale: &mut [f64],
+) {
+    let n = rho.len();
+    let (h, c_star) = (&h[..n], &c_star[..n]);
+    let (f, d, scale) = (&mut f[..n], &mut d[..n], &mut scale[..n]);
+    for i in 1..n - 1 {
+        f[i] += rho[i] * h[i] - c_star[i];
+        d[i] += rho[i] * k00;
+        scale[i] = (d[i] * k00).sqrt();
     }
-    let harmonic = 2.0 * a.q * b.q / sum;
-    let (by_a, by_b) = (2.0 * (b.q / sum).powi(2), 2.0 * (a.q / sum).powi(2));
-    let (mean, mean_a, mean_b) = log_mean(a, b);
-    Face {
-        tau: harmonic * mean,
-        p_a: by_a * a.q_p * mean + harmonic * mean_a * a.g_p,
-        h_a: by_a * a.q_h * mean + harmonic * mean_a * a.g_h,
-        p_b: by_b * b.q_p * mean + harmonic * mean_b * b.g_p,
-        h_b: by_b * b.q_h * mean + harmonic * mean_b * b.g_h,
+}
+}
+
+dispatched! {
+/// ∂q/∂P and ∂q/∂H.
+fn conductance_slopes(rho: &[f64], rho_p: &[f64], h: &[f64], q_p: &mut [f64], q_h: &mut [f64]) {
+    let n = rho.len();
+    let (rho_p, h, q_p, q_h) = (&rho_p[..n], &h[..n], &mut q_p[..n], &mut q_h[..n]);
+    for i in 0..n {
+        let open = h[i].max(0.0);
+        let square = open * open;
+        q_p[i] = rho_p[i] * square * open;
+        q_h[i] = 3.0 * rho[i] * square;
     }
+}
+}
+
+dispatched! {
+/// ∂(ρ̄H)/∂P and ∂(ρ̄H)/∂H.
+fn storage_row(rho: &[f64], rho_p: &[f64], h: &[f64], a_p: &mut [f32], a_h: &mut [f32]) {
+    let n = rho.len();
+    let (rho_p, h, a_p, a_h) = (&rho_p[..n], &h[..n], &mut a_p[..n], &mut a_h[..n]);
+    for i in 0..n {
+        a_p[i] = (rho_p[i] * h[i]) as f32;
+        a_h[i] = rho[i] as f32;
+    }
+}
+}
+
+dispatched! {
+/// Adds the flow through one face of every node: `own` are the derivatives of its conductance at the
+/// node itself, `other` those at the neighbour.
+fn flow_row(
+    tau: &[f64],
+    own_by_p: &[f64],
+    own_by_h: &[f64],
+    other_by_p: &[f64],
+    other_by_h: &[f64],
+    p: &[f64],
+    p_other: &[f64],
+    s: &[f64],
+    weight: f64,
+    own_p: &mut [f32],
+    own_h: &mut [f32],
+    other_p: &mut [f32],
+    other_h: &mut [f32],
+) {
+    let n = own_p.len();
+    let (tau, own_by_p, own_by_h) = (&tau[..n], &own_by_p[..n], &own_by_h[..n]);
+    let (other_by_p, other_by_h) = (&other_by_p[..n], &other_by_h[..n]);
+    let (p, p_other, s) = (&p[..n], &p_other[..n], &s[..n]);
+    let (own_h, other_p, other_h) = (&mut own_h[..n], &mut other_p[..n], &mut other_h[..n]);
+    for i in 0..n {
+        let w = s[i] * weight;
+        let dp = p_other[i] - p[i];
+        own_p[i] += (w * (tau[i] - own_by_p[i] * dp)) as f32;
+        own_h[i] -= (w * own_by_h[i] * dp) as f32;
+        other_p[i] = (-w * (tau[i] + other_by_p[i] * dp)) as f32;
+        other_h[i] = (-w * other_by_h[i] * dp) as f32;
+    }
+}
+}
+
+dispatched! {
+/// Divides a line by the row scale; zero where the node is not active.
+fn scale_row(row_scale: &[f64], active: &[bool], line: &mut [f32]) {
+    let n = line.len();
+    let (row_scale, active) = (&row_scale[..n], &active[..n]);
+    for i in 0..n {
+        let factor = if active[i] { 1.0 / row_scale[i] } else { 0.0 };
+        line[i] *= factor as f32;
+    }
+}
 }
 
 #[cfg(test)]
@@ -345,7 +660,7 @@ mod tests {
                 }
             }
             let (h0, dh0, step) = (-0.1, 0.4, 1e-6);
-            let (reynolds, h) = residual_of(&grid, &mut elastic, &medium, &p, h0);
+            let (mut reynolds, h) = residual_of(&grid, &mut elastic, &medium, &p, h0);
             let mut jacobian = Jacobian::new(&grid);
             let (s, active) = (vec![0.05; n], vec![true; n]);
             reynolds.linearise(&grid, medium.lambda, &p, &h, &s, &active, &mut jacobian);

@@ -4,10 +4,12 @@
 //! D = Σ count · s^m         s: range of the cycle, or its peak (mean + range/2), in p_h
 //! ```
 
+use serde::{Deserialize, Serialize};
+
 use crate::physics::rainflow::{Cycle, Ends, Rainflow};
 
 /// What a cycle's damage is taken from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DamageBasis {
     /// Ranges of the signed orthogonal shear.
     Ranges,
@@ -16,7 +18,7 @@ pub enum DamageBasis {
 }
 
 /// Cycles of one history.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Tally {
     /// Cycles with a range above the gate.
     pub count: f64,
@@ -42,7 +44,7 @@ impl Tally {
 }
 
 /// One history: its counter and tally.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct History {
     flow: Rainflow,
     basis: DamageBasis,
@@ -98,7 +100,7 @@ impl History {
 }
 
 /// Whether a point's crossing has been followed from its start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Crossing {
     /// Not sampled yet.
     New,

@@ -79,6 +79,18 @@ impl Shear {
         }
     }
 
+    /// Adds u^s to the gap of a dry contact, where the traction follows from the pressure alone.
+    pub(super) fn add_to_dry(&mut self, law: &TractionLaw, p: &[f64], gap: &mut [f64]) {
+        for (q, &p) in self.traction.iter_mut().zip(p) {
+            *q = law.traction(p, 0.0);
+        }
+        self.tangential
+            .deflect(&self.traction, &mut self.deflection);
+        for (gap, &u) in gap.iter_mut().zip(&self.deflection) {
+            *gap += u;
+        }
+    }
+
     /// Adds u^s to the film, the traction taken at the film with the last u^s.
     pub(super) fn add_to(&mut self, law: &TractionLaw, p: &[f64], h: &mut [f64]) {
         for (n, q) in self.traction.iter_mut().enumerate() {

@@ -173,7 +173,12 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
 
 /// No dial reaches where the run would refuse to go.
 fn within_the_scenes_range(mut dial: Dial) -> Dial {
-    if let Some(Kind::Number(least, most)) = keys::find(dial.knob.key()).map(|key| key.kind) {
+    let bounds = match keys::find(dial.knob.key()).map(|key| key.kind) {
+        Some(Kind::EitherSign(least, most)) if dial.home < 0.0 => Some((-most, -least)),
+        Some(Kind::Number(least, most) | Kind::EitherSign(least, most)) => Some((least, most)),
+        _ => None,
+    };
+    if let Some((least, most)) = bounds {
         dial.min = dial.min.max(least);
         dial.max = dial.max.min(most);
         let (min, max) = (dial.min, dial.max);
@@ -234,7 +239,7 @@ fn load(kind: ContactKind, home: f64, p_hertz_pa: f64) -> Dial {
 fn amplitude(knob: Knob, surface: &Surface) -> Dial {
     let (home, life) = match surface {
         Surface::Smooth {} => (0.0, Life::Dead("smooth")),
-        Surface::Sinusoid { amplitude_m, .. } => (*amplitude_m, Life::Live),
+        Surface::Sinusoid { .. } | Surface::HeightMap { .. } => (surface.amplitude_m(), Life::Live),
     };
     let max = (2.0 * home / 1e-7).ceil().max(6.0) * 1e-7;
     Dial {
@@ -262,7 +267,8 @@ fn amplitude(knob: Knob, surface: &Surface) -> Dial {
 }
 
 fn speed(home: f64) -> Dial {
-    let (min, max) = (home / 10.0, home * 10.0);
+    let (slow, fast) = (home / 10.0, home * 10.0);
+    let (min, max) = (slow.min(fast), slow.max(fast));
     Dial {
         knob: Knob::EntrainmentMS,
         label: "U entrainment",
@@ -275,6 +281,7 @@ fn speed(home: f64) -> Dial {
         target: home,
         typical: [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0]
             .into_iter()
+            .map(|value| value * home.signum())
             .filter(|value| (min..=max).contains(value))
             .collect(),
         life: Life::Live,

@@ -31,6 +31,7 @@ fn crests_per_m(surface: &Surface) -> f64 {
     const NONE_PER_M: f64 = 1e-3;
     match *surface {
         Surface::Smooth {} => 0.0,
+        Surface::HeightMap { .. } => surface.crests_per_m(),
         Surface::Sinusoid {
             wavelength_x_m,
             wavelength_y_m,

@@ -36,6 +36,7 @@ pub(crate) const LOAD: f64 = 2.0 * PI / 3.0;
 
 pub(crate) const TOLERANCE: Tolerance = Tolerance {
     pressure: 1e-4,
+    film: 1e-4,
     mass: 1e-4,
     load: 1e-5,
     max_iterations: 20,

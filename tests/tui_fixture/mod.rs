@@ -291,6 +291,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         contact_ratio: touching / (0.196 * frame.film_m.len() as f64),
         contact_load_ratio: 0.12,
         load_error: 2.4e-6,
+        film_error: 1.2e-3,
         mass_error: 3.3e-5,
         friction_coefficient: 0.047,
         sigma_eff_max_pa: Some(1.12e9),

@@ -128,7 +128,7 @@ impl Views {
             .transpose()?;
         let steps = expected_steps(scene, first);
         let step_s = scene.map_or(0.0, |scene| {
-            scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.max(1e-12)
+            scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
         });
         let kymograph = Kymograph::new(stream, geometry, tops.pressure_pa, steps, step_s)?;
         series::log_styles(stream)?;

@@ -79,11 +79,12 @@ const GROUPS: [Group; 8] = [
         lines: &[
             ("log10 residual", WHITE),
             ("log10 load error", SKY),
+            ("log10 film error", PURPLE),
             ("log10 mass error", ORANGE),
         ],
         values: |frame, out| {
             let m = &frame.metrics;
-            let errors = [m.residual, m.load_error, m.mass_error];
+            let errors = [m.residual, m.load_error, m.film_error, m.mass_error];
             out.extend(errors.map(|error| error.abs().max(LEAST_ERROR).log10()));
         },
     },

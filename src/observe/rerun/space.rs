@@ -254,16 +254,17 @@ impl Space {
         let a = self.geometry.a;
         let [x, y] = [-1.45 * a, -0.15 * a];
         let levels = [self.levels.body_1, self.levels.body_2];
-        let arrows =
-            Arrows3D::from_vectors(speeds.map(|speed| [(0.7 * a * speed / u) as f32, 0.0, 0.0]))
-                .with_origins(levels.map(|z| [x as f32, y as f32, z as f32]))
-                .with_radii([(0.022 * a) as f32])
-                .with_colors([Color::from(SKY), Color::from(ORANGE)])
-                .with_labels([
-                    format!("U1 = {:.2} m/s", speeds[0]),
-                    format!("U2 = {:.2} m/s", speeds[1]),
-                ])
-                .with_show_labels(true);
+        let arrows = Arrows3D::from_vectors(
+            speeds.map(|speed| [(0.7 * a * speed / u.abs()) as f32, 0.0, 0.0]),
+        )
+        .with_origins(levels.map(|z| [x as f32, y as f32, z as f32]))
+        .with_radii([(0.022 * a) as f32])
+        .with_colors([Color::from(SKY), Color::from(ORANGE)])
+        .with_labels([
+            format!("U1 = {:.2} m/s", speeds[0]),
+            format!("U2 = {:.2} m/s", speeds[1]),
+        ])
+        .with_show_labels(true);
         stream.log(&format!("{SPACE}/surface_speeds"), &arrows)
     }
 }

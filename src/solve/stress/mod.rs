@@ -30,17 +30,6 @@
 //! [`StressEngine::volume`] in any number. All memory is made by [`StressEngine::new`]; warm calls
 //! allocate nothing. Results do not depend on the number of threads.
 
-/// Compiles a function for the wide vector units too, and picks one at run time.
-macro_rules! dispatched {
-    ($function:item) => {
-        #[multiversion::multiversion(targets(
-            "x86_64+avx512f+avx512vl+avx512dq+avx512bw+fma",
-            "x86_64+avx2+fma"
-        ))]
-        $function
-    };
-}
-
 mod assemble;
 mod depth;
 mod engine;

@@ -7,6 +7,8 @@
 //! The greatest is that of the samples of a layer's own grid, which leaves a swept share of Hertz up to 3 % low
 //! (m = 11.5); against a reference of the same grid it cancels.
 
+use serde::{Deserialize, Serialize};
+
 use super::engine::{Loading, StressSpec};
 use super::layer::Layer;
 use super::peak::Peak;
@@ -17,7 +19,7 @@ use crate::math::ln_sum::ln_sum;
 pub(super) const MAX_LAWS: usize = 2;
 
 /// How effective stress enters an integral: `<s − limit>^exponent`, in p_h.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StressLaw {
     /// m.
     pub exponent: f64,

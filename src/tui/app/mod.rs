@@ -314,12 +314,6 @@ impl App {
 }
 
 fn put(scene: &mut Scene, dial: &Dial) {
-    use crate::scene::Surface;
-    let amplitude = |surface: &mut Surface| {
-        if let Surface::Sinusoid { amplitude_m, .. } = surface {
-            *amplitude_m = dial.target;
-        }
-    };
     match dial.knob {
         Knob::SlideRoll => scene.motion.slide_roll = dial.target,
         Knob::ForceN => {
@@ -330,8 +324,8 @@ fn put(scene: &mut Scene, dial: &Dial) {
             scene.load.force_n_per_m = Some(dial.target);
             scene.load.hertz_pressure_pa = None;
         }
-        Knob::Amplitude1M => amplitude(&mut scene.body_1.surface),
-        Knob::Amplitude2M => amplitude(&mut scene.body_2.surface),
+        Knob::Amplitude1M => scene.body_1.surface.set_amplitude_m(dial.target),
+        Knob::Amplitude2M => scene.body_2.surface.set_amplitude_m(dial.target),
         Knob::EntrainmentMS => scene.motion.entrainment_m_s = dial.target,
     }
 }

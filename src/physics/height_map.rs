@@ -1,0 +1,328 @@
+//! A measured or made surface on a grid of pixels, between them by cubic convolution.
+//!
+//! ```text
+//! z(x, y) = A Σ_kl s_kl W(u − k) W(v − l),   u = x/Δ + (n_x − 1)/2,   v = y/Δ + (n_y − 1)/2
+//! W(t) = 1 − 5/2 t² + 3/2 |t|³  (|t| ≤ 1),   2 − 4|t| + 5/2 t² − ½ |t|³  (1 < |t| ≤ 2),   0 beyond
+//! ```
+//! | symbol | meaning | shape |
+//! |---|---|---|
+//! | s | heights over the greatest of them, level taken off | n_y × n_x, x along rows |
+//! | Δ | pixel | m |
+//! | A | greatest departure from the level, as asked; the file's own is [`HeightMap::peak_m`] | m |
+//!
+//! The origin is the middle of the map. Order 3 in Δ, continuous slope (Keys 1981, IEEE Trans. ASSP 29,
+//! 1153-1160); a test measures the order. *Periodic* maps repeat without end, their level is the mean.
+//! *Windowed* maps stand once: their level is the mean of the outermost pixels, and a cosine takes the
+//! outer tenth of each side down to zero, so that nothing jumps.
+
+use std::f64::consts::PI;
+
+use crate::math::spectrum::mean_power;
+
+/// What lies beyond the map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beyond {
+    /// The map again.
+    Repeated,
+    /// Nothing: height 0.
+    Nothing,
+}
+
+/// Part of the variance of height that lies in waves longer than [`HeightMap::shortest`].
+pub const SIGNIFICANT: f64 = 0.98;
+/// Part of each side of a windowed map that is taken down to zero.
+const TAPER: f64 = 0.1;
+/// Half-width, in Rq, of the band about the level that a crossing must leave.
+const DEAD_BAND: f64 = 0.1;
+
+/// Heights on pixels, over the greatest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeightMap {
+    nx: usize,
+    ny: usize,
+    shape: Vec<f32>,
+    beyond: Beyond,
+    /// Greatest departure from the level in the file, m.
+    pub peak_m: f64,
+    /// Root-mean-square departure from the level over the greatest.
+    pub rms: f64,
+    /// Crests along x per pixel: upcrossings of the level, mean over the rows.
+    pub crests: f64,
+    /// Shortest significant wave along x and y, pixels: longer ones hold 98 % of the variance; ∞: no wave.
+    pub shortest: [f64; 2],
+    /// Whether the map is its own mirror image in y.
+    pub is_even_in_y: bool,
+}
+
+impl HeightMap {
+    /// A map of `nx` columns along x, row after row towards +y; `None` where there is no height at all.
+    /// Heights must be finite, in m.
+    pub fn new(nx: usize, heights_m: &[f64], beyond: Beyond) -> Option<Self> {
+        let ny = heights_m.len() / nx.max(1);
+        if nx == 0 || ny == 0 {
+            return None;
+        }
+        let level = level(nx, ny, heights_m, beyond);
+        let window = |at: usize, n: usize| match beyond {
+            Beyond::Repeated => 1.0,
+            Beyond::Nothing => taper(at, n),
+        };
+        let height = |n: usize| {
+            let (i, j) = (n % nx, n / nx);
+            (heights_m[n] - level) * window(i, nx) * window(j, ny)
+        };
+        let peak_m = (0..nx * ny).map(|n| height(n).abs()).fold(0.0, f64::max);
+        // Below this the "height" is rounding of the level.
+        let largest = heights_m.iter().fold(0.0_f64, |a, z| a.max(z.abs()));
+        if peak_m <= 1e-12 * largest || peak_m == 0.0 {
+            return None;
+        }
+        let shape: Vec<f32> = (0..nx * ny).map(|n| (height(n) / peak_m) as f32).collect();
+        let square: f64 = shape.iter().map(|&s| f64::from(s).powi(2)).sum();
+        let mut map = Self {
+            nx,
+            ny,
+            beyond,
+            peak_m,
+            rms: (square / (nx * ny) as f64).sqrt(),
+            crests: 0.0,
+            shortest: [f64::INFINITY; 2],
+            is_even_in_y: false,
+            shape,
+        };
+        map.crests = map.crest_density();
+        let at = |i: usize, j: usize| f64::from(map.shape[j * nx + i]);
+        map.shortest = [
+            shortest(nx, &mean_power(nx, ny, |j| (0..nx).map(move |i| at(i, j)))),
+            shortest(ny, &mean_power(ny, nx, |i| (0..ny).map(move |j| at(i, j)))),
+        ];
+        map.is_even_in_y =
+            (0..ny / 2).all(|j| (0..nx).all(|i| (at(i, j) - at(i, ny - 1 - j)).abs() <= 1e-6));
+        Some(map)
+    }
+
+    /// Pixels along x.
+    pub fn nx(&self) -> usize {
+        self.nx
+    }
+
+    /// Pixels along y.
+    pub fn ny(&self) -> usize {
+        self.ny
+    }
+
+    /// What lies beyond the map.
+    pub fn beyond(&self) -> Beyond {
+        self.beyond
+    }
+
+    /// z/A at `x`, `y` in pixels from the middle.
+    pub fn sample(&self, x: f64, y: f64) -> f64 {
+        let (row, w_y) = Self::stencil(y, self.ny);
+        let (column, w_x) = Self::stencil(x, self.nx);
+        let mut z = 0.0;
+        for (l, &w) in w_y.iter().enumerate() {
+            let Some(j) = self.wrapped(row + l as i64, self.ny) else {
+                continue;
+            };
+            let line = &self.shape[j * self.nx..(j + 1) * self.nx];
+            for (k, &v) in w_x.iter().enumerate() {
+                if let Some(i) = self.wrapped(column + k as i64, self.nx) {
+                    z += w * v * f64::from(line[i]);
+                }
+            }
+        }
+        z
+    }
+
+    /// The row at `y` pixels from the middle: its heights over A at every pixel of x, into `out` of
+    /// length [`HeightMap::nx`].
+    pub fn row_into(&self, y: f64, out: &mut [f32]) {
+        let (row, weights) = Self::stencil(y, self.ny);
+        out.fill(0.0);
+        for (l, &w) in weights.iter().enumerate() {
+            if let Some(j) = self.wrapped(row + l as i64, self.ny) {
+                let line = &self.shape[j * self.nx..(j + 1) * self.nx];
+                for (o, &s) in out.iter_mut().zip(line) {
+                    *o += (w * f64::from(s)) as f32;
+                }
+            }
+        }
+    }
+
+    /// First of four pixels about `x` (pixels from the middle of `n`), and their weights.
+    pub fn stencil(x: f64, n: usize) -> (i64, [f64; 4]) {
+        let u = x + 0.5 * (n - 1) as f64;
+        let base = u.floor();
+        let t = u - base;
+        let (t2, t3) = (t * t, t * t * t);
+        let weights = [
+            -0.5 * t3 + t2 - 0.5 * t,
+            1.5 * t3 - 2.5 * t2 + 1.0,
+            -1.5 * t3 + 2.0 * t2 + 0.5 * t,
+            0.5 * t3 - 0.5 * t2,
+        ];
+        (base as i64 - 1, weights)
+    }
+
+    /// Index of pixel `k` of `n`; `None`: beyond a windowed map.
+    #[inline]
+    pub fn wrapped(&self, k: i64, n: usize) -> Option<usize> {
+        match self.beyond {
+            Beyond::Repeated => Some(k.rem_euclid(n as i64) as usize),
+            Beyond::Nothing => (0..n as i64).contains(&k).then_some(k as usize),
+        }
+    }
+
+    /// Upcrossings of the level per pixel along x. A crossing counts when the height leaves a band of
+    /// ±Rq/10 about the level, so that noise on it does not.
+    fn crest_density(&self) -> f64 {
+        let band = (DEAD_BAND * self.rms) as f32;
+        let mut crossings = 0_u64;
+        for line in self.shape.chunks_exact(self.nx) {
+            // Once round to know the side on which the row starts, once to count.
+            let mut side = 0;
+            let around = line.iter().chain(line);
+            for (n, &z) in around.enumerate() {
+                let now = i32::from(z > band) - i32::from(z < -band);
+                if now != 0 {
+                    let counted = n >= self.nx || self.beyond == Beyond::Nothing;
+                    crossings += u64::from(counted && side < 0 && now > 0);
+                    side = now;
+                }
+                if self.beyond == Beyond::Nothing && n + 1 == self.nx {
+                    break;
+                }
+            }
+        }
+        crossings as f64 / (self.nx * self.ny) as f64
+    }
+}
+
+fn level(nx: usize, ny: usize, heights: &[f64], beyond: Beyond) -> f64 {
+    let is_rim = |n: usize| {
+        let (i, j) = (n % nx, n / nx);
+        i == 0 || j == 0 || i + 1 == nx || j + 1 == ny
+    };
+    let mut sum = 0.0;
+    let mut count = 0.0;
+    for (n, &z) in heights.iter().enumerate().take(nx * ny) {
+        if beyond == Beyond::Repeated || is_rim(n) {
+            sum += z;
+            count += 1.0;
+        }
+    }
+    sum / count
+}
+
+/// 1 inside, down to 0 over the outer tenth.
+fn taper(at: usize, n: usize) -> f64 {
+    if n < 2 {
+        return 1.0;
+    }
+    let from_edge = at.min(n - 1 - at) as f64 / (n - 1) as f64;
+    if from_edge >= TAPER {
+        1.0
+    } else {
+        0.5 - 0.5 * (PI * from_edge / TAPER).cos()
+    }
+}
+
+/// The wave beyond which only 2 % of the variance is left, pixels; ∞ where nothing varies.
+fn shortest(n: usize, power: &[f64]) -> f64 {
+    let total: f64 = power.iter().skip(1).sum();
+    let constant = power.first().copied().unwrap_or(0.0);
+    if total <= 1e-12 * constant || total == 0.0 {
+        return f64::INFINITY;
+    }
+    let mut sum = 0.0;
+    for (k, p) in power.iter().enumerate().skip(1) {
+        sum += p;
+        if sum >= SIGNIFICANT * total {
+            return n as f64 / k as f64;
+        }
+    }
+    2.0
+}
+
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::unwrap_used, reason = "tests")]
+
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Two waves a side, mean 3.
+    fn waves(n: usize) -> HeightMap {
+        let heights: Vec<f64> = (0..n * n)
+            .map(|m| {
+                let (x, y) = ((m % n) as f64 / n as f64, (m / n) as f64 / n as f64);
+                3.0 + 2e-7 * (TAU * 2.0 * x).cos() * (TAU * y).sin()
+            })
+            .collect();
+        HeightMap::new(n, &heights, Beyond::Repeated).unwrap()
+    }
+
+    #[test]
+    fn order_of_the_interpolation() {
+        let error = |n: usize| {
+            let map = waves(n);
+            let mut worst = 0.0_f64;
+            for m in 0..400 {
+                let (u, v) = (0.37 + 0.0719 * m as f64, 0.11 + 0.0313 * m as f64);
+                let exact = (TAU * 2.0 * u).cos() * (TAU * v).sin();
+                // Pixels from the middle.
+                let at = |w: f64| w * n as f64 - 0.5 * (n - 1) as f64;
+                worst = worst.max((map.sample(at(u), at(v)) - exact).abs());
+            }
+            worst
+        };
+        let errors = [32, 64, 128].map(error);
+        let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(f64::log2);
+        println!("errors {errors:?}, orders {orders:?}");
+        assert!(orders.iter().all(|&order| order > 2.8));
+    }
+
+    #[test]
+    fn what_a_map_is_reduced_to() {
+        let map = waves(64);
+        assert!((map.peak_m / 2e-7 - 1.0).abs() < 1e-3);
+        assert!((map.rms - 0.5).abs() < 1e-3);
+        // Two waves in 64 pixels along x, seen in every row but those on the nodes of the sine.
+        assert!((map.crests * 64.0 - 2.0).abs() < 0.1, "{}", map.crests);
+        assert!((map.shortest[0] - 32.0).abs() < 1e-9 && (map.shortest[1] - 64.0).abs() < 1e-9);
+        assert!(!map.is_even_in_y);
+        assert!(HeightMap::new(4, &[1.7; 16], Beyond::Repeated).is_none());
+        assert!(HeightMap::new(0, &[], Beyond::Repeated).is_none());
+    }
+
+    #[test]
+    fn a_windowed_map_ends_in_nothing() {
+        let n = 41;
+        let bump = |m: usize| {
+            let (x, y) = ((m % n) as f64 - 20.0, (m / n) as f64 - 20.0);
+            5.0 - 1e-7 * (-(x * x + y * y) / 30.0).exp()
+        };
+        let heights: Vec<f64> = (0..n * n).map(bump).collect();
+        let map = HeightMap::new(n, &heights, Beyond::Nothing).unwrap();
+        assert!(map.is_even_in_y);
+        assert!((map.sample(0.0, 0.0) + 1.0).abs() < 1e-6, "a dent");
+        let exact = -(-(2.5_f64.powi(2) + 1.2_f64.powi(2)) / 30.0).exp();
+        assert!((map.sample(2.5, -1.2) - exact).abs() < 1e-3);
+        assert_eq!(map.sample(20.0, 3.0), 0.0);
+        assert_eq!(map.sample(-25.0, 3.0), 0.0);
+        // A single dent has no crests.
+        assert_eq!(map.crests, 0.0);
+    }
+
+    #[test]
+    fn rows_and_points_agree() {
+        let map = waves(32);
+        let mut row = vec![0.0; 32];
+        map.row_into(4.3, &mut row);
+        for (i, &z) in row.iter().enumerate() {
+            let x = i as f64 - 15.5;
+            assert!((f64::from(z) - map.sample(x, 4.3)).abs() < 1e-6);
+        }
+    }
+}

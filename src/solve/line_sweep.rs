@@ -1,0 +1,236 @@
+//! Zebra relaxation by x-lines, sixteen lines at a time.
+//!
+//! ```text
+//! (A_P + e) z = r:   for all rows of one parity   z_j ← tridiag(A_P + e)⁻¹ (r_j − A_S z_{j−1} − A_N z_{j+1})
+//! ```
+//! Elimination along a line is a chain of dependent steps; sixteen lines side by side keep the vector
+//! unit busy. Rows of one parity are numbered 0.. m−1 and dealt out in `blocks` blocks of [`LANES`]: row
+//! `h` sits in block `h mod blocks`, lane `h / blocks`. So the neighbouring row lies in the neighbouring
+//! block in the *same* lane, but for the first and last block, whose neighbours are one lane on: those two
+//! are kept as extra blocks (the halo). Single precision. Source: Thomas' algorithm; zebra order as in
+//! Trottenberg, Oosterlee and Schüller, Multigrid (2001), §2.1.
+
+use rayon::prelude::*;
+
+use super::jacobian::Jacobian;
+use crate::math::grid::Grid;
+
+/// Lines side by side.
+const LANES: usize = 16;
+
+type Lane = [f32; LANES];
+const ZERO: Lane = [0.0; LANES];
+
+/// Factors of sixteen lines at one node.
+#[derive(Debug, Clone, Copy)]
+struct Factor {
+    lower: Lane,
+    upper: Lane,
+    inverse: Lane,
+    south: Lane,
+    north: Lane,
+}
+
+const NO_FACTOR: Factor = Factor {
+    lower: ZERO,
+    upper: ZERO,
+    inverse: ZERO,
+    south: ZERO,
+    north: ZERO,
+};
+
+/// Rows of one parity.
+struct Half {
+    /// Rows.
+    rows: usize,
+    /// `[block][i]`
+    factors: Vec<Factor>,
+    /// Right-hand side, `[block][i]`.
+    r: Vec<Lane>,
+    /// Solution, `[halo below, blocks, halo above][i]`.
+    z: Vec<Lane>,
+}
+
+/// Factors and scratch of the sweeps.
+pub(super) struct LineSweep {
+    nx: usize,
+    /// Blocks of either half.
+    blocks: usize,
+    halves: [Half; 2],
+}
+
+impl LineSweep {
+    /// Buffers for `grid`.
+    pub(super) fn new(grid: &Grid) -> Self {
+        let blocks = grid.ny.div_ceil(2).div_ceil(LANES);
+        let half = |rows: usize| Half {
+            rows,
+            factors: vec![NO_FACTOR; blocks * grid.nx],
+            r: vec![ZERO; blocks * grid.nx],
+            z: vec![ZERO; (blocks + 2) * grid.nx],
+        };
+        Self {
+            nx: grid.nx,
+            blocks,
+            halves: [half(grid.ny.div_ceil(2)), half(grid.ny / 2)],
+        }
+    }
+
+    /// Factors the lines of a new linearisation; `extra` is e.
+    pub(super) fn factor(&mut self, jacobian: &Jacobian, extra: &[f32]) {
+        let (nx, blocks) = (self.nx, self.blocks);
+        for (parity, half) in self.halves.iter_mut().enumerate() {
+            let rows = half.rows;
+            half.factors
+                .par_chunks_mut(nx)
+                .enumerate()
+                .for_each(|(block, factors)| {
+                    for lane in 0..LANES {
+                        let h = lane * blocks + block;
+                        if h < rows {
+                            let j = 2 * h + parity;
+                            gather_row(jacobian, j, &extra[j * nx..(j + 1) * nx], lane, factors);
+                        }
+                    }
+                    eliminate(factors);
+                });
+        }
+    }
+
+    /// Sweeps the parities in `order` from z = 0 and writes z.
+    pub(super) fn solve(&mut self, r: &[f32], order: &[usize], z: &mut [f32]) {
+        let (nx, blocks) = (self.nx, self.blocks);
+        for (parity, half) in self.halves.iter_mut().enumerate() {
+            half.z.fill(ZERO);
+            let rows = half.rows;
+            half.r
+                .par_chunks_mut(nx)
+                .enumerate()
+                .for_each(|(block, out)| {
+                    for lane in 0..LANES {
+                        let h = lane * blocks + block;
+                        if h < rows {
+                            let row = &r[(2 * h + parity) * nx..][..nx];
+                            for (o, &v) in out.iter_mut().zip(row) {
+                                o[lane] = v;
+                            }
+                        }
+                    }
+                });
+        }
+        for &parity in order {
+            self.sweep(parity);
+        }
+        z.par_chunks_mut(nx)
+            .enumerate()
+            .with_min_len(8)
+            .for_each(|(j, row)| {
+                let half = &self.halves[j % 2];
+                let (block, lane) = ((j / 2) % blocks, (j / 2) / blocks);
+                for (v, z) in row.iter_mut().zip(&half.z[(block + 1) * nx..]) {
+                    *v = z[lane];
+                }
+            });
+    }
+
+    fn sweep(&mut self, parity: usize) {
+        let (nx, blocks) = (self.nx, self.blocks);
+        let [even, odd] = &mut self.halves;
+        let (mine, other) = if parity == 0 {
+            (even, odd)
+        } else {
+            (odd, even)
+        };
+        other.fill_halo(nx, blocks);
+        // Row h of the even half lies between rows h−1 and h of the odd half, row h of the odd half
+        // between h and h+1 of the even half; block b of z is number b + 1, after the halo.
+        let (factors, r, neighbours) = (&mine.factors, &mine.r, &other.z[parity * nx..]);
+        mine.z[nx..(blocks + 1) * nx]
+            .par_chunks_mut(nx)
+            .enumerate()
+            .for_each(|(block, z)| {
+                let range = block * nx..(block + 1) * nx;
+                let south = &neighbours[range.clone()];
+                let north = &neighbours[range.start + nx..range.end + nx];
+                sweep_block(&factors[range.clone()], &r[range], south, north, z);
+            });
+    }
+}
+
+impl Half {
+    /// Fills the halo: the first block's rows below and the last block's rows above, one lane on. Row −1
+    /// is row 0 of the odd half mirrored; where nothing is mirrored it belongs to the boundary, whose
+    /// coefficients are zero.
+    fn fill_halo(&mut self, nx: usize, blocks: usize) {
+        let (below, rest) = self.z.split_at_mut(nx);
+        let (rows, above) = rest.split_at_mut(blocks * nx);
+        let (first, last) = (&rows[..nx], &rows[(blocks - 1) * nx..]);
+        for i in 0..nx {
+            below[i][0] = first[i][0];
+            above[i][LANES - 1] = 0.0;
+            for lane in 1..LANES {
+                below[i][lane] = last[i][lane - 1];
+                above[i][lane - 1] = first[i][lane];
+            }
+        }
+    }
+}
+
+/// Puts grid row `j` of the Jacobian into `lane`: coefficients first, elimination follows.
+fn gather_row(jacobian: &Jacobian, j: usize, extra: &[f32], lane: usize, factors: &mut [Factor]) {
+    let [own, west, east, south, north] = std::array::from_fn(|k| jacobian.a_p(j, k));
+    for (i, f) in factors.iter_mut().enumerate() {
+        // A row of zeros is not active: its pivot stays 0 and so does its correction.
+        f.inverse[lane] = if own[i] == 0.0 {
+            0.0
+        } else {
+            own[i] + extra[i]
+        };
+        f.lower[lane] = west[i];
+        f.upper[lane] = east[i];
+        f.south[lane] = south[i];
+        f.north[lane] = north[i];
+    }
+}
+
+dispatched! {
+/// From coefficients (the diagonal in `inverse`) to factors.
+fn eliminate(factors: &mut [Factor]) {
+    let (mut upper, mut inverse) = (ZERO, ZERO);
+    for f in factors {
+        for k in 0..LANES {
+            let lower = f.lower[k] * inverse[k];
+            let pivot = f.inverse[k] - lower * upper[k];
+            let safe = if f.inverse[k] == 0.0 { 1.0 } else { pivot };
+            f.inverse[k] = if f.inverse[k] == 0.0 { 0.0 } else { 1.0 / safe };
+            f.lower[k] = lower;
+        }
+        upper = f.upper;
+        inverse = f.inverse;
+    }
+}
+}
+
+dispatched! {
+fn sweep_block(factors: &[Factor], r: &[Lane], south: &[Lane], north: &[Lane], z: &mut [Lane]) {
+    let nx = z.len();
+    let (factors, r, south, north) = (&factors[..nx], &r[..nx], &south[..nx], &north[..nx]);
+    let mut carry = ZERO;
+    for i in 1..nx - 1 {
+        let f = &factors[i];
+        for k in 0..LANES {
+            let free = r[i][k] - f.south[k] * south[i][k] - f.north[k] * north[i][k];
+            carry[k] = free - f.lower[k] * carry[k];
+        }
+        z[i] = carry;
+    }
+    carry = ZERO;
+    for i in (1..nx - 1).rev() {
+        let f = &factors[i];
+        for k in 0..LANES {
+            carry[k] = (z[i][k] - f.upper[k] * carry[k]) * f.inverse[k];
+        }
+        z[i] = carry;
+    }
+}
+}
