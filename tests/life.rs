@@ -327,7 +327,7 @@ fn rippled_line_contacts_have_the_independently_computed_lives() {
             cells[4],
             cells[5]
         );
-        // Three digits in the table; the greatest is a sample here.
+        // The table's 1 %, its three digits, and the greatest sample where the greatest is meant.
         assert!((rough.2 / value(3) - 1.0).abs() < 0.01);
         assert!((snapshot / value(4) - 1.0).abs() < 0.02);
         assert!((swept / value(5) - 1.0).abs() < 0.02);
@@ -353,7 +353,8 @@ fn convergence_in_nodes_and_depths() {
 #[test]
 fn models_of_one_depth_know_hertz() {
     // Circular, ν = 0.3: half range of τ_xz below y = 0 is 0.2138 p_h at 0.347 a (Johnson: 0.21 at 0.35 a);
-    // greatest shear 0.310 p_h.
+    // that is also the greatest amplitude on any plane, for the 45° shear below the axis (0.310 p_h) only rises
+    // and falls: 0.155 p_h of amplitude.
     let law = LifeLaw::default();
     let spec = spec(128, 32, Symmetry::MirrorY);
     let mut engine = StressEngine::new(&spec).expect("valid");
@@ -385,7 +386,7 @@ fn models_of_one_depth_know_hertz() {
     assert!((tau - 0.214).abs() < 3e-3 && (z - 0.35).abs() < 0.07);
     let (findley, z) = greatest(LifeModel::Findley { normal: 0.0 });
     println!("Findley without normal stress {findley:.4} p_h near z = {z:.3} a");
-    assert!(findley > tau, "another plane than the surface's has more");
+    assert!((findley / tau - 1.0).abs() < 1e-3);
     let (plain, _) = greatest(LifeModel::DangVan { hydrostatic: 0.0 });
     let (weighed, _) = greatest(LifeModel::DangVan { hydrostatic: 0.3 });
     println!("Dang Van {plain:.4} p_h, with 0.3 of the hydrostatic stress {weighed:.4}");
@@ -395,7 +396,9 @@ fn models_of_one_depth_know_hertz() {
 #[test]
 fn peaks_and_ranges_count_less_than_one_n_for_the_volume() {
     // W = 0.25 a, U2/U1 = 2, e = 1.5: the formula's factor of damage is n^e = 27; a study of prescribed
-    // ripples found 1.24 (30 % ripples) and 6 (100 %) by peaks, 1.00 and 1.05 by ranges.
+    // ripples found 1.24 (30 % ripples) and 6 (100 %) by peaks, 1.00 and 1.05 by ranges. Its ranges were of
+    // von Mises, which hardly falls between crests; ranges of the signed shear, which turns its sign there,
+    // count nearly as many cycles as peaks do once the ripples unload.
     let law = LifeLaw {
         stress_exponent: 31.0 / 3.0,
         weibull_slope: 1.5,
@@ -453,7 +456,8 @@ fn peaks_and_ranges_count_less_than_one_n_for_the_volume() {
             n.powf(law.weibull_slope)
         );
         // Two definitions of a cycle's peak: the study's numbers are met in size, not in digits.
-        assert!(ranges < 1.6 && ranges <= peaks && peaks < n.powf(law.weibull_slope));
+        assert!((1.0..=peaks).contains(&ranges) && peaks < 0.5 * n.powf(law.weibull_slope));
+        assert!(part > 0.5 || ranges < 1.01);
         assert!((peaks / by_peaks).ln().abs() < 2.0_f64.ln());
     }
 }

@@ -225,6 +225,9 @@ pub const SECTIONS: &[Section] = &[
             key("depths", "", Integer(8, 256), Defaulted, "number of depths"),
             key("depth_max_a", "a", Number(0.5, 20.0), Defaulted, "deepest point, in the narrower Hertz half-width; life wants 2 or more"),
             key("measure", "", Choice(&["von_mises", "max_shear", "octahedral"]), Defaulted, "effective stress that drives fatigue"),
+            key("plane_x_a", "a", Number(-20.0, 20.0), Optional("no such plane"), "a plane x = const of body 1 in every frame that is shown, beside y = 0; some 10 ms each at 129 nodes"),
+            key("plane_y_a", "a", Number(-20.0, 20.0), Optional("no such plane"), "a plane y = const, likewise"),
+            key("plane_z_a", "a", Number(1e-3, 20.0), Optional("no such plane"), "a plane z = const, likewise"),
         ],
     },
     Section {

@@ -304,6 +304,15 @@ pub struct Stress {
     pub depth_max_a: f64,
     /// Scalar measure.
     pub measure: StressMeasure,
+    /// A plane x = const of body 1 beside y = 0, in a.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane_x_a: Option<f64>,
+    /// A plane y = const, in a.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane_y_a: Option<f64>,
+    /// A plane z = const, in a.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane_z_a: Option<f64>,
 }
 
 impl Default for Stress {
@@ -312,6 +321,9 @@ impl Default for Stress {
             depths: 32,
             depth_max_a: 3.0,
             measure: StressMeasure::VonMises,
+            plane_x_a: None,
+            plane_y_a: None,
+            plane_z_a: None,
         }
     }
 }

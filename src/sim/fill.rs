@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::door::Heading;
-use super::{DamageBlock, Frame, MaterialPoint, Simulation, StressSlice};
+use super::{DamageBlock, Frame, MaterialPoint, Simulation, StressPlane, StressSlice};
 use crate::physics::cycles::BodyId;
 use crate::plan::LINE_ROWS;
 use crate::scene::ContactKind;
+use crate::solve::stress::{Cut, Plane};
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
 pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
@@ -84,6 +85,7 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     }
     fill_slice(sim, frame);
     frame.material_point = material_point(sim);
+    fill_planes(sim, frame);
     for body in BodyId::BOTH {
         fill_damage(sim, body, &mut frame.damage[body.index()]);
     }
@@ -130,6 +132,60 @@ pub(super) fn place_m(sim: &Simulation, place: f64, length: f64) -> f64 {
         Heading::Forward => sim.door.m_from_x(place),
         Heading::Backward => sim.door.m_from_x(length - place),
     }
+}
+
+/// The planes that the scene asks for. They run along the solver's x, which is the scene's mirror image where
+/// the flow runs towards −x.
+fn fill_planes(sim: &Simulation, frame: &mut Frame) {
+    frame.planes.clear();
+    let Some(stress) = sim.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
+        return;
+    };
+    let sign = sim.door.heading.sign();
+    for &cut in &sim.cuts {
+        let mirrored = match cut {
+            Cut::X(x) => Cut::X(sign * x),
+            other => other,
+        };
+        let Some(plane) = stress.plane(mirrored) else {
+            continue;
+        };
+        let (normal, at) = match cut {
+            Cut::X(x) => ('x', x),
+            Cut::Y(y) => ('y', y),
+            Cut::Z(z) => ('z', z),
+        };
+        frame.planes.push(plane_in_si(sim, &plane, (normal, at)));
+    }
+}
+
+fn plane_in_si(sim: &Simulation, plane: &Plane, (normal, at): (char, f64)) -> StressPlane {
+    let unit = sim.door.p_hertz_pa;
+    let mut out = StressPlane {
+        normal,
+        at_m: sim.door.m_from_x(at),
+        width: plane.width,
+        rows: plane.rows,
+        first_m: sim.door.m_from_x(plane.along.0),
+        step_m: sim.door.m_from_x(plane.along.1),
+        ..StressPlane::default()
+    };
+    let backward = normal != 'x' && sim.door.heading == Heading::Backward;
+    if backward {
+        out.first_m = -out.first_m - (plane.width - 1) as f64 * out.step_m;
+    }
+    for row in 0..plane.rows {
+        for i in 0..plane.width {
+            let i = if backward { plane.width - 1 - i } else { i };
+            out.effective_pa
+                .push((f64::from(plane.effective[row * plane.width + i]) * unit) as f32);
+            let principal = plane.state(row, i).principal();
+            for (list, value) in out.principal_pa.iter_mut().zip(principal) {
+                list.push((value * unit) as f32);
+            }
+        }
+    }
+    out
 }
 
 /// Columns in the opposite order.

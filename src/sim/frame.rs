@@ -65,10 +65,33 @@ pub struct Frame {
     pub slice: Option<StressSlice>,
     /// The material point that is followed through the contact.
     pub material_point: Option<MaterialPoint>,
+    /// Planes x, y or z = const that the scene asks for.
+    pub planes: Vec<StressPlane>,
     /// Damage collected by blocks of both surfaces; `None` where none is mapped or nothing has crossed.
     pub damage: [Option<DamageBlock>; 2],
     /// Scalars.
     pub metrics: Metrics,
+}
+
+/// Stress of body 1 in a plane: index `row * width + i`.
+#[derive(Debug, Clone, Default)]
+pub struct StressPlane {
+    /// Axis that the plane is normal to: `'x'`, `'y'` or `'z'`.
+    pub normal: char,
+    /// Where it cuts that axis, m.
+    pub at_m: f64,
+    /// Points along a row: along y for x = const, else along x.
+    pub width: usize,
+    /// Rows: depths as in the slice, but along y for z = const.
+    pub rows: usize,
+    /// First coordinate along a row, m.
+    pub first_m: f64,
+    /// Spacing along a row, m.
+    pub step_m: f64,
+    /// Effective stress, Pa.
+    pub effective_pa: Vec<f32>,
+    /// Principal stresses, greatest (most tensile) first, Pa.
+    pub principal_pa: [Vec<f32>; 3],
 }
 
 /// Damage of a block of one surface that moves with its body: index `column * depths + k`.

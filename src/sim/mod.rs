@@ -24,7 +24,8 @@ mod watching;
 
 pub use error::{SimError, StepError};
 pub use frame::{
-    DamageBlock, Frame, LifeDetail, LifeEstimate, MaterialPoint, Metrics, Stage, StressSlice,
+    DamageBlock, Frame, LifeDetail, LifeEstimate, MaterialPoint, Metrics, Stage, StressPlane,
+    StressSlice,
 };
 pub use knob::Knob;
 pub use simulation::Simulation;

@@ -9,7 +9,7 @@ use super::fatigue_stage::LifeStage;
 use super::motion::Motion;
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
-use super::stress_stage::{Purpose, StressStage};
+use super::stress_stage::StressStage;
 use super::terrain::Terrain;
 use super::{Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
@@ -18,6 +18,7 @@ use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
 use crate::solve::march::{Flow, March, Shape};
 use crate::solve::material::DamageBasis;
 use crate::solve::newton::Tolerance;
+use crate::solve::stress::{Cut, Purpose};
 use crate::solve::traction::{FilmShear, TractionLaw};
 
 /// Nodes per side of the first grid.
@@ -70,6 +71,7 @@ impl Simulation {
         let mut this = Self {
             traction: vec![0.0; fine.len()],
             counting,
+            cuts: cuts(scene),
             iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
             stress_error: stress_error(&plan),
             plan,
@@ -162,13 +164,28 @@ fn stress_stage(
     let depths = (planned.depths, planned.depth_max_m / door.a_m);
     let poisson = [scene.body_1.poisson, scene.body_2.poisson];
     let purpose = if scene.life.is_some() {
-        Purpose::Life
+        Purpose::Volumes
     } else {
-        Purpose::Slice
+        Purpose::Slices
     };
     StressStage::new(grid, poisson, depths, asked.measure, purpose)
         .map(Some)
         .map_err(|error| SimError::Stress(error.to_string()))
+}
+
+/// The planes that the scene asks for beside y = 0.
+fn cuts(scene: &Scene) -> Vec<Cut> {
+    let Some(stress) = &scene.stress else {
+        return Vec::new();
+    };
+    [
+        stress.plane_x_a.map(Cut::X),
+        stress.plane_y_a.map(Cut::Y),
+        stress.plane_z_a.map(Cut::Z),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// What material points count: damage by ranges where the scene's life goes by ranges, else by peaks.

@@ -21,6 +21,7 @@ use super::{Frame, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
 use crate::plan::{March as Marching, Plan};
 use crate::solve::march::{Flow, March, Shape};
 use crate::solve::newton::Tolerance;
+use crate::solve::stress::Cut;
 use crate::solve::traction::TractionLaw;
 
 /// Time (a/U) to ramp sliding and roughness and to flush the contact once; also what a steady contact
@@ -50,6 +51,7 @@ pub struct Simulation {
     pub(super) stress: Option<StressStage>,
     pub(super) traction: Vec<f64>,
     pub(super) counting: Option<Counting>,
+    pub(super) cuts: Vec<Cut>,
     pub(super) iso_load_ratio: Option<f64>,
     pub(super) life: Option<LifeStage>,
     pub(super) stress_error: f64,

@@ -4,7 +4,8 @@ use crate::math::grid::{Grid, Symmetry};
 use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
 use crate::solve::stress::{
-    LineStress, Loading, SliceOut, StressEngine, StressError, StressLaw, StressSpec, VolumeSums,
+    Cut, LineStress, Loading, Plane, Purpose, SliceOut, StressEngine, StressError, StressLaw,
+    StressSpec, VolumeSums,
 };
 
 /// What computes: a volume below a point contact, a plane below a line.
@@ -69,15 +70,6 @@ struct Companions {
     criterion: SliceOut,
 }
 
-/// Whether life is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Purpose {
-    /// One body's slice.
-    Slice,
-    /// Both bodies' slices and volumes.
-    Life,
-}
-
 impl StressStage {
     /// Makes the engine for `grid` with Poisson's ratios of both bodies, and `depths` depths down to
     /// `depth_max` (in a).
@@ -97,6 +89,7 @@ impl StressStage {
             let mut spec = StressSpec::new(nodes, spacing, poisson[0], depths, rows);
             spec.nu_2 = poisson[1];
             (spec.x_first, spec.measure) = (grid.x_min, measure);
+            spec.purpose = purpose;
             StressEngine::new(&spec).map(|engine| Engine::Volume(Box::new(engine)))
         };
         let engine = match grid.symmetry {
@@ -114,7 +107,7 @@ impl StressStage {
             pressure: vec![0.0; grid.len()],
             traction: vec![0.0; grid.len()],
             shear: Shear::None,
-            companions: (purpose == Purpose::Life).then(|| Companions {
+            companions: (purpose == Purpose::Volumes).then(|| Companions {
                 mate: slice.clone(),
                 criterion: slice.clone(),
             }),
@@ -183,6 +176,14 @@ impl StressStage {
             }
             (Loading::Full(body), Shear::None) => Some(Loading::Normal(body)),
             _ => None,
+        }
+    }
+
+    /// Stress of body 1 in a plane under the surface loaded last; `None` below a line, where y does not matter.
+    pub(super) fn plane(&self, cut: Cut) -> Option<Plane> {
+        match &self.engine {
+            Engine::Volume(engine) => Some(engine.plane(Loading::Full(BodyId::One), cut)),
+            Engine::Line(_) => None,
         }
     }
 

@@ -63,6 +63,15 @@ impl Loading {
     }
 }
 
+/// What an engine is used for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Slices and planes: no memory for volumes is made.
+    Slices,
+    /// Volumes too.
+    Volumes,
+}
+
 /// What the engine is asked for. Lengths in a, stress in p_h.
 #[derive(Debug, Clone)]
 pub struct StressSpec {
@@ -86,6 +95,8 @@ pub struct StressSpec {
     pub weights: Vec<f64>,
     /// Which rows are given.
     pub symmetry: Symmetry,
+    /// What it is used for.
+    pub purpose: Purpose,
     /// Scalar measure of stress.
     pub measure: StressMeasure,
     /// Least period of the transform over the size of the domain.
@@ -124,6 +135,7 @@ impl StressSpec {
             depths,
             weights,
             symmetry,
+            purpose: Purpose::Volumes,
             measure: StressMeasure::VonMises,
             pad: Self::PAD,
             window: Self::WINDOW,
@@ -258,7 +270,10 @@ impl StressEngine {
         let waves = Waves::new(n_x, n_y, n_x as f64 * spec.dx, n_y as f64 * spec.dy);
         let mut plans = Vec::new();
         let layers = layers(spec, &waves, &mut plans);
-        let threads = rayon::current_num_threads().min(spec.depths.len());
+        let threads = match spec.purpose {
+            Purpose::Slices => 0,
+            Purpose::Volumes => rayon::current_num_threads().min(spec.depths.len()),
+        };
         Ok(Self {
             spectrum: Spectrum::new(spec.symmetry, &waves),
             load: LoadScratch::new(&waves, &mut plans),

@@ -47,7 +47,7 @@ mod volume;
 mod window;
 
 pub use depth::{DEPTH_SCALE_A, depth_rule, gauss_legendre};
-pub use engine::{Loading, StressEngine, StressError, StressSpec, Symmetry};
+pub use engine::{Loading, Purpose, StressEngine, StressError, StressSpec, Symmetry};
 pub use line::LineStress;
 pub use peak::Peak;
 pub use plane::{Cut, Plane};

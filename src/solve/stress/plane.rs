@@ -75,7 +75,7 @@ impl Plane {
 
 impl StressEngine {
     /// Stress of a body in a plane under the surface loaded last. Allocates.
-    pub fn plane(&mut self, loading: Loading, cut: Cut) -> Plane {
+    pub fn plane(&self, loading: Loading, cut: Cut) -> Plane {
         let mut plane = match cut {
             Cut::X(x) => self.cut_x(loading, x),
             Cut::Y(y) => self.cut_y(loading, y),
@@ -135,12 +135,13 @@ impl StressEngine {
         plane
     }
 
-    fn cut_z(&mut self, loading: Loading, z: f64) -> Plane {
+    fn cut_z(&self, loading: Loading, z: f64) -> Plane {
         let known = self.layers.iter().position(|layer| layer.z == z);
         if let Some(k) = known {
             return self.layer_plane(&self.layers[k], loading);
         }
-        let made = layers_at(&self.spec, &[z], &[0.0], &self.waves, &mut self.plans);
+        // Its transforms are others: plans of a layer's own grid are not used.
+        let made = layers_at(&self.spec, &[z], &[0.0], &self.waves, &mut Vec::new());
         self.layer_plane(&made[0], loading)
     }
 

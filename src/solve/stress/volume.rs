@@ -125,9 +125,10 @@ impl StressEngine {
     /// parallel on the current rayon pool. Allocates nothing.
     ///
     /// # Panics
-    /// Without a law, or with more than two.
+    /// Without a law, or with more than two; for an engine that was made for slices.
     pub fn volume_under(&mut self, laws: &[StressLaw], bodies: &[BodyId]) -> &VolumeSums {
         assert!((1..=MAX_LAWS).contains(&laws.len()), "one or two laws");
+        assert!(!self.workers.is_empty(), "made for volumes");
         let (wanted, count) = self.wanted(bodies);
         let job = Job {
             spec: &self.spec,
