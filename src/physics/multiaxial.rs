@@ -91,7 +91,7 @@ pub fn dang_van(history: impl Iterator<Item = Stress6> + Clone, alpha: f64) -> f
 
 /// Findley's risk with weight `k` of the normal stress, and the angle of the worst plane's normal from x
 /// towards z, rad.
-pub fn findley(history: impl Iterator<Item = Stress6> + Clone, k: f64) -> (f64, f64) {
+pub fn findley(history: &(impl Iterator<Item = Stress6> + Clone), k: f64) -> (f64, f64) {
     let mut worst = (0.0, 0.0);
     for plane in 0..PLANES {
         let angle = std::f64::consts::PI * plane as f64 / PLANES as f64;
@@ -148,7 +148,7 @@ mod tests {
             ..Stress6::default()
         });
         let risk = dang_van(history.iter().copied(), 0.3);
-        let (findley, angle) = findley(history.iter().copied(), 0.0);
+        let (findley, angle) = findley(&history.iter().copied(), 0.0);
         println!("shear ±1: Dang Van {risk:.4}, Findley {findley:.4} at {angle:.2}");
         assert!((risk - 1.0).abs() < 5e-3 && (findley - 1.0).abs() < 1e-3);
     }
@@ -166,7 +166,7 @@ mod tests {
         let risk = dang_van(push.iter().copied(), 0.3);
         // Pressure helps only while it lasts: the unloaded state has the same shear and none of it.
         assert!((risk - 0.25).abs() < 2e-3, "{risk}");
-        let (f, _) = findley(pull.iter().copied(), 0.3);
+        let (f, _) = findley(&pull.iter().copied(), 0.3);
         // max over angles of ½ sin 2φ · ½ + 0.3 cos²φ = ¼ (sin 2φ + 0.6 cos 2φ) + 0.15.
         let exact = 0.25 * (1.0_f64 + 0.36).sqrt() + 0.15;
         println!("pulsating pull: Findley {f:.4}, exact {exact:.4}");

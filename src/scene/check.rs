@@ -213,29 +213,12 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
             "only with a [stress] table; leave both out, or --set life=none",
         ));
     }
-    check_calibration(scene)?;
+    super::life::check_calibration(scene)?;
     scene
         .events
         .iter()
         .enumerate()
         .try_for_each(|(index, event)| check_event_fits(scene, index, event))
-}
-
-/// A calibration point needs both its numbers.
-fn check_calibration(scene: &Scene) -> Result<(), SceneError> {
-    let Some(life) = &scene.life else {
-        return Ok(());
-    };
-    let missing = match (life.calibration_cycles, life.calibration_pressure_pa) {
-        (Some(_), None) => "calibration_pressure_pa",
-        (None, Some(_)) => "calibration_cycles",
-        _ => return Ok(()),
-    };
-    Err(SceneError::Missing {
-        key: joined("life", missing),
-        allowed: "a calibration point has cycles and a pressure; leave both out for relative lives"
-            .to_owned(),
-    })
 }
 
 /// A radius across belongs to a point contact; what varies along y does not belong to a line.

@@ -10,16 +10,18 @@ mod emit;
 mod error;
 mod height_map;
 pub mod keys;
+mod life;
+mod life_keys;
 mod load;
 mod lubricant;
 mod model;
 pub mod presets;
 
 pub use error::SceneError;
+pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, VolumeIntegral};
 pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, BodyChoice, Contact, ContactKind, CycleBasis, DamageMaps, Event, Grid, Life, LifeModel,
-    Load, MapEdge, Motion, Numerics, Record, Scene, Spread, Stress, StressMeasure, Surface, Time,
-    VolumeIntegral,
+    Body, Contact, ContactKind, Event, Grid, Load, MapEdge, Motion, Numerics, Record, Scene,
+    Stress, StressMeasure, Surface, Time,
 };

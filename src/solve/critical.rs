@@ -36,7 +36,7 @@ fn stress_at(model: LifeModel, slice: &SliceOut, nx: usize, k: usize) -> f64 {
     let history = (0..nx).map(|i| slice.state(k * nx + i));
     match model {
         LifeModel::DangVan { hydrostatic } => dang_van(history, hydrostatic),
-        LifeModel::Findley { normal } => findley(history, normal).0,
+        LifeModel::Findley { normal } => findley(&history, normal).0,
         LifeModel::LundbergPalmgren { .. }
         | LifeModel::Zaretsky
         | LifeModel::IoannidesHarris { .. } => {

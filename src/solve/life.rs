@@ -243,7 +243,7 @@ pub fn factors(
     let ln_full = shares.ln(Loading::Full(body));
     let n = match profile {
         CycleProfile::Global(n) => n,
-        _ => {
+        CycleProfile::Depth { .. } | CycleProfile::Counted(_) => {
             let e = law.weibull_slope;
             let weighted = full
                 .iter()

@@ -157,6 +157,7 @@ pub(crate) fn frame(n: usize, step: u64) -> Arc<Frame> {
         slice: Some(slice),
         material_point: Some(point(t, &pressure)),
         metrics: metrics(step, t, f64::from(p_max), peak),
+        ..Frame::default()
     })
 }
 

@@ -30,7 +30,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use super::depth::depth_rule;
 use super::engine::{Loading, StressSpec, Symmetry};
 use super::peak::{self, Peak};
-use super::slice::SliceOut;
+use super::slice_out::SliceOut;
 use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
 use super::volume::VolumeOut;
 use crate::math::kernel_symbol::{even_kernel_symbol, odd_kernel_symbol};

@@ -41,7 +41,9 @@ mod load;
 mod measure;
 mod peak;
 mod plane;
+mod rows;
 mod slice;
+mod slice_out;
 mod sums;
 mod volume;
 mod window;
@@ -51,6 +53,6 @@ pub use engine::{Loading, Purpose, StressEngine, StressError, StressSpec, Symmet
 pub use line::LineStress;
 pub use peak::Peak;
 pub use plane::{Cut, Plane};
-pub use slice::SliceOut;
+pub use slice_out::SliceOut;
 pub use sums::{StressLaw, VolumeSums};
 pub use volume::{Integral, VolumeOut};

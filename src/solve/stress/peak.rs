@@ -7,7 +7,7 @@
 
 use super::depth::{stretched, unstretched};
 use super::engine::StressSpec;
-use super::slice::SliceOut;
+use super::slice_out::SliceOut;
 use crate::physics::invariants::Stress6;
 use crate::scene::StressMeasure;
 
