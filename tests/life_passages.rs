@@ -245,6 +245,27 @@ fn life_falls_with_sliding_and_roughness_and_the_split_says_why() {
 }
 
 #[test]
+fn models_of_one_depth_give_their_risk_by_depth() {
+    for model in ["dang_van", "findley", "lundberg_palmgren"] {
+        let mut sets = rippled(2, 0.4, 1.0);
+        sets.push(format!("life.model={model}"));
+        let (summary, frame) = run(&sets, 30);
+        let greatest = |risk: &[f32]| risk.iter().copied().fold(0.0, f32::max);
+        let [one, two] = [&frame.risk_pa[0], &frame.risk_pa[1]].map(|risk| greatest(risk));
+        println!(
+            "{model}: greatest {:.3} and {:.3} p_h; life {:.4}, {} volumes",
+            one / frame.p_hertz_pa as f32,
+            two / frame.p_hertz_pa as f32,
+            summary.life_relative.unwrap(),
+            summary.counters.stress_volumes
+        );
+        assert_eq!(frame.risk_pa[0].len(), 16);
+        assert!(one > 0.1 * frame.p_hertz_pa as f32 && two > 0.1 * frame.p_hertz_pa as f32);
+        assert!(summary.life_relative.unwrap() < 1.0);
+    }
+}
+
+#[test]
 fn the_bodies_change_places_with_the_sign_of_sliding() {
     let sets = |s: f64, rough: usize| {
         let mut sets = rippled(rough, s, 1.0);

@@ -165,6 +165,11 @@ impl LifeStage {
         }
     }
 
+    /// Risk by depth of a body by the scene's model, p_h; `None` for models that integrate.
+    pub(super) fn risk(&self, body: BodyId) -> Option<&[f32]> {
+        self.variants.first()?.risk(body)
+    }
+
     /// The volume pass, where a model wants one.
     fn pass(&mut self, stress: &mut StressStage) {
         if self.laws.is_empty() {

@@ -87,6 +87,12 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     frame.material_point = material_point(sim);
     fill_planes(sim, frame);
     for body in BodyId::BOTH {
+        let risk = &mut frame.risk_pa[body.index()];
+        risk.clear();
+        if let Some(values) = sim.life.as_ref().and_then(|life| life.risk(body)) {
+            let unit = sim.door.p_hertz_pa as f32;
+            risk.extend(values.iter().map(|value| value * unit));
+        }
         fill_damage(sim, body, &mut frame.damage[body.index()]);
     }
     frame.metrics.clone_from(&sim.metrics);

@@ -65,6 +65,9 @@ pub struct Frame {
     pub slice: Option<StressSlice>,
     /// The material point that is followed through the contact.
     pub material_point: Option<MaterialPoint>,
+    /// Risk by depth below y = 0 of body 1 and 2 (depths of the slice), Pa: half range of the orthogonal shear
+    /// (Lundberg-Palmgren), Dang Van's or Findley's; empty for models that integrate over the volume.
+    pub risk_pa: [Vec<f32>; 2],
     /// Planes x, y or z = const that the scene asks for.
     pub planes: Vec<StressPlane>,
     /// Damage collected by blocks of both surfaces; `None` where none is mapped or nothing has crossed.

@@ -24,8 +24,8 @@ pub(super) struct Variant {
     /// ln J of the reference, `[2 · body + form]`.
     #[serde(with = "ln_list")]
     reference: Vec<f64>,
-    /// Stress by depth of the last sample under full load, body 1 (models of one depth), p_h.
-    pub(super) by_depth: Vec<f32>,
+    /// Half range of shear, or risk, by depth of each body in the last sample, p_h (models of one depth).
+    by_depth: [Vec<f32>; 2],
 }
 
 /// What every variant is computed with.
@@ -49,7 +49,7 @@ impl Variant {
             meter: LifeMeter::new(depths, period, capacity),
             swept: Shares::new(depths),
             reference: vec![f64::NEG_INFINITY; 4],
-            by_depth: vec![0.0; depths],
+            by_depth: [vec![0.0; depths], vec![0.0; depths]],
         }
     }
 
@@ -101,11 +101,16 @@ impl Variant {
                     shared.scratch.of_mut(loading)[k] = shared.scratch.of(same)[k];
                     self.swept.of_mut(loading)[k] = self.swept.of(same)[k];
                 }
+                if loading.body() != same.body() {
+                    let [one, two] = &mut self.by_depth;
+                    two.copy_from_slice(one);
+                }
             } else {
                 stress.criterion_slice(loading);
                 let (nx, depths, slice) = stress.criterion();
                 let target = shared.scratch.of_mut(loading);
-                let by_depth = &mut self.by_depth;
+                // Full load comes after the pressure alone and stays.
+                let by_depth = &mut self.by_depth[loading.body().index()];
                 shares_of_slice(
                     self.model,
                     shared.law,
@@ -128,6 +133,11 @@ impl Variant {
             VolumeIntegral::Snapshot => mean,
             VolumeIntegral::Swept => &self.swept,
         })
+    }
+
+    /// Risk by depth of a body in the last sample, p_h; `None` for models that integrate.
+    pub(super) fn risk(&self, body: BodyId) -> Option<&[f32]> {
+        self.law.is_none().then(|| &self.by_depth[body.index()][..])
     }
 
     pub(super) fn meter(&self) -> &LifeMeter {

@@ -47,7 +47,8 @@ impl Loading {
         }
     }
 
-    pub(super) fn body(self) -> BodyId {
+    /// The body that is looked at.
+    pub fn body(self) -> BodyId {
         match self {
             Self::Normal(body) | Self::Full(body) => body,
         }
