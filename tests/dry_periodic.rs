@@ -32,6 +32,7 @@ fn solved(nodes: usize, mean: f64) -> Solved {
             load: mean,
             tolerance: Tolerance {
                 pressure: 1e-8,
+                film: f64::INFINITY,
                 mass: f64::INFINITY,
                 load: 1e-8,
                 max_iterations: 20,

@@ -86,6 +86,7 @@ enum Fluid {
 
 const TOLERANCE: Tolerance = Tolerance {
     pressure: 1e-4,
+    film: 1e-4,
     mass: 1e-4,
     load: 1e-6,
     max_iterations: 20,

@@ -61,8 +61,10 @@ pub(crate) enum Command {
 Examples:
   asperity run --out passage.rrd --table passage.csv
   asperity run --set load.hertz_pressure_pa=1.2e9 --set body_1.surface.kind=smooth
-  asperity run --set lubricant=none --passages 1 --no-record --summary dry.json")]
-    Run(RunArgs),
+  asperity run --set lubricant=none --passages 1 --no-record --summary dry.json
+  asperity run --passages 1 --save-state half.state
+  asperity run --passages 2 --from-state half.state        goes on as if it had never stopped")]
+    Run(HeadlessArgs),
     /// Print the plan: what is computed, what is left out and why, memory, estimated time
     Check(SceneArgs),
     /// List the scenes that come with the program, or print one as TOML with every key explained
@@ -115,6 +117,30 @@ pub(crate) struct RunArgs {
     /// Replace output files that exist
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+/// A run without a screen, which may be saved and taken up again.
+#[derive(Debug, Args)]
+pub(crate) struct HeadlessArgs {
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+    /// State to write when the run ends, for --from-state
+    #[arg(long, value_name = "FILE")]
+    pub(crate) save_state: Option<PathBuf>,
+    /// State to go on from, saved by a run of the same scene; the result is that of one run, bit for bit
+    #[arg(long, value_name = "FILE")]
+    pub(crate) from_state: Option<PathBuf>,
+}
+
+impl HeadlessArgs {
+    /// A run that is neither saved nor taken up.
+    pub(crate) fn whole(run: RunArgs) -> Self {
+        Self {
+            run,
+            save_state: None,
+            from_state: None,
+        }
+    }
 }
 
 impl RunArgs {

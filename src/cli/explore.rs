@@ -42,7 +42,7 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
     let shown = asperity::tui::explore(wiring(&prepared, &session, recording, interrupt));
     session.send(asperity::run::Command::Stop);
     let outcome = session.join()?;
-    let code = conclude(&prepared.scene, &outcome, outputs)?;
+    let code = conclude(&prepared.scene, &outcome, None, outputs)?;
     match shown {
         Ok(()) => Ok(code),
         Err(error @ TuiError::NoScreen { .. }) => Err(Failure::input(miette!("{error}"))),

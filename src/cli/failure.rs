@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use asperity::observe::ObserveError;
 use asperity::plan::PlanError;
-use asperity::run::RunError;
+use asperity::run::{CheckpointError, RunError};
 use asperity::scene::SceneError;
 use miette::{MietteHandlerOpts, Report, miette};
 
@@ -106,6 +106,16 @@ impl From<PlanError> for Failure {
 impl From<ObserveError> for Failure {
     fn from(error: ObserveError) -> Self {
         Self::output(miette!(code = "output", "{error}"))
+    }
+}
+
+impl From<CheckpointError> for Failure {
+    fn from(error: CheckpointError) -> Self {
+        Self::input(miette!(
+            code = "state",
+            help = "a run goes on with the scene and settings that it was saved with; only --passages and outputs may differ",
+            "{error}"
+        ))
     }
 }
 

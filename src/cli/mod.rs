@@ -16,7 +16,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-use args::{Cli, Command, RunArgs};
+use args::{Cli, Command, HeadlessArgs, RunArgs};
 use failure::Failure;
 
 /// Reads the command line and does what it says.
@@ -54,7 +54,7 @@ fn bare() -> Result<u8, Failure> {
     if on_a_terminal && cfg!(feature = "tui") {
         explore(&RunArgs::bare())
     } else {
-        run::run(&RunArgs::bare_headless())
+        run::run(&HeadlessArgs::whole(RunArgs::bare_headless()))
     }
 }
 

@@ -45,11 +45,7 @@ impl Outputs {
         recording: &Path,
         pace: Pace,
     ) -> Result<Self, ObserveError> {
-        let overwrite = if args.force {
-            Overwrite::Replace
-        } else {
-            Overwrite::Refuse
-        };
+        let overwrite = Overwrite::from_force(args.force);
         let mut outputs = Self {
             watchers: Vec::new(),
             recording: None,

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use asperity::run::{End, Outcome};
 use asperity::scene::{ContactKind, Scene};
-use asperity::sim::Summary;
+use asperity::sim::{Rhythm, Summary};
 
-/// The outcome as text.
-pub(crate) fn text(scene: &Scene, outcome: &Outcome) -> String {
+/// The outcome as text. `errors`: the discretisation error in words.
+pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> String {
     let mut text = String::new();
     if !scene.title.is_empty() {
         text.push_str(&scene.title);
@@ -16,6 +16,9 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome) -> String {
     if let Some(summary) = &outcome.summary {
         line(&mut text, "run", &run_line(outcome));
         push_results(&mut text, scene.kind(), summary);
+        if let Some(errors) = errors {
+            line(&mut text, "discretisation", errors);
+        }
     }
     for report in &outcome.reports {
         let skipped = if report.skipped > 0 {
@@ -104,6 +107,9 @@ fn push_results(text: &mut String, kind: ContactKind, s: &Summary) {
             x * 1e6
         );
         line(text, "stress", &stress);
+    }
+    if let Some(repetition) = repetition(s) {
+        line(text, "passage", &repetition);
     }
     push_life(text, s);
     let errors = format!("load {:.1e}, mass {:.1e}", s.load_error, s.mass_error);
@@ -200,6 +206,45 @@ fn push_life_beside(text: &mut String, s: &Summary) {
             format!("{a_iso:.3} (side comparison: it holds a penalty of roughness of its own)");
         line(text, "ISO 281 a_ISO", &what);
     }
+}
+
+/// The discretisation error of a run, from a companion on `nodes` that took `wall_s`.
+pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
+    let share = |error: Option<f64>, value: f64| {
+        error.map_or_else(
+            || "unknown".to_owned(),
+            |error| format!("{:.1} %", 100.0 * error / value),
+        )
+    };
+    let life = s.error_ln_life.map_or_else(String::new, |error| {
+        format!(", life a factor of {:.2}", error.exp())
+    });
+    format!(
+        "central film {}, least film {}, greatest pressure {}{life}; from {nodes} nodes in {wall_s:.1} s",
+        share(s.error_h_central_m, s.h_central_m),
+        share(s.error_h_min_m, s.h_min_m),
+        share(s.error_p_max_pa, s.p_max_pa),
+    )
+}
+
+/// Whether the passage repeats, in words.
+fn repetition(s: &Summary) -> Option<String> {
+    let (rhythm, period, repeats) = (s.rhythm?, s.period_s?, s.periodic?);
+    let drift = s.period_drift.map_or_else(
+        || "not seen twice yet".to_owned(),
+        |drift| format!("drift {:.2} %", 100.0 * drift),
+    );
+    let what = match rhythm {
+        Rhythm::Steady => "steady".to_owned(),
+        Rhythm::Orbit => format!("both bodies' waves come back after {:.3} ms", 1e3 * period),
+        Rhythm::Statistics => "no common period of both bodies' waves; means".to_owned(),
+    };
+    let verdict = if repeats {
+        "repeats"
+    } else {
+        "does not repeat"
+    };
+    Some(format!("{verdict}: {what}, {drift}"))
 }
 
 fn cycles(formula: Option<f64>, counted: Option<f64>) -> String {

@@ -1,14 +1,18 @@
 //! `asperity run`: a scene without a screen.
 
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use asperity::run::{Command, End, Ending, Outcome, Request, Session};
+use asperity::observe::{ObserveError, Overwrite};
+use asperity::plan::Plan;
+use asperity::run::{Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session};
 use asperity::scene::Scene;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::RunArgs;
+use super::args::{HeadlessArgs, RunArgs};
 use super::failure::Failure;
 use super::outputs::{Outputs, Pace};
 use super::{report, scenes};
@@ -19,7 +23,8 @@ const WORTH_A_BAR_S: f64 = 2.0;
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Runs a scene and writes what was asked for.
-pub(crate) fn run(args: &RunArgs) -> Result<u8, Failure> {
+pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
+    let args = &headless.run;
     refuse_recording_without_recorder(args)?;
     let prepared = scenes::prepare(args)?;
     let path = args
@@ -27,28 +32,104 @@ pub(crate) fn run(args: &RunArgs) -> Result<u8, Failure> {
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}.rrd", prepared.name)));
     let mut outputs = Outputs::open(args, &prepared, &path, Pace::Headless)?;
-    let estimate_s = prepared.plan.cost.time_s;
-    let session = Session::start(Request {
+    let plan = prepared.plan;
+    let estimate_s = plan.cost.time_s;
+    let saved = headless
+        .from_state
+        .as_deref()
+        .map(Checkpoint::read)
+        .transpose()?;
+    if let Some(saved) = &saved {
+        saved.fits(&prepared.scene)?;
+    }
+    let overwrite = Overwrite::from_force(args.force);
+    let state_file = headless
+        .save_state
+        .as_deref()
+        .map(|path| Ok::<_, ObserveError>((path, overwrite.create(path)?)))
+        .transpose()?;
+    let request = Request {
         name: prepared.name.clone(),
         scene: prepared.scene.clone(),
-        plan: prepared.plan,
+        plan: plan.clone(),
         threads: args.threads(),
         watchers: outputs.take_watchers(),
         ending: Ending::Passages,
-    })?;
-    stop_on_signals(&session)?;
-    wait(&session, estimate_s);
-    let outcome = session.join()?;
+    };
+    let session = match saved {
+        None => Session::start(request),
+        Some(saved) => Session::resume(request, saved),
+    }?;
+    let interrupt = stop_on_signals()?;
+    wait(&session, estimate_s, &interrupt, "");
+    let mut outcome = session.join()?;
+    let errors = estimate_errors(
+        &prepared.scene,
+        &plan,
+        args.threads(),
+        &mut outcome,
+        &interrupt,
+    );
     if matches!(outcome.end, End::Stopped) {
         let note = "stopped by the user; what was recorded is complete";
         let _ = writeln!(std::io::stderr(), "{note}");
     }
-    conclude(&prepared.scene, &outcome, outputs)
+    let code = conclude(&prepared.scene, &outcome, Some(&errors), outputs)?;
+    if let Some((path, mut file)) = state_file {
+        write_state(&outcome, path, &mut file)?;
+    }
+    Ok(code)
 }
 
-/// Says what came out and what went wrong.
-pub(crate) fn conclude(scene: &Scene, outcome: &Outcome, outputs: Outputs) -> Result<u8, Failure> {
-    let written = outputs.write_summary(outcome.summary.as_ref(), &report::text(scene, outcome));
+fn write_state(
+    outcome: &Outcome,
+    path: &Path,
+    file: &mut std::fs::File,
+) -> Result<(), ObserveError> {
+    let failed = |reason: String| ObserveError::new(path.display().to_string(), reason);
+    let Some(checkpoint) = &outcome.checkpoint else {
+        return Err(failed(
+            "the run never began, so there is no state".to_owned(),
+        ));
+    };
+    checkpoint
+        .write(file)
+        .map_err(|error| failed(format!("the state could not be written: {error}")))
+}
+
+/// The discretisation error, from a companion on half the nodes where the scene asks for it; in words.
+fn estimate_errors(
+    scene: &Scene,
+    plan: &Plan,
+    threads: usize,
+    outcome: &mut Outcome,
+    interrupt: &AtomicBool,
+) -> String {
+    let finished = matches!(outcome.end, End::Done);
+    let Some(summary) = outcome.summary.as_mut().filter(|_| finished) else {
+        return "not estimated: the run did not finish".to_owned();
+    };
+    let compared = Companion::start(scene, plan, threads).and_then(|companion| {
+        let share = plan.cost.time_s / 7.0;
+        wait(&companion.session, share, interrupt, "error estimate, ");
+        let nodes = companion.nodes;
+        Ok((nodes, companion.compare(summary)?.wall_s))
+    });
+    match compared {
+        Ok((nodes, wall_s)) => report::errors(summary, nodes, wall_s),
+        Err(reason) => format!("not estimated: {reason}"),
+    }
+}
+
+/// Says what came out and what went wrong. `errors`: the discretisation error in words.
+pub(crate) fn conclude(
+    scene: &Scene,
+    outcome: &Outcome,
+    errors: Option<&str>,
+    outputs: Outputs,
+) -> Result<u8, Failure> {
+    let text = report::text(scene, outcome, errors);
+    let written = outputs.write_summary(outcome.summary.as_ref(), &text);
     let mut stderr = std::io::stderr().lock();
     for complaint in report::complaints(outcome) {
         let _ = writeln!(stderr, "{complaint}");
@@ -69,21 +150,19 @@ fn refuse_recording_without_recorder(args: &RunArgs) -> Result<(), Failure> {
 }
 
 /// Ctrl-C or a request to end stops the run after its step; a second one ends the program at once.
-fn stop_on_signals(session: &Session) -> Result<(), Failure> {
-    let commands = session.commands();
-    let mut asked = false;
+fn stop_on_signals() -> Result<Arc<AtomicBool>, Failure> {
+    let asked = Arc::new(AtomicBool::new(false));
+    let raised = Arc::clone(&asked);
     ctrlc::set_handler(move || {
-        if asked {
+        if raised.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
-        asked = true;
-        // A run that has ended hears nothing; the program is about to end anyway.
-        let _ = commands.send(Command::Stop);
     })
-    .map_err(|error| Failure::stalled(miette::miette!("signals cannot be watched: {error}")))
+    .map_err(|error| Failure::stalled(miette::miette!("signals cannot be watched: {error}")))?;
+    Ok(asked)
 }
 
-fn wait(session: &Session, estimate_s: f64) {
+fn wait(session: &Session, estimate_s: f64, interrupt: &AtomicBool, what: &str) {
     const TICKS: f64 = 1000.0;
     let bar = if estimate_s > WORTH_A_BAR_S {
         // Draws on a terminal only.
@@ -92,13 +171,17 @@ fn wait(session: &Session, estimate_s: f64) {
         ProgressBar::hidden()
     };
     while !session.is_finished() {
+        if interrupt.load(Ordering::Relaxed) {
+            // A run that has ended hears nothing.
+            session.send(Command::Stop);
+        }
         let status = session.status();
         bar.set_position((status.progress * TICKS) as u64);
         if bar.message().is_empty() || status.steps > 0 {
             bar.set_message(if status.steps == 0 {
-                "start-up".to_owned()
+                format!("{what}start-up")
             } else {
-                format!("step {}", status.steps)
+                format!("{what}step {}", status.steps)
             });
         }
         std::thread::sleep(LOOK);

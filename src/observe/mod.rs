@@ -101,6 +101,11 @@ pub enum Overwrite {
 }
 
 impl Overwrite {
+    /// What `--force` means.
+    pub fn from_force(force: bool) -> Self {
+        if force { Self::Replace } else { Self::Refuse }
+    }
+
     /// Creates (or empties) the file, so that a path that cannot be written is known before the
     /// run starts and nobody's file is lost.
     ///

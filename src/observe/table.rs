@@ -231,6 +231,8 @@ impl Row {
             n_body_2,
             n_counted_body_1,
             n_counted_body_2,
+            repeat: _,
+            errors: _,
         } = metrics;
         self.cell(u8::from(*converged));
         self.cell(residual);

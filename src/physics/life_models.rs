@@ -118,17 +118,6 @@ impl LifeModel {
             Self::DangVan { .. } | Self::Findley { .. } => Some(c),
         }
     }
-
-    /// Name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Zaretsky => "Zaretsky",
-            Self::LundbergPalmgren { .. } => "Lundberg-Palmgren",
-            Self::IoannidesHarris { .. } => "Ioannides-Harris",
-            Self::DangVan { .. } => "Dang Van",
-            Self::Findley { .. } => "Findley",
-        }
-    }
 }
 
 /// How many stress cycles a loading cycle counts for, by depth.

@@ -84,6 +84,15 @@ impl Rainflow {
         }
     }
 
+    /// Makes the room again that a copy or a file does not keep.
+    pub fn make_room(&mut self) {
+        let room = |list: &mut Vec<f64>, most: usize| {
+            list.reserve_exact(most.saturating_sub(list.len()));
+        };
+        room(&mut self.stack, self.capacity + 2);
+        room(&mut self.ring, self.capacity + 3);
+    }
+
     /// Starts a new history.
     pub fn reset(&mut self) {
         self.stack.clear();

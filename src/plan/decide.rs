@@ -43,8 +43,10 @@ pub(super) fn domain_warnings(
     domain: &Domain,
     film: Option<&FilmPlan>,
 ) -> Vec<Warning> {
-    /// Errors of the film above which the user is told.
+    /// Errors of the film above which the user is told: by the mesh, and by an inlet that the user chose
+    /// (the plan's own stays below 0.5 %).
     const WORTH_A_WORD: f64 = 0.05;
+    const INLET_WORTH_A_WORD: f64 = 0.01;
     let Some(film) = film else {
         return Vec::new();
     };
@@ -53,8 +55,8 @@ pub(super) fn domain_warnings(
     if mesh > WORTH_A_WORD {
         warnings.push(Warning::CoarseForTheFilm { error: mesh });
     }
-    let inlet = inlet_error(kind, film.central, domain.x_min_a);
-    if inlet > WORTH_A_WORD {
+    let inlet = inlet_error(kind, film.central, film.groups.l, domain.x_min_a);
+    if inlet > INLET_WORTH_A_WORD {
         warnings.push(Warning::ShortInlet {
             error: inlet,
             x_min_a: domain.x_min_a,

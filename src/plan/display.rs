@@ -126,16 +126,16 @@ impl Plan {
             ContactKind::Line => writeln!(
                 f,
                 "Grid        {n} nodes, x {} a to {} a; dx {:.2} um; shown by {LINE_ROWS} equal rows",
-                domain.x_min_a,
-                domain.x_max_a,
+                significant(domain.x_min_a),
+                significant(domain.x_max_a),
                 self.dx_m * 1e6,
                 n = domain.nodes
             )?,
             ContactKind::Point => writeln!(
                 f,
                 "Grid        {n} x {n} nodes, x {} a to {} a, y +-{} b; dx {:.2} um, dy {:.2} um",
-                domain.x_min_a,
-                domain.x_max_a,
+                significant(domain.x_min_a),
+                significant(domain.x_max_a),
                 domain.y_half_b,
                 self.dx_m * 1e6,
                 self.dy_m * 1e6,

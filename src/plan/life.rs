@@ -1,6 +1,10 @@
 //! What the plan tells about fatigue life.
 
-use crate::scene::{CycleBasis, LifeModel, Spread, StressMeasure, VolumeIntegral};
+use super::Plan;
+use crate::scene::{CycleBasis, Life, LifeModel, Spread, StressMeasure, VolumeIntegral};
+
+/// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
+const PHASES: u64 = 16;
 
 /// Fatigue life.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,5 +41,41 @@ impl LifeAsked {
     pub fn volumes(&self) -> bool {
         let integrates = matches!(self.model, LifeModel::Zaretsky | LifeModel::IoannidesHarris);
         integrates || self.spread == Spread::Models
+    }
+}
+
+impl Plan {
+    /// Volume integrals at least [`PHASES`] times in 4 a, at the longest interval that meets every wave in
+    /// all of its phases; an interval that fits a whole number of times into a wave would miss most.
+    pub(super) fn life_plan(&self, life: &Life, measure: StressMeasure) -> LifePlan {
+        /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
+        const GAP: f64 = 0.14;
+        let longest = (self.steps_per_passage / PHASES).max(1);
+        let widest = |every: u64| {
+            let n = self.steps_per_passage / every;
+            let waves = self.waves.iter().flatten();
+            waves
+                .map(|wave| wave.widest_gap(every, n))
+                .fold(0.0, f64::max)
+        };
+        let intervals = (1..=longest).rev();
+        let every = intervals
+            .clone()
+            .find(|every| widest(*every) <= GAP)
+            .or_else(|| intervals.min_by(|one, two| widest(*one).total_cmp(&widest(*two))))
+            .unwrap_or(1);
+        LifePlan {
+            asked: LifeAsked {
+                model: life.model,
+                measure,
+                cycles: life.cycles,
+                volume: life.volume,
+                spread: life.spread,
+                maps: life.maps(),
+                calibration: life.calibration(),
+            },
+            volume_every_steps: every,
+            phases_per_passage: self.steps_per_passage / every,
+        }
     }
 }

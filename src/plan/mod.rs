@@ -13,13 +13,13 @@ mod surfaces;
 use thiserror::Error;
 
 pub use cost::Cost;
-pub use domain::{Domain, inlet_error, mesh_error};
+pub use domain::{Domain, inlet_error, mesh_error, side_error};
 pub use life::{LifeAsked, LifePlan};
 pub use surfaces::WavePlan;
 
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Life, Record, Scene, StressMeasure};
+use crate::scene::{ContactKind, Record, Scene, StressMeasure};
 
 /// Everything that is decided before the first step.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,6 +54,10 @@ pub struct Plan {
     pub steps: u64,
     /// Time steps of one length of 4 a at U.
     pub steps_per_passage: u64,
+    /// One length of 4 a at U, in a: what means are taken over.
+    pub passage_a: f64,
+    /// Length of the run after the start-up, in a at U.
+    pub length_a: f64,
     /// The waves of body 1 and 2; `None`: smooth.
     pub waves: [Option<WavePlan>; 2],
     /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
@@ -240,8 +244,8 @@ pub enum PlanError {
     },
 }
 
-/// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
-const PHASES: u64 = 16;
+/// A passage, in a.
+const PASSAGE_A: f64 = 4.0;
 /// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
 const START_UP_PASSAGES: f64 = 2.5;
 
@@ -254,7 +258,11 @@ impl Plan {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
         let kind = scene.kind();
-        let domain = Domain::choose(kind, &scene.grid, film.map(|film| film.central));
+        let domain = Domain::choose(
+            kind,
+            &scene.grid,
+            film.map(|film| (film.central, film.groups.l)),
+        );
         let dx_m = domain.dx_a() * hertz.a_m;
         let dy_m = match kind {
             ContactKind::Point => domain.dy_b() * hertz.b_m,
@@ -285,6 +293,8 @@ impl Plan {
             dt_s: step_m / scene.motion.entrainment_m_s.abs(),
             steps,
             steps_per_passage,
+            passage_a: PASSAGE_A,
+            length_a: scene.time.passages * PASSAGE_A,
             waves,
             traction_deflection: decide::traction_deflection(scene),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),
@@ -312,40 +322,6 @@ impl Plan {
 
     fn depths(&self) -> usize {
         self.stress.map_or(0, |stress| stress.depths)
-    }
-
-    /// Volume integrals at least [`PHASES`] times in 4 a, at the longest interval that meets every wave in
-    /// all of its phases; an interval that fits a whole number of times into a wave would miss most.
-    fn life_plan(&self, life: &Life, measure: StressMeasure) -> LifePlan {
-        /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
-        const GAP: f64 = 0.14;
-        let longest = (self.steps_per_passage / PHASES).max(1);
-        let widest = |every: u64| {
-            let n = self.steps_per_passage / every;
-            let waves = self.waves.iter().flatten();
-            waves
-                .map(|wave| wave.widest_gap(every, n))
-                .fold(0.0, f64::max)
-        };
-        let intervals = (1..=longest).rev();
-        let every = intervals
-            .clone()
-            .find(|every| widest(*every) <= GAP)
-            .or_else(|| intervals.min_by(|one, two| widest(*one).total_cmp(&widest(*two))))
-            .unwrap_or(1);
-        LifePlan {
-            asked: LifeAsked {
-                model: life.model,
-                measure,
-                cycles: life.cycles,
-                volume: life.volume,
-                spread: life.spread,
-                maps: life.maps(),
-                calibration: life.calibration(),
-            },
-            volume_every_steps: every,
-            phases_per_passage: self.steps_per_passage / every,
-        }
     }
 
     fn record_plan(&self, record: &Record) -> RecordPlan {

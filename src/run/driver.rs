@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use super::Command;
+use super::checkpoint::Checkpoint;
 use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
 use super::session::{Ending, SessionEvent, Shared, lock};
 use super::stepper::Stepper;
@@ -14,7 +15,7 @@ use crate::observe::{
     FramePool, Latest, ObserveError, ObserverReport, RunContext, RunEvent, RunEventKind,
 };
 use crate::scene::{Event, Scene};
-use crate::sim::{Frame, Knob, SimError, Stage};
+use crate::sim::{Frame, Knob, SimError, Stage, State};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
@@ -42,6 +43,7 @@ pub(super) struct Driver {
     unconverged: Vec<Unconverged>,
     n_unconverged: u64,
     output_errors: Vec<ObserveError>,
+    n_events_played: usize,
     /// When the first step of the passage was done.
     passage_began: Option<Instant>,
 }
@@ -70,8 +72,17 @@ impl Driver {
             unconverged: Vec::new(),
             n_unconverged: 0,
             output_errors: Vec::new(),
+            n_events_played: 0,
             passage_began: None,
         }
+    }
+
+    /// Goes on where another run ended: what it has done is not done again.
+    pub(super) fn after(mut self, n_events_played: usize, n_unconverged: u64) -> Self {
+        self.script.drain(..n_events_played.min(self.script.len()));
+        self.n_events_played = n_events_played;
+        self.n_unconverged = n_unconverged;
+        self
     }
 
     /// The whole run, from opening the outputs to closing them.
@@ -90,6 +101,7 @@ impl Driver {
         let mut summary = None;
         let mut steps = 0;
         let mut steps_per_s = None;
+        let mut checkpoint = None;
         let end = if self.must_end_for_outputs() {
             End::OutputFailed
         } else {
@@ -103,6 +115,7 @@ impl Driver {
                         .filter(|_| steps > 1)
                         .map(|began| (steps - 1) as f64 / began.elapsed().as_secs_f64().max(1e-9));
                     summary = (steps > 0).then(|| sim.summary());
+                    checkpoint = sim.save().map(|sim| self.checkpoint(context, sim));
                     end
                 }
             }
@@ -127,13 +140,28 @@ impl Driver {
             applied: self.applied,
             reports,
             output_errors: self.output_errors,
+            checkpoint,
             wall_s,
             steps_per_s,
         }
     }
 
+    fn checkpoint(&self, context: &RunContext, sim: State) -> Box<Checkpoint> {
+        Box::new(Checkpoint {
+            program: context.program.clone(),
+            scene: context.scene_toml.clone(),
+            n_events_played: self.n_events_played,
+            n_unconverged: self.n_unconverged,
+            sim,
+        })
+    }
+
     /// Steps until something ends the run.
     fn drive<S: Stepper>(&mut self, sim: &mut S) -> End {
+        if self.ending == Ending::Passages && sim.is_done() {
+            // Taken up where all that is asked for had been done.
+            return End::Done;
+        }
         loop {
             if let Some(end) = self.obey(sim) {
                 return end;
@@ -227,6 +255,7 @@ impl Driver {
             let Some(event) = self.script.pop_front() else {
                 return;
             };
+            self.n_events_played += 1;
             for (key, value) in &event.set {
                 if let Some(knob) = Knob::from_key(key) {
                     self.set(sim, knob, *value);

@@ -9,12 +9,16 @@
 //! Session::join <──────────────── Outcome
 //! ```
 
+mod checkpoint;
+mod companion;
 mod driver;
 mod outcome;
 mod session;
 mod stepper;
 mod watcher;
 
+pub use checkpoint::{Checkpoint, CheckpointError};
+pub use companion::{Companion, NoEstimate};
 pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
 pub use session::{Ending, Request, RunError, Session, SessionEvent, Status};
 pub use stepper::Stepper;

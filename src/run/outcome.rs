@@ -1,7 +1,7 @@
 //! How a run ended.
 
 use crate::observe::{ObserveError, ObserverReport};
-use crate::run::Command;
+use crate::run::{Checkpoint, Command};
 use crate::sim::{SimError, StepError, Summary};
 
 /// A command that took effect, with the step before which it did: scene and log replay the run.
@@ -60,6 +60,8 @@ pub struct Outcome {
     pub reports: Vec<ObserverReport>,
     /// Outputs that failed.
     pub output_errors: Vec<ObserveError>,
+    /// What a continuation needs; `None`: the simulation never began, or cannot go on.
+    pub checkpoint: Option<Box<Checkpoint>>,
     /// Time taken, s.
     pub wall_s: f64,
     /// Steps a second in the passage, outputs included; `None` with fewer than two steps.

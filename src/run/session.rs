@@ -8,6 +8,7 @@ use std::thread::JoinHandle;
 use thiserror::Error;
 
 use super::Command;
+use super::checkpoint::Checkpoint;
 use super::driver::Driver;
 use super::outcome::Outcome;
 use super::stepper::Stepper;
@@ -128,12 +129,39 @@ impl Session {
         Self::start_with(request, move |scene| Simulation::new(scene, plan, threads))
     }
 
+    /// Same, going on from a saved state. A state that does not fit ends the run before it starts
+    /// ([`super::End::NotStarted`]).
+    ///
+    /// # Errors
+    /// [`RunError::NoThread`] when the system gives no thread.
+    pub fn resume(request: Request, checkpoint: Checkpoint) -> Result<Self, RunError> {
+        let threads = request.threads;
+        let plan = request.plan.clone();
+        let played = (checkpoint.n_events_played, checkpoint.n_unconverged);
+        Self::spawn(request, played, move |scene| {
+            checkpoint
+                .fits(scene)
+                .map_err(|error| SimError::State(error.to_string()))?;
+            let mut sim = Simulation::new(scene, plan, threads)?;
+            sim.restore(checkpoint.sim)?;
+            Ok(sim)
+        })
+    }
+
     /// Same with another simulation, made on the thread that will own it.
     ///
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
     pub fn start_with<S: Stepper>(
         request: Request,
+        make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
+    ) -> Result<Self, RunError> {
+        Self::spawn(request, (0, 0), make)
+    }
+
+    fn spawn<S: Stepper>(
+        request: Request,
+        (n_events_played, n_unconverged): (usize, u64),
         make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
     ) -> Result<Self, RunError> {
         let (commands, inbox) = channel();
@@ -146,7 +174,8 @@ impl Session {
             inbox,
             latest.clone(),
             Arc::clone(&shared),
-        );
+        )
+        .after(n_events_played, n_unconverged);
         let context = RunContext {
             scene_toml: request.scene.to_toml(),
             plan_text: request.plan.to_string(),

@@ -1,6 +1,6 @@
 //! What the loop needs of a simulation. One implementation runs; tests put in others that fail on purpose.
 
-use crate::sim::{Frame, Knob, Metrics, SimError, Simulation, Stage, StepError, Summary};
+use crate::sim::{Frame, Knob, Metrics, SimError, Simulation, Stage, State, StepError, Summary};
 
 /// A simulation as the loop sees it.
 pub trait Stepper {
@@ -30,6 +30,10 @@ pub trait Stepper {
     fn is_done(&self) -> bool;
     /// Result so far.
     fn summary(&self) -> Summary;
+    /// What a restart needs; `None`: it cannot go on later.
+    fn save(&self) -> Option<State> {
+        None
+    }
 }
 
 impl Stepper for Simulation {
@@ -62,5 +66,8 @@ impl Stepper for Simulation {
     }
     fn summary(&self) -> Summary {
         self.summary()
+    }
+    fn save(&self) -> Option<State> {
+        Some(self.save())
     }
 }

@@ -206,6 +206,7 @@ pub const SECTIONS: &[Section] = &[
         keys: &[
             key("step_nodes", "", Number(0.05, 4.0), Defaulted, "time step in nodes travelled at U; 1 has no numerical diffusion"),
             key("passages", "", Number(0.01, 1e4), Defaulted, "length of the run in lengths of 4 a at U, after the start-up"),
+            key("tolerance", "", Number(1e-5, 0.1), Optional("fixed steps of step_nodes"), "adaptive steps: error of the film that they may add over one crossing"),
         ],
     },
     Section {
@@ -215,6 +216,7 @@ pub const SECTIONS: &[Section] = &[
         keys: &[
             key("tolerance", "", Number(1e-9, 0.1), Defaulted, "relative change of the pressure"),
             key("max_iterations", "", Integer(1, 1000), Defaulted, "most Newton iterations of one step"),
+            key("error_estimate", "", Choice(&["companion", "none"]), Defaulted, "headless runs: error of the mesh from a second run on half the nodes, or none"),
         ],
     },
     Section {

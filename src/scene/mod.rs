@@ -22,6 +22,6 @@ pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, Volu
 pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, Contact, ContactKind, Event, Grid, Load, MapEdge, Motion, Numerics, Record, Scene,
-    Stress, StressMeasure, Surface, Time,
+    Body, Contact, ContactKind, ErrorSource, Event, Grid, Load, MapEdge, Motion, Numerics, Record,
+    Scene, Stress, StressMeasure, Surface, Time,
 };

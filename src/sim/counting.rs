@@ -101,6 +101,24 @@ impl Counting {
         self.reference = [ranges, peak].map(|s| f64::from(s).powf(exponent));
     }
 
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        for tracker in &mut self.trackers {
+            tracker.make_room();
+        }
+    }
+
+    /// Whether the counts were made on `grid` with so many depths, and nothing in them points astray.
+    pub(super) fn fits(&self, grid: &Grid, depths: usize) -> bool {
+        let whole = |profile: &Profile| {
+            profile.counted.len() == depths && profile.equivalent.len() == depths
+        };
+        self.row.len() == grid.nx
+            && self.shown_depth < depths.max(1)
+            && self.profiles.iter().flatten().all(whole)
+            && self.trackers.iter().all(MaterialTracker::is_sound)
+    }
+
     /// Forgets all counts; the bodies have moved by `travelled` (in a).
     pub(super) fn restart(&mut self, travelled: [f64; 2]) {
         for (tracker, way) in self.trackers.iter_mut().zip(travelled) {

@@ -1,10 +1,12 @@
 //! The knobs: now and target. A target is walked to at the knob's own rate, so that turning a knob is
 //! a physical ramp.
 
+use serde::{Deserialize, Serialize};
+
 use super::knob::Knob;
 
 /// One knob's state.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Setting {
     /// Value of the present step.
     pub(super) now: f64,
@@ -28,7 +30,7 @@ impl Setting {
 }
 
 /// All knobs, SI.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Drive {
     settings: [Setting; Knob::ALL.len()],
 }

@@ -55,6 +55,9 @@ pub enum SimError {
     /// The stress engine refused the plan.
     #[error("{0}")]
     Stress(String),
+    /// A saved state does not belong to this scene.
+    #[error("the saved state does not fit: {0}")]
+    State(String),
     /// The smooth start-up failed.
     #[error("the start-up failed: {0}")]
     StartUp(#[from] StepError),

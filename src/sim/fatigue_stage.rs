@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::counting::Counting;
 use super::frame::{LifeDetail, LifeEstimate};
 use super::stress_stage::StressStage;
-use super::variant::{Shared, Variant};
+use super::variant::{Shared, Variant, models};
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::{LifeFactors, LifeLaw};
 use crate::physics::life_models::{CycleProfile, LifeModel, calibrated_reference};
@@ -50,7 +50,7 @@ pub(super) struct LifeStage {
 }
 
 impl LifeStage {
-    /// Meters over `steps_per_passage` steps of `plan`; `None` without a `[life]`.
+    /// Meters over a passage of `plan` (in a); `None` without a `[life]`.
     pub(super) fn new(scene: &Scene, plan: &Plan, stress: &StressStage) -> Option<Self> {
         let (asked, life_plan) = (scene.life.clone()?, plan.life?);
         let law = LifeLaw {
@@ -58,7 +58,7 @@ impl LifeStage {
             weibull_slope: asked.weibull_slope,
         };
         let p_h = plan.hertz.p_max_pa;
-        let period = plan.steps_per_passage.max(1) as f64;
+        let period = plan.passage_a;
         let capacity = life_plan.phases_per_passage.max(1) as usize + 1;
         let depths = stress.depths().to_vec();
         let mut laws = Vec::new();
@@ -143,16 +143,47 @@ impl LifeStage {
         self.reference_cycles = self.calibrate(stress);
     }
 
-    /// Forgets the phases seen: they belong to other conditions.
-    pub(super) fn restart(&mut self) {
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        for variant in &mut self.variants {
+            variant.make_room();
+        }
+    }
+
+    /// Whether a stage that was saved is of the same make as this one.
+    pub(super) fn fits(&self, saved: &Self) -> bool {
+        let (depths, rows) = (self.depths.len(), self.sweep.of(Loading::ALL[0]).len());
+        self.asked == saved.asked
+            && self.laws == saved.laws
+            && self.depths == saved.depths
+            && saved.sweep.is_sound(rows)
+            && saved.scratch.is_sound(depths)
+            && self.variants.len() == saved.variants.len()
+            && self
+                .variants
+                .iter()
+                .zip(&saved.variants)
+                .all(|(a, b)| a.fits(b))
+    }
+
+    /// Takes the mean over a way of `period` (in a) from now on.
+    pub(super) fn set_period(&mut self, period: f64) {
+        for variant in &mut self.variants {
+            variant.set_period(period);
+        }
+    }
+
+    /// Forgets the phases seen: they belong to other conditions. The mean is over a way of `period` (in a).
+    pub(super) fn restart(&mut self, period: f64) {
         self.sweep.restart();
         for variant in &mut self.variants {
             variant.restart();
         }
+        self.set_period(period);
     }
 
-    /// Takes the surface loaded last for `steps` steps.
-    pub(super) fn push(&mut self, steps: f64, stress: &mut StressStage) {
+    /// Takes the surface loaded last, which stands for a `way` (in a).
+    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage) {
         self.pass(stress);
         let mut shared = Shared {
             law: self.law,
@@ -161,7 +192,7 @@ impl LifeStage {
             scratch: &mut self.scratch,
         };
         for variant in &mut self.variants {
-            variant.push(steps, stress, &mut shared);
+            variant.push(way, stress, &mut shared);
         }
     }
 
@@ -243,7 +274,7 @@ impl LifeStage {
             life_relative_high: high,
             settled: scene.meter().coverage() == Coverage::Settled,
             detail: LifeDetail {
-                model: scene.model.name(),
+                model: Some(self.asked.model),
                 body: body.index() as u8 + 1,
                 life_body: lives.map(|f| f.map(|f| f.relative)),
                 life_system: self.system(lives, s),
@@ -341,33 +372,4 @@ impl LifeStage {
         }
         (low, high, count)
     }
-}
-
-/// The models that are computed: the scene's, and those of the spread.
-fn models(asked: &Life, p_hertz_pa: f64) -> Vec<LifeModel> {
-    use crate::scene::LifeModel as Asked;
-    let make = |model: Asked| match model {
-        Asked::Zaretsky => LifeModel::Zaretsky,
-        Asked::LundbergPalmgren => LifeModel::LundbergPalmgren {
-            depth_exponent: asked.depth_exponent,
-            cut_off: asked.cut_off_a,
-        },
-        Asked::IoannidesHarris => LifeModel::IoannidesHarris {
-            depth_exponent: asked.depth_exponent,
-            cut_off: asked.cut_off_a,
-            limit: asked.limit_pa / p_hertz_pa,
-        },
-        Asked::DangVan => LifeModel::DangVan {
-            hydrostatic: asked.normal_weight,
-        },
-        Asked::Findley => LifeModel::Findley {
-            normal: asked.normal_weight,
-        },
-    };
-    let mut list = vec![make(asked.model)];
-    if asked.spread == Spread::Models {
-        let others = Asked::ALL.into_iter().filter(|model| *model != asked.model);
-        list.extend(others.map(make));
-    }
-    list
 }

@@ -17,7 +17,11 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     frame.step = sim.step;
     frame.time_s = sim.time_s();
     frame.stage = sim.stage();
-    frame.passages = sim.step as f64 / sim.plan.steps_per_passage.max(1) as f64;
+    frame.passages = if sim.step > 0 {
+        sim.way / sim.plan.passage_a
+    } else {
+        0.0
+    };
     frame.kind = door.kind;
     let rows = match door.kind {
         ContactKind::Point => grid.ny_full(),

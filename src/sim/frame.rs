@@ -6,7 +6,9 @@
 
 use std::sync::Arc;
 
-use crate::scene::ContactKind;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{ContactKind, LifeModel};
 
 /// Which part of a run a frame belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,7 +21,7 @@ pub enum Stage {
 }
 
 /// One frame.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Frame {
     /// Time step, counted from the first step of the passage (start-up: 0).
     pub step: u64,
@@ -77,7 +79,7 @@ pub struct Frame {
 }
 
 /// Stress of body 1 in a plane: index `row * width + i`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct StressPlane {
     /// Axis that the plane is normal to: `'x'`, `'y'` or `'z'`.
     pub normal: char,
@@ -98,7 +100,7 @@ pub struct StressPlane {
 }
 
 /// Damage of a block of one surface that moves with its body: index `column * depths + k`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct DamageBlock {
     /// Length of the block along the surface, m: one wavelength, or the whole track of a smooth body. Columns
     /// divide it evenly; place 0 is a crest.
@@ -121,7 +123,7 @@ pub struct DamageBlock {
 }
 
 /// Stress in the plane y = 0 below body 1's surface: index `k * nx + i`, `k` over depths.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct StressSlice {
     /// Depths below the surface, m, increasing.
     pub depths_m: Arc<[f64]>,
@@ -132,7 +134,7 @@ pub struct StressSlice {
 }
 
 /// A point of body 1 or 2 that crosses the contact at its body's speed.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MaterialPoint {
     /// Body: 1 or 2.
     pub body: u8,
@@ -151,7 +153,7 @@ pub struct MaterialPoint {
 }
 
 /// Scalars of one step. NaN never appears: what is not known yet is `None`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Metrics {
     /// Whether the step converged.
     pub converged: bool,
@@ -215,11 +217,53 @@ pub struct Metrics {
     pub n_counted_body_1: Option<f64>,
     /// Same for body 2.
     pub n_counted_body_2: Option<f64>,
+    /// Whether the passage repeats; `None`: not in the passage yet.
+    pub repeat: Option<Repeat>,
+    /// Estimated relative errors by the mesh; `None`: one grid only, nothing to compare with.
+    pub errors: Option<MeshErrors>,
+}
+
+/// Relative errors by the mesh as far as the start-up shows them: what the smooth contact changed from the
+/// last but one grid to the last (all of it, as in a run's own estimate), and for the pressure what ripples
+/// of few nodes lose, (2π/n)²/12 of a ripple as high as the mean.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct MeshErrors {
+    /// Of the central film.
+    pub h_central: f64,
+    /// Of the least film.
+    pub h_min: f64,
+    /// Of the greatest pressure.
+    pub p_max: f64,
+}
+
+/// What can repeat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rhythm {
+    /// No crest passes: every step should be like the last.
+    Steady,
+    /// Both bodies' crests are in the same places again after a period.
+    Orbit,
+    /// No common period: only means can settle.
+    Statistics,
+}
+
+/// Whether the passage repeats.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Repeat {
+    /// What is compared.
+    pub rhythm: Rhythm,
+    /// After which time, s: the period of both bodies' waves, or the window of the means.
+    pub period_s: f64,
+    /// Relative difference of the fields one period apart (of the means); `None`: not seen yet.
+    pub drift: Option<f64>,
+    /// Whether the drift is below 0.5 % (means: 1 %).
+    pub repeats: bool,
 }
 
 /// Relative life (reference: smooth, frictionless, S = 0, same load and geometry) and its factors:
 /// `life_relative = cycle_factor * stress_factor`, `stress_factor = peak_factor * traction_factor`.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct LifeEstimate {
     /// Volume integral of the reference, in Pa^(c e) m^3 scaled by p_h^(c e) a^3; of a line per length, a^2.
     pub i_ref: f64,
@@ -248,10 +292,10 @@ pub struct LifeEstimate {
 }
 
 /// What stands beside a life.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct LifeDetail {
-    /// The model's name.
-    pub model: &'static str,
+    /// The model.
+    pub model: Option<LifeModel>,
     /// Body that gives the life, 1 or 2.
     pub body: u8,
     /// Relative life of body 1 and 2 in own loading cycles; `None`: the body stands, or is not counted yet.

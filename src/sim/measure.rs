@@ -1,10 +1,12 @@
 //! Scalars of a step from its fields, traction included.
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::grid::{Grid, Symmetry};
 use crate::solve::traction::TractionLaw;
 
 /// What one pass over the fields gives, dimensionless.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Measured {
     /// Greatest P.
     pub(super) p_max: f64,

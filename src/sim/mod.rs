@@ -10,9 +10,12 @@ mod frame;
 mod knob;
 mod measure;
 mod motion;
+mod orbit;
+mod pace;
 mod setup;
 mod simulation;
 mod start_up;
+mod state;
 mod stats;
 mod stepping;
 mod stress_stage;
@@ -24,10 +27,11 @@ mod watching;
 
 pub use error::{SimError, StepError};
 pub use frame::{
-    DamageBlock, Frame, LifeDetail, LifeEstimate, MaterialPoint, Metrics, Stage, StressPlane,
-    StressSlice,
+    DamageBlock, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics, Repeat,
+    Rhythm, Stage, StressPlane, StressSlice,
 };
 pub use knob::Knob;
 pub use simulation::Simulation;
+pub use state::State;
 pub use stats::Stats;
 pub use summary::{PitStart, Summary};

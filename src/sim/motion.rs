@@ -1,12 +1,14 @@
 //! Where both bodies are, and what follows from their speeds.
 
+use serde::{Deserialize, Serialize};
+
 use super::door::Door;
 use super::drive::Drive;
 use super::knob::Knob;
 use crate::math::grid::Grid;
 
 /// Travelled ways and the time since the last disturbance.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Motion {
     /// Step in nodes at U.
     pub(super) nodes: f64,

@@ -7,6 +7,8 @@ use super::door::{Door, Heading};
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
 use super::motion::Motion;
+use super::orbit::{LONGEST, Orbit};
+use super::pace::{Pace, Stepping};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::stress_stage::StressStage;
@@ -68,6 +70,15 @@ impl Simulation {
             oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
         });
         let composite = scene.surfaces().map(rms_share);
+        let stepping = match scene.time.tolerance {
+            None => Stepping::Fixed(nodes),
+            Some(tolerance) => Stepping::Adaptive {
+                tolerance,
+                usual: nodes,
+            },
+        };
+        let passage = plan.passage_a;
+        let most_steps = LONGEST.max(passage) / (stepping.least() * plan.domain.dx_a());
         let mut this = Self {
             traction: vec![0.0; fine.len()],
             counting,
@@ -92,9 +103,15 @@ impl Simulation {
             wanted,
             metrics: Metrics::default(),
             stats: Stats::default(),
-            totals: super::totals::Totals::default(),
+            totals: super::totals::Totals::new(most_steps),
+            coarser: None,
             smooth_film: 0.0,
             composite,
+            orbit: Orbit::new(fine.len(), passage),
+            pace: Pace::new(stepping),
+            stepping,
+            way: 0.0,
+            next_volume: 0.0,
             step: 0,
             time_s: 0.0,
             start_up_steps: (0, 1),

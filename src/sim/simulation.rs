@@ -8,13 +8,17 @@
 //! ```
 
 use rayon::ThreadPool;
+use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
 use super::door::Door;
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
+use super::measure::Measured;
 use super::motion::Motion;
-use super::stepping::{Attempted, advance};
+use super::orbit::Orbit;
+use super::pace::{Pace, Stepping};
+use super::stepping::{Attempted, Mover};
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
 use super::{Frame, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
@@ -29,7 +33,7 @@ use crate::solve::traction::TractionLaw;
 pub(super) const DEVELOP: f64 = 4.0;
 
 /// Where the run is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Phase {
     /// Smooth, with this many steps to go on the present grid.
     Smooth { left: u64 },
@@ -65,8 +69,17 @@ pub struct Simulation {
     pub(super) metrics: Metrics,
     pub(super) stats: Stats,
     pub(super) totals: super::totals::Totals,
+    /// The smooth contact on the last but one grid.
+    pub(super) coarser: Option<Measured>,
     pub(super) smooth_film: f64,
     pub(super) composite: [f64; 2],
+    pub(super) orbit: Orbit,
+    pub(super) stepping: Stepping,
+    pub(super) pace: Pace,
+    /// Way at U since the start-up, in a.
+    pub(super) way: f64,
+    /// Way at which the next volume integral is due, in a.
+    pub(super) next_volume: f64,
     pub(super) step: u64,
     pub(super) time_s: f64,
     pub(super) start_up_steps: (u64, u64),
@@ -89,7 +102,7 @@ impl Simulation {
             }
             Phase::Develop { left: 0 } => {
                 self.phase = Phase::Passage;
-                self.time_s = 0.0;
+                (self.time_s, self.way) = (0.0, 0.0);
                 self.motion.launch();
                 self.forget_passage();
                 self.passage_step()
@@ -106,8 +119,10 @@ impl Simulation {
 
     /// Counts and phases seen so far belong to other conditions.
     fn forget_passage(&mut self) {
+        self.orbit.restart();
+        let window = self.averaged();
         if let Some(life) = &mut self.life {
-            life.restart();
+            life.restart(window);
         }
         if let Some(counting) = &mut self.counting {
             counting.restart(self.motion.travelled);
@@ -115,42 +130,80 @@ impl Simulation {
     }
 
     fn passage_step(&mut self) -> Result<(), StepError> {
+        let before = self.way;
         let held = matches!(self.plan.march, Marching::Steady { .. }) && self.motion.is_flushed();
         if held {
             self.time_s += self.motion.dt_s(&self.march.grid, &self.door, &self.drive);
-            self.watch(&Attempted::held(&self.metrics));
+            let held = Attempted::held(&self.metrics, self.motion.nodes);
+            self.watch(&held);
+            self.way += held.nodes * self.march.grid.dx;
         } else {
             self.advance()?;
         }
         self.step += 1;
-        self.totals.push(&self.metrics, self.plan.steps_per_passage);
+        self.look_for_orbit(before);
+        self.totals.push(&self.metrics, self.way, self.averaged());
         Ok(())
     }
 
     /// One time step: solved, committed, measured.
     pub(super) fn advance(&mut self) -> Result<(), StepError> {
         let law = self.law_now();
+        let (stepping, nodes) = self.next_step();
         let attempted = self.pool.install(|| {
-            advance(
-                &mut self.march,
-                &mut self.terrain,
-                &mut self.drive,
-                &mut self.motion,
-                &self.door,
+            Mover {
+                march: &mut self.march,
+                terrain: &mut self.terrain,
+                drive: &mut self.drive,
+                motion: &mut self.motion,
+                door: &self.door,
                 law,
-                self.tolerance,
-            )
+                tolerance: self.tolerance,
+                stepping,
+            }
+            .advance(nodes)
         });
         self.stats.newton_iterations += u64::from(attempted.newton);
         self.stats.linear_iterations += u64::from(attempted.linear);
         self.stats.ffts += attempted.ffts;
         self.stats.retries += u64::from(attempted.retries);
+        self.stats.halved += u64::from(attempted.halvings > 0);
+        self.stats.safer += u64::from(attempted.safer);
+        self.stats.rejected += u64::from(attempted.rejected);
         if let Some(error) = attempted.fatal(self.time_s, self.tolerance.pressure) {
             return Err(error);
         }
         self.time_s += attempted.dt_s;
         self.watch(&attempted);
+        let dx = self.march.grid.dx;
+        self.way += attempted.nodes * dx;
+        self.pace
+            .learn(stepping, attempted.path_error, attempted.nodes);
         Ok(())
+    }
+
+    /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
+    fn next_step(&self) -> (Stepping, f64) {
+        if self.phase != Phase::Passage {
+            return (Stepping::Fixed(self.motion.nodes), self.motion.nodes);
+        }
+        let crests = self
+            .plan
+            .waves
+            .iter()
+            .flatten()
+            .map(|wave| wave.crests_per_m);
+        let sliding = self.drive.get(Knob::SlideRoll).now.abs();
+        let crest = match &self.counting {
+            Some(_) => 1.0 / (crests.fold(0.0, f64::max) * sliding * self.plan.dx_m),
+            None => f64::INFINITY,
+        };
+        (self.stepping, self.pace.next(self.stepping, crest))
+    }
+
+    /// Way over which the summary averages, in a.
+    pub(super) fn averaged(&self) -> f64 {
+        self.orbit.window(self.plan.passage_a)
     }
 
     /// Moves a knob's target.
@@ -215,7 +268,12 @@ impl Simulation {
     /// How much of the run is done, 0 to 1, start-up included.
     pub fn progress(&self) -> f64 {
         let (done, all) = self.start_up_steps;
-        ((done + self.step) as f64 / (all + self.plan.steps).max(1) as f64).min(1.0)
+        let steps = self.plan.steps as f64;
+        let passed = match self.stepping {
+            Stepping::Fixed(_) => self.step as f64,
+            Stepping::Adaptive { .. } => steps * self.way / self.plan.length_a,
+        };
+        ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
     }
 
     /// Time steps since the start-up.
@@ -234,7 +292,12 @@ impl Simulation {
 
     /// Whether the passages that the scene asks for are done.
     pub fn is_done(&self) -> bool {
-        self.phase == Phase::Passage && self.step >= self.plan.steps
+        let steady = matches!(self.plan.march, Marching::Steady { .. });
+        let enough = match self.stepping {
+            Stepping::Adaptive { .. } if !steady => self.way >= self.plan.length_a * (1.0 - 1e-9),
+            _ => self.step >= self.plan.steps,
+        };
+        self.phase == Phase::Passage && enough
     }
 
     /// Scalars of the last step.

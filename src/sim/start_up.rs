@@ -2,7 +2,7 @@
 
 use super::setup::{COARSEST, grid_of};
 use super::simulation::{DEVELOP, Phase, Simulation};
-use super::{Knob, StepError};
+use super::{Knob, MeshErrors, StepError};
 use crate::solve::march::{Flow, March};
 
 impl Simulation {
@@ -11,6 +11,7 @@ impl Simulation {
         let nx = self.march.grid.nx;
         if nx < self.plan.domain.nodes {
             let next = 2 * (nx - 1) + 1;
+            self.coarser = Some(self.measure());
             let grid = grid_of(&self.plan, next, self.door.b_over_a);
             let nodes = self.motion.nodes;
             self.march = self
@@ -23,6 +24,11 @@ impl Simulation {
         }
         let measured = self.measure();
         self.smooth_film = measured.h_central;
+        self.metrics.errors = self.coarser.map(|coarser| MeshErrors {
+            h_central: (coarser.h_central / measured.h_central - 1.0).abs(),
+            h_min: (coarser.h_min / measured.h_min - 1.0).abs(),
+            p_max: (coarser.p_max / measured.p_max - 1.0).abs() + self.stress_error,
+        });
         if let (Some(stress), Some(life)) = (&mut self.stress, &mut self.life) {
             let (p, q) = (&self.march.state.pressure, &self.traction);
             self.pool.install(|| {

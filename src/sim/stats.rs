@@ -17,4 +17,13 @@ pub struct Stats {
     pub retries: u64,
     /// Volume integrals of the stress.
     pub stress_volumes: u64,
+    /// Steps that were halved.
+    #[serde(default)]
+    pub halved: u64,
+    /// Parts of steps that needed the safe settings.
+    #[serde(default)]
+    pub safer: u64,
+    /// Converged steps that were made again for their error in time.
+    #[serde(default)]
+    pub rejected: u64,
 }

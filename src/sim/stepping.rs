@@ -1,4 +1,13 @@
-//! A time step with its fallbacks: as asked, then from the last pressure, then in halves, then named.
+//! A time step with its ladder of fallbacks.
+//!
+//! ```text
+//! 1  as asked           from the extrapolated pressure, then from the last one
+//! 2  in halves          at most twice, each part from rung 1 on
+//! 3  on the safe side   backward Euler, symbols of the preconditioner made for this step, thrice the iterations
+//! 4  named              kept where the mass error is below 5 % (exit code 2: where and how much are told),
+//!                       else not kept: the run ends (exit code 3)
+//! ```
+//! Each rung is counted in [`super::Stats`] and shown by `tests/ladder.rs`.
 
 use super::StepError;
 use super::door::Door;
@@ -6,6 +15,7 @@ use super::drive::Drive;
 use super::frame::Metrics;
 use super::knob::Knob;
 use super::motion::Motion;
+use super::pace::{Judgement, Stepping};
 use super::terrain::Terrain;
 use crate::solve::march::{Conditions, Guess, March};
 use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
@@ -37,6 +47,18 @@ pub(super) struct Attempted {
     pub(super) ffts: u64,
     /// Attempts beyond the first.
     pub(super) retries: u32,
+    /// Times that it was halved.
+    pub(super) halvings: u32,
+    /// Parts that needed the safe settings.
+    pub(super) safer: u32,
+    /// Converged solutions that were made again for their error in time.
+    pub(super) rejected: u32,
+    /// Error in time over a crossing, by the formula; `None`: not judged.
+    pub(super) path_error: Option<f64>,
+    /// Where a part that did not converge is worst, m.
+    pub(super) worst: Option<(f64, f64)>,
+    /// Length, in nodes.
+    pub(super) nodes: f64,
     /// Simulated time, s.
     pub(super) dt_s: f64,
     /// Why nothing was kept.
@@ -50,9 +72,10 @@ enum Failure {
 }
 
 impl Attempted {
-    /// A step of a steady contact: nothing was solved, the last numbers hold.
-    pub(super) fn held(metrics: &Metrics) -> Self {
+    /// A step of `nodes` nodes of a steady contact: nothing was solved, the last numbers hold.
+    pub(super) fn held(metrics: &Metrics, nodes: f64) -> Self {
         Self {
+            nodes,
             converged: metrics.converged,
             residual: metrics.residual,
             film_error: metrics.film_error,
@@ -93,92 +116,150 @@ impl Attempted {
     }
 }
 
-/// Everything that a step moves.
-struct Mover<'a> {
-    march: &'a mut March,
-    terrain: &'a mut Terrain,
-    drive: &'a mut Drive,
-    motion: &'a mut Motion,
-    door: &'a Door,
-    law: TractionLaw,
-    tolerance: Tolerance,
-}
-
-/// Advances by one full step, in parts where that is what it takes.
-pub(super) fn advance(
+/// Both surfaces where the bodies now are, and the gap that they leave.
+pub(super) fn place_surfaces(
     march: &mut March,
     terrain: &mut Terrain,
-    drive: &mut Drive,
-    motion: &mut Motion,
+    drive: &Drive,
+    motion: &Motion,
     door: &Door,
-    law: TractionLaw,
-    tolerance: Tolerance,
-) -> Attempted {
-    let mut done = Attempted {
-        converged: true,
-        ..Attempted::default()
-    };
-    let nodes = motion.nodes;
-    let mut mover = Mover {
-        march,
-        terrain,
-        drive,
-        motion,
-        door,
-        law,
-        tolerance,
-    };
-    mover.part(nodes, 0, &mut done);
-    done
+) {
+    let grid = &march.grid;
+    // Roughness is made for the finest grid; on the coarser ones of the start-up there is none yet.
+    if terrain
+        .heights
+        .iter()
+        .any(|heights| !heights.is_empty() && heights.len() != grid.len())
+    {
+        march.gap.copy_from_slice(&march.macroscopic);
+        return;
+    }
+    let rough = [Knob::Amplitude1M, Knob::Amplitude2M];
+    let amplitude = rough.map(|knob| door.h_from_m(drive.get(knob).now));
+    for (body, (way, amplitude)) in motion.ways().into_iter().zip(amplitude).enumerate() {
+        terrain.place(grid, body, way, amplitude);
+    }
+    terrain.gap_into(&march.macroscopic, &mut march.gap);
+}
+
+/// Everything that a step moves.
+pub(super) struct Mover<'a> {
+    pub(super) march: &'a mut March,
+    pub(super) terrain: &'a mut Terrain,
+    pub(super) drive: &'a mut Drive,
+    pub(super) motion: &'a mut Motion,
+    pub(super) door: &'a Door,
+    pub(super) law: TractionLaw,
+    pub(super) tolerance: Tolerance,
+    pub(super) stepping: Stepping,
 }
 
 impl Mover<'_> {
-    /// One part of a step; halves itself on failure.
-    fn part(&mut self, nodes: f64, halvings: u32, done: &mut Attempted) {
-        let (drive, travelled) = (self.drive.clone(), self.motion.clone());
-        self.place(nodes);
+    /// Advances by a step of `nodes` nodes: shorter where its error in time asks for it, in parts where that
+    /// is what it takes to converge.
+    pub(super) fn advance(mut self, nodes: f64) -> Attempted {
+        let mut done = Attempted {
+            converged: true,
+            ..Attempted::default()
+        };
+        let mut nodes = nodes;
+        loop {
+            let before = (self.drive.clone(), self.motion.clone());
+            self.place(nodes);
+            let Some(report) = self.solve(nodes, &mut done) else {
+                (*self.drive, *self.motion) = before;
+                self.in_halves(nodes, 1, &mut done);
+                return done;
+            };
+            let error = match self.stepping {
+                Stepping::Fixed(_) => None,
+                Stepping::Adaptive { .. } => self.march.path_error(nodes),
+            };
+            match self.stepping.judge(error, nodes, done.rejected) {
+                Judgement::Good => {
+                    done.path_error = error;
+                    self.commit(nodes, &report, &mut done);
+                    return done;
+                }
+                Judgement::Again(smaller) => {
+                    done.rejected += 1;
+                    (*self.drive, *self.motion) = before;
+                    nodes = smaller;
+                }
+            }
+        }
+    }
+
+    /// First rung: from the extrapolated pressure, then from the last one. `None`: neither converged.
+    fn solve(&mut self, nodes: f64, done: &mut Attempted) -> Option<NewtonReport> {
         for guess in [Guess::Extrapolated, Guess::Last] {
             let report = self.attempt(nodes, guess);
             done.take(&report);
             if report.verdict == Verdict::Converged {
-                self.commit(nodes, &report, done);
-                return;
+                return Some(report);
             }
             done.retries += 1;
         }
-        if halvings < MAX_HALVINGS {
-            (*self.drive, *self.motion) = (drive, travelled);
-            for _ in 0..2 {
-                if done.failure.is_none() {
-                    self.part(0.5 * nodes, halvings + 1, done);
-                }
-            }
-            return;
-        }
-        let report = self.attempt(nodes, Guess::Last);
-        done.take(&report);
-        self.commit_or_fail(nodes, &report, done);
+        None
     }
 
-    fn commit_or_fail(&mut self, nodes: f64, report: &NewtonReport, done: &mut Attempted) {
-        done.keep(report);
-        if report.verdict == Verdict::NotFinite {
-            done.failure = Some(Failure::NotFinite);
-        } else if report.film_error > HOPELESS {
-            let grid = &self.march.grid;
-            let (i, j) = (report.worst_node % grid.nx, report.worst_node / grid.nx);
-            done.failure = Some(Failure::Hopeless {
-                x_m: self.door.place_m(grid.x(i)),
-                y_m: self.door.m_from_x(grid.y(j)),
-            });
-        } else {
-            self.commit(nodes, report, done);
+    /// Second rung: two parts of half the length, each from the first rung on.
+    fn in_halves(&mut self, nodes: f64, halvings: u32, done: &mut Attempted) {
+        done.halvings = done.halvings.max(halvings);
+        for _ in 0..2 {
+            if done.failure.is_none() {
+                self.part(0.5 * nodes, halvings, done);
+            }
         }
+    }
+
+    fn part(&mut self, nodes: f64, halvings: u32, done: &mut Attempted) {
+        let before = (self.drive.clone(), self.motion.clone());
+        self.place(nodes);
+        if let Some(report) = self.solve(nodes, done) {
+            self.commit(nodes, &report, done);
+        } else if halvings < MAX_HALVINGS {
+            (*self.drive, *self.motion) = before;
+            self.in_halves(nodes, halvings + 1, done);
+        } else {
+            self.safely(nodes, done);
+            if done.failure.is_some() {
+                (*self.drive, *self.motion) = before;
+            }
+        }
+    }
+
+    /// Third rung: the safe settings. Fourth: kept and named, or not kept and the end of the run.
+    fn safely(&mut self, nodes: f64, done: &mut Attempted) {
+        done.safer += 1;
+        let report =
+            self.with_conditions(|march, conditions| march.attempt_safely(conditions, nodes));
+        done.take(&report);
+        if report.verdict == Verdict::NotFinite {
+            done.keep(&report);
+            done.failure = Some(Failure::NotFinite);
+        } else if report.verdict != Verdict::Converged && report.film_error > HOPELESS {
+            done.keep(&report);
+            let (x_m, y_m) = self.place_of(report.worst_node);
+            done.failure = Some(Failure::Hopeless { x_m, y_m });
+        } else {
+            self.commit(nodes, &report, done);
+        }
+    }
+
+    fn place_of(&self, node: usize) -> (f64, f64) {
+        let grid = &self.march.grid;
+        let (i, j) = (node % grid.nx, node / grid.nx);
+        (self.door.place_m(grid.x(i)), self.door.m_from_x(grid.y(j)))
     }
 
     fn commit(&mut self, nodes: f64, report: &NewtonReport, done: &mut Attempted) {
         done.keep(report);
+        if report.verdict != Verdict::Converged {
+            done.worst = Some(self.place_of(report.worst_node));
+        }
         self.march.commit(nodes);
+        done.nodes += nodes;
         done.dt_s +=
             nodes * self.march.grid.dx * self.door.a_m / self.drive.get(Knob::EntrainmentMS).now;
     }
@@ -189,20 +270,17 @@ impl Mover<'_> {
         self.drive.walk(nodes * grid.dx);
         self.motion
             .travel(grid, nodes, self.drive.get(Knob::SlideRoll).now);
-        let rough = [Knob::Amplitude1M, Knob::Amplitude2M];
-        let amplitude = rough.map(|knob| self.door.h_from_m(self.drive.get(knob).now));
-        if amplitude == [0.0; 2] || grid.len() != self.march.macroscopic.len() {
-            self.march.gap.copy_from_slice(&self.march.macroscopic);
-            return;
-        }
-        for (body, (way, amplitude)) in self.motion.ways().into_iter().zip(amplitude).enumerate() {
-            self.terrain.place(grid, body, way, amplitude);
-        }
-        self.terrain
-            .gap_into(&self.march.macroscopic, &mut self.march.gap);
+        place_surfaces(self.march, self.terrain, self.drive, self.motion, self.door);
     }
 
     fn attempt(&mut self, nodes: f64, guess: Guess) -> NewtonReport {
+        self.with_conditions(|march, conditions| march.attempt(conditions, nodes, guess))
+    }
+
+    fn with_conditions(
+        &mut self,
+        solve: impl FnOnce(&mut March, &Conditions) -> NewtonReport,
+    ) -> NewtonReport {
         let value = |knob| self.drive.get(knob).now;
         let medium = self
             .door
@@ -213,6 +291,6 @@ impl Mover<'_> {
             load: self.door.load(value(self.door.load_knob())),
             tolerance: self.tolerance,
         };
-        self.march.attempt(&conditions, nodes, guess)
+        solve(self.march, &conditions)
     }
 }

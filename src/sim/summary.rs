@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Stats;
+use super::{Rhythm, Stats};
 
-/// Summary of a run, SI. Means are over the last full passage period; what was not computed is `None`
+/// Summary of a run, SI. Means are over the last passage of 4 a, or the
+/// whole periods that fit into it (one period where it is longer); what was not computed is `None`
 /// (`null` in JSON). `life_relative = cycle_factor * stress_factor`,
 /// `stress_factor = peak_factor * traction_factor`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -115,6 +116,23 @@ pub struct Summary {
     pub cycles_end_depth_2_m: Option<f64>,
     /// ISO 281's life factor, a side comparison: it holds a penalty of roughness of its own.
     pub a_iso: Option<f64>,
+    /// What was looked at for repetition: `"steady"`, `"orbit"` (fields one period apart) or
+    /// `"statistics"` (means over 4 a).
+    pub rhythm: Option<Rhythm>,
+    /// Period of both bodies' waves together, or the window of the means, s.
+    pub period_s: Option<f64>,
+    /// Relative difference one period apart at the end of the run.
+    pub period_drift: Option<f64>,
+    /// Whether the passage repeats: the drift is below 0.5 % (means: 1 %).
+    pub periodic: Option<bool>,
+    /// Estimated error by mesh and time step of `h_central_m`, m (a companion on half the nodes).
+    pub error_h_central_m: Option<f64>,
+    /// Same of `h_min_m`, m.
+    pub error_h_min_m: Option<f64>,
+    /// Same of `p_max_pa`, Pa.
+    pub error_p_max_pa: Option<f64>,
+    /// Same of ln `life_relative`; with it, the ends of life's band are `life_relative * exp(-+ error)`.
+    pub error_ln_life: Option<f64>,
 }
 
 /// The point of a surface whose damage is greatest.

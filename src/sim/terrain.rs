@@ -77,6 +77,16 @@ impl Terrain {
         Self { reliefs, heights }
     }
 
+    /// Wavenumbers along x of body `body`, rad/a: of its two plane waves, or of a map that repeats; 0: none, or
+    /// it does not vary along x.
+    pub(super) fn wavenumbers(&self, body: usize) -> [f64; 2] {
+        match &self.reliefs[body] {
+            Some(Relief::Waves(waves)) => waves.planes.map(|plane| plane.a),
+            Some(Relief::Map(drawn)) => [drawn.wavenumber(), 0.0],
+            None => [0.0; 2],
+        }
+    }
+
     /// Whether body `body` (0 or 1) has waves or a map.
     pub(super) fn is_rough(&self, body: usize) -> bool {
         self.reliefs[body].is_some()
@@ -124,6 +134,14 @@ impl Relief {
 }
 
 impl Drawn {
+    /// Of the map's length, rad/a; 0: it comes once.
+    fn wavenumber(&self) -> f64 {
+        match self.map.beyond() {
+            Beyond::Repeated => std::f64::consts::TAU / (self.pixel.abs() * self.map.nx() as f64),
+            Beyond::Nothing => 0.0,
+        }
+    }
+
     fn new(
         grid: &Grid,
         map: &Arc<HeightMap>,

@@ -2,64 +2,107 @@
 
 use std::collections::VecDeque;
 
+use serde::{Deserialize, Serialize};
+
 use super::summary::PitStart;
 use super::{LifeEstimate, Metrics, Simulation, Stats, Summary};
 use crate::physics::cycles::BodyId;
 use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
 
-/// What the summary averages, one entry a step of the last passage.
-#[derive(Debug, Clone, Default)]
+/// One step.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct Entry {
+    /// Way at its end, in a.
+    way: f64,
+    /// Its length, in a.
+    span: f64,
+    values: [f64; 8],
+    /// Greatest effective stress: value, depth, x.
+    stress: Option<[f64; 3]>,
+}
+
+/// What the summary averages over the last passage or period, each step by its length.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Totals {
-    recent: VecDeque<[f64; 8]>,
-    /// Greatest effective stress of each step: value, depth, x.
-    stress: VecDeque<[f64; 3]>,
+    recent: VecDeque<Entry>,
+    window: f64,
+    way: f64,
     not_converged: u64,
 }
 
 impl Totals {
-    /// Takes a step; keeps the last `most`.
-    pub(super) fn push(&mut self, m: &Metrics, most: u64) {
-        if self.recent.capacity() == 0 {
-            self.recent.reserve_exact(most.max(1) as usize + 1);
-            self.stress.reserve_exact(most.max(1) as usize + 1);
+    /// With memory for `most` steps.
+    pub(super) fn new(most: f64) -> Self {
+        Self {
+            recent: VecDeque::with_capacity(most.ceil() as usize + 2),
+            ..Self::default()
         }
-        while self.recent.len() >= most.max(1) as usize {
+    }
+
+    /// Takes up what was saved, with the room that this one has.
+    pub(super) fn take(&mut self, saved: Self) {
+        let Self {
+            recent,
+            window,
+            way,
+            not_converged,
+        } = saved;
+        self.recent.clear();
+        self.recent.extend(recent);
+        (self.window, self.way, self.not_converged) = (window, way, not_converged);
+    }
+
+    /// Takes a step that ended at `way` (in a); keeps what the last `window` (in a) touches.
+    pub(super) fn push(&mut self, m: &Metrics, way: f64, window: f64) {
+        let span = way - self.way;
+        (self.way, self.window) = (way, window);
+        while let Some(first) = self.recent.front()
+            && first.way <= (way - window) * (1.0 + 1e-12)
+        {
             self.recent.pop_front();
         }
-        self.recent.push_back([
-            m.h_central_m,
-            m.h_min_m,
-            m.p_max_pa,
-            m.contact_ratio,
-            m.friction_coefficient,
-            m.load_error,
-            m.mass_error,
-            m.load_n,
-        ]);
-        if let (Some(value), Some(depth), Some(x)) = (
+        let stress = match (
             m.sigma_eff_max_pa,
             m.sigma_eff_max_depth_m,
             m.sigma_eff_max_x_m,
         ) {
-            while self.stress.len() >= most.max(1) as usize {
-                self.stress.pop_front();
-            }
-            self.stress.push_back([value, depth, x]);
-        }
+            (Some(value), Some(depth), Some(x)) => Some([value, depth, x]),
+            _ => None,
+        };
+        self.recent.push_back(Entry {
+            way,
+            span,
+            values: [
+                m.h_central_m,
+                m.h_min_m,
+                m.p_max_pa,
+                m.contact_ratio,
+                m.friction_coefficient,
+                m.load_error,
+                m.mass_error,
+                m.load_n,
+            ],
+            stress,
+        });
         self.not_converged += u64::from(!m.converged);
     }
 
+    /// Mean by length; of the first step only what lies within the window.
     fn mean(&self, k: usize) -> f64 {
-        self.recent.iter().map(|row| row[k]).sum::<f64>() / self.recent.len().max(1) as f64
+        let start = self.way - self.window;
+        let weight = |entry: &Entry| entry.span.min((entry.way - start).max(0.0));
+        let sum: f64 = self.recent.iter().map(|e| weight(e) * e.values[k]).sum();
+        let length: f64 = self.recent.iter().map(weight).sum();
+        sum / length.max(f64::MIN_POSITIVE)
     }
 
     fn greatest_stress(&self) -> Option<[f64; 3]> {
-        let by_value = |a: &&[f64; 3], b: &&[f64; 3]| a[0].total_cmp(&b[0]);
-        self.stress.iter().max_by(by_value).copied()
+        let by_value = |a: &[f64; 3], b: &[f64; 3]| a[0].total_cmp(&b[0]);
+        self.recent.iter().filter_map(|e| e.stress).max_by(by_value)
     }
 
     fn greatest(&self, k: usize) -> f64 {
-        self.recent.iter().map(|row| row[k]).fold(0.0, f64::max)
+        self.recent.iter().map(|e| e.values[k]).fold(0.0, f64::max)
     }
 }
 
@@ -110,7 +153,7 @@ pub(super) fn summary(
         sigma_eff_max_depth_m: stress.map(|s| s[1]),
         sigma_eff_max_x_m: stress.map(|s| s[2]),
         counters,
-        life_model: life.map(|l| l.detail.model.to_owned()),
+        life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
         life_basis: sim
             .life
             .as_ref()
@@ -134,6 +177,14 @@ pub(super) fn summary(
         cycles_end_depth_1_m: cycles_end(sim, BodyId::One),
         cycles_end_depth_2_m: cycles_end(sim, BodyId::Two),
         a_iso: a_iso(sim),
+        rhythm: m.repeat.map(|r| r.rhythm),
+        period_s: m.repeat.map(|r| r.period_s),
+        period_drift: m.repeat.and_then(|r| r.drift),
+        periodic: m.repeat.map(|r| r.repeats),
+        error_h_central_m: None,
+        error_h_min_m: None,
+        error_p_max_pa: None,
+        error_ln_life: None,
     }
 }
 

@@ -7,7 +7,7 @@ use crate::math::ln_sum::ln_list;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::physics::life_models::LifeModel;
-use crate::scene::VolumeIntegral;
+use crate::scene::{Life, Spread, VolumeIntegral};
 use crate::solve::critical::shares_of_slice;
 use crate::solve::life::{LifeMeter, Shares, Sweep};
 use crate::solve::stress::{Loading, StressLaw};
@@ -69,6 +69,27 @@ impl Variant {
         self.reference[2 * body.index() + form_index(form)]
     }
 
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        self.meter.make_room();
+    }
+
+    /// Takes the mean over a way of `period` (in a) from now on.
+    pub(super) fn set_period(&mut self, period: f64) {
+        self.meter.set_period(period);
+    }
+
+    /// Whether a variant that was saved is of the same make as this one.
+    pub(super) fn fits(&self, saved: &Self) -> bool {
+        let depths = self.by_depth[0].len();
+        self.model == saved.model
+            && self.law == saved.law
+            && saved.meter.is_sound(depths)
+            && saved.swept.is_sound(depths)
+            && saved.reference.len() == 4
+            && saved.by_depth.iter().all(|list| list.len() == depths)
+    }
+
     /// Forgets all samples.
     pub(super) fn restart(&mut self) {
         self.meter.restart();
@@ -76,9 +97,9 @@ impl Variant {
     }
 
     /// Takes the surface loaded last; the volume pass has been made.
-    pub(super) fn push(&mut self, steps: f64, stress: &mut StressStage, shared: &mut Shared) {
+    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, shared: &mut Shared) {
         self.take(stress, shared);
-        self.meter.push(steps, shared.scratch);
+        self.meter.push(way, shared.scratch);
     }
 
     /// Shares of the surface loaded last into the scratch, and what has been swept.
@@ -150,4 +171,33 @@ fn form_index(form: VolumeIntegral) -> usize {
         VolumeIntegral::Snapshot => 0,
         VolumeIntegral::Swept => 1,
     }
+}
+
+/// The models that are computed: the scene's, and those of the spread.
+pub(super) fn models(asked: &Life, p_hertz_pa: f64) -> Vec<LifeModel> {
+    use crate::scene::LifeModel as Asked;
+    let make = |model: Asked| match model {
+        Asked::Zaretsky => LifeModel::Zaretsky,
+        Asked::LundbergPalmgren => LifeModel::LundbergPalmgren {
+            depth_exponent: asked.depth_exponent,
+            cut_off: asked.cut_off_a,
+        },
+        Asked::IoannidesHarris => LifeModel::IoannidesHarris {
+            depth_exponent: asked.depth_exponent,
+            cut_off: asked.cut_off_a,
+            limit: asked.limit_pa / p_hertz_pa,
+        },
+        Asked::DangVan => LifeModel::DangVan {
+            hydrostatic: asked.normal_weight,
+        },
+        Asked::Findley => LifeModel::Findley {
+            normal: asked.normal_weight,
+        },
+    };
+    let mut list = vec![make(asked.model)];
+    if asked.spread == Spread::Models {
+        let others = Asked::ALL.into_iter().filter(|model| *model != asked.model);
+        list.extend(others.map(make));
+    }
+    list
 }

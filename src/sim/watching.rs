@@ -33,20 +33,47 @@ impl Simulation {
             return;
         };
         let (p, q) = (&self.march.state.pressure, &self.traction);
-        let every = self
-            .plan
-            .life
-            .map_or(u64::MAX, |life| life.volume_every_steps);
+        let every = self.plan.life.map_or(f64::INFINITY, |life| {
+            life.volume_every_steps as f64 * self.motion.nodes * self.march.grid.dx
+        });
+        // By the way at the step's beginning, so that the first step of a passage is looked at.
+        let due = self.phase == Phase::Passage && self.way >= self.next_volume - 1e-9;
         self.pool.install(|| {
             stress.slice(p, q, measured.friction);
             if let Some(life) = &mut self.life
-                && self.phase == Phase::Passage
-                && self.step.is_multiple_of(every)
+                && due
             {
-                life.push(every as f64, stress);
+                life.push(every, stress);
                 self.stats.stress_volumes += 1;
+                self.next_volume = next_due(self.next_volume, self.way, every);
             }
         });
+    }
+
+    /// Whether the passage repeats, after a step that began at the way `before`.
+    pub(super) fn look_for_orbit(&mut self, before: f64) {
+        let s = self.drive.get(Knob::SlideRoll).now;
+        let mut frequencies = [0.0; 4];
+        for (body, speed) in [1.0 - 0.5 * s, 1.0 + 0.5 * s].into_iter().enumerate() {
+            let amplitude = [Knob::Amplitude1M, Knob::Amplitude2M][body];
+            if self.drive.get(amplitude).now != 0.0 {
+                for (plane, k) in self.terrain.wavenumbers(body).into_iter().enumerate() {
+                    frequencies[2 * body + plane] = k * speed / std::f64::consts::TAU;
+                }
+            }
+        }
+        let passage = self.plan.passage_a;
+        if self.orbit.listen(frequencies, passage)
+            && let Some(life) = &mut self.life
+        {
+            life.set_period(self.orbit.window(passage));
+        }
+        let state = &self.march.state;
+        let fields = (&state.pressure[..], &state.film[..]);
+        self.orbit
+            .push(self.way, self.way - before, fields, &self.metrics);
+        let second_per_a = self.door.a_m / self.drive.get(Knob::EntrainmentMS).now;
+        self.metrics.repeat = Some(self.orbit.repeat(second_per_a));
     }
 
     /// The traction law at the knobs' present values.
@@ -138,4 +165,9 @@ impl Simulation {
             self.stress_error,
         )
     }
+}
+
+/// The first multiple of `every` after `due` that lies beyond `way`.
+fn next_due(due: f64, way: f64, every: f64) -> f64 {
+    due + every * ((way - due + 1e-9) / every).floor().max(0.0) + every
 }

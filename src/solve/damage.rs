@@ -63,6 +63,14 @@ impl DamageMap {
         &self.spec
     }
 
+    /// Whether a map that was read from a file is whole.
+    pub fn is_sound(&self, depths: usize) -> bool {
+        self.spec.depths == depths
+            && self.spec.columns > 0
+            && self.crossings.len() == self.spec.columns
+            && self.sums.len() == self.spec.columns * depths
+    }
+
     /// Forgets all.
     pub fn clear(&mut self) {
         self.sums.fill(0.0);

@@ -6,10 +6,16 @@
 //! s  = ΔT (1+ω)/(1+2ω) for θ_s = 1,   ω = ΔT/ΔT'
 //! ```
 //! With `c = ρ̄H` stored at each step, ΔT = dX shifts by exactly one node: no numerical diffusion.
+//! Local error of the step, from one more past mass:
+//! ```text
+//! e = ΔT³ (1+ω)²/(ω(1+2ω)) |c[T, T−ΔT, T−ΔT−ΔT', ...]|        (third divided difference along the path)
+//! ```
 //! Fractions of a node use four-point interpolation, not below 0. For equal steps this is BDF2:
 //! `C* = (4 c1 − c2)/3, s = 2ΔT/3`. Where extrapolation would more than halve c1 the weight θ_s
 //! goes down and the formula towards backward Euler, node by node, each with its own s: nothing is
 //! clipped. Order 2 in time. Test: `tests/ehl_waviness.rs`.
+
+use serde::{Deserialize, Serialize};
 
 use crate::math::grid::Grid;
 
@@ -19,12 +25,14 @@ const FLOOR: f64 = 0.02;
 const SLOW_NODES: f64 = 32.0;
 
 /// Convected mass of two past steps, and the ripple of two past pressures for the predictor.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// ρ̄H one step back, shape ny × nx.
     pub mass_1: Vec<f64>,
     /// ρ̄H two steps back.
     pub mass_2: Vec<f64>,
+    /// ρ̄H three steps back, for the local error alone.
+    pub mass_3: Vec<f64>,
     /// Pressure one step back.
     pub pressure_1: Vec<f64>,
     /// Pressure two steps back.
@@ -35,6 +43,8 @@ pub struct History {
     pub h0: [f64; 2],
     /// Last step in nodes; 0: no second step is known.
     pub last_nodes: f64,
+    /// The step before it; 0: no third step is known.
+    pub earlier_nodes: f64,
 }
 
 /// Shift of `row` by `nodes` downstream, at node `i`: value at `i − nodes`.
@@ -76,12 +86,39 @@ impl History {
         Self {
             mass_1: mass.to_vec(),
             mass_2: mass.to_vec(),
+            mass_3: mass.to_vec(),
             pressure_1: p.to_vec(),
             pressure_2: p.to_vec(),
             pressure_slow: p.to_vec(),
             h0: [h0; 2],
             last_nodes: 0.0,
+            earlier_nodes: 0.0,
         }
+    }
+
+    /// Whether every field has `len` nodes.
+    pub fn fits(&self, len: usize) -> bool {
+        let Self {
+            mass_1,
+            mass_2,
+            mass_3,
+            pressure_1,
+            pressure_2,
+            pressure_slow,
+            h0: _,
+            last_nodes: _,
+            earlier_nodes: _,
+        } = self;
+        [
+            mass_1,
+            mass_2,
+            mass_3,
+            pressure_1,
+            pressure_2,
+            pressure_slow,
+        ]
+        .iter()
+        .all(|field| field.len() == len)
     }
 
     /// C* and s for a step of `nodes` nodes.
@@ -148,13 +185,67 @@ impl History {
         }
     }
 
+    /// Error that steps of `nodes` nodes add to the film while oil crosses the contact, over the film, judged
+    /// from the step that gave `mass` and `p`: the local errors summed with their signs along x, mean size over
+    /// the nodes under pressure. `None` until three steps are known.
+    ///
+    /// A steady film has one too: its inlet is steep for oil that comes in. Summed with signs because a kink
+    /// of the film that lies between nodes gives a large error and its opposite next to each other, which a sum
+    /// of sizes would take for time's.
+    pub fn path_error(&self, grid: &Grid, (mass, p): (&[f64], &[f64]), nodes: f64) -> Option<f64> {
+        if self.earlier_nodes <= 0.0 {
+            return None;
+        }
+        let (b, c, d) = (
+            nodes,
+            nodes + self.last_nodes,
+            nodes + self.last_nodes + self.earlier_nodes,
+        );
+        let omega = nodes / self.last_nodes;
+        let factor = nodes.powi(3) * (1.0 + omega).powi(2) / (omega * (1.0 + 2.0 * omega));
+        // Newton's divided difference at 0, −b, −c, −d is Σ w c.
+        let weights = [
+            1.0 / (b * c * d),
+            -1.0 / (b * (c - b) * (d - b)),
+            1.0 / (c * (c - b) * (d - c)),
+            -1.0 / (d * (d - b) * (d - c)),
+        ];
+        let nx = grid.nx;
+        let (mut sum, mut count) = (0.0, 0.0);
+        for j in grid.interior_rows() {
+            let rows =
+                [&self.mass_1, &self.mass_2, &self.mass_3].map(|mass| &mass[j * nx..(j + 1) * nx]);
+            let (mut gathered, mut row_sum, mut row_count) = (0.0, 0.0, 0.0);
+            for i in 1..nx - 1 {
+                let n = j * nx + i;
+                if p[n] < FLOOR {
+                    continue;
+                }
+                let now = mass[n];
+                let difference = weights[0] * now
+                    + weights[1] * shifted(rows[0], i, b)
+                    + weights[2] * shifted(rows[1], i, c)
+                    + weights[3] * shifted(rows[2], i, d);
+                // 1/nodes steps are made from node to node.
+                gathered += factor * difference / nodes;
+                row_sum += gathered.abs() / now.max(f64::MIN_POSITIVE);
+                row_count += 1.0;
+            }
+            sum += row_sum * grid.weight(j);
+            count += row_count * grid.weight(j);
+        }
+        (count > 0.0).then(|| sum / count)
+    }
+
     /// Commits a converged step of `nodes` nodes.
     pub fn commit(&mut self, mass: &[f64], p: &[f64], h0: f64, nodes: f64) {
+        std::mem::swap(&mut self.mass_2, &mut self.mass_3);
         std::mem::swap(&mut self.mass_1, &mut self.mass_2);
         std::mem::swap(&mut self.pressure_1, &mut self.pressure_2);
         self.mass_1.copy_from_slice(mass);
         self.pressure_1.copy_from_slice(p);
         self.h0 = [h0, self.h0[0]];
+        self.earlier_nodes = self.last_nodes;
         self.last_nodes = nodes;
         let rate = (nodes / SLOW_NODES).min(1.0);
         for (slow, &p) in self.pressure_slow.iter_mut().zip(p) {
@@ -186,6 +277,32 @@ mod tests {
         for n in 5..30 {
             assert!((c[n] - cubic(grid.x(n))).abs() < 1e-10);
             assert!((s[n] - 0.5 * grid.dx * 2.0 / 3.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_local_error_is_that_of_variable_bdf2() {
+        // Uniform in x, c = 1 + g t³: the third derivative is 6 g everywhere, and the formula's error is
+        // known in closed form for any three steps.
+        let grid = Grid::new(17, 0.0, 1.6, 1.0, Symmetry::MirrorY);
+        let g = 1e-4;
+        for (nodes, last, earlier) in [(1.0, 1.0, 1.0), (1.5, 1.0, 0.7), (0.4, 0.8, 1.3)] {
+            let field = |t: f64| vec![1.0 + g * t * t * t; grid.len()];
+            let mut history = History::steady(&field(0.0), &field(0.0), 0.0);
+            (history.last_nodes, history.earlier_nodes) = (last, earlier);
+            history.mass_2 = field(-last);
+            history.mass_3 = field(-last - earlier);
+            let now = field(nodes);
+            // Pressure at one node of a row: nothing is gathered from others.
+            let pressed: Vec<f64> = (0..grid.len()).map(|n| f64::from(n % 17 == 8)).collect();
+            let error = history.path_error(&grid, (&now, &pressed), nodes);
+            // BDF2 with the exact slope 3 g t² at the new time.
+            let (mut c, mut s) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
+            history.convect(&grid, nodes, &mut c, &mut s);
+            let slope = 3.0 * g * nodes * nodes / grid.dx;
+            let true_error = (c[8] + s[8] * slope - now[8]).abs() / now[8] / nodes;
+            let ratio = error.expect("three steps") / true_error;
+            assert!((ratio - 1.0).abs() < 1e-6, "{ratio}");
         }
     }
 }

@@ -54,6 +54,11 @@ impl Shares {
         ln_sum(self.of(loading).iter().map(|ln| (1.0, *ln)))
     }
 
+    /// Whether shares that were read from a file are those of so many depths.
+    pub fn is_sound(&self, depths: usize) -> bool {
+        self.depths == depths && self.logs.len() == 4 * depths
+    }
+
     /// Nothing at any depth again.
     pub fn clear(&mut self) {
         self.logs.fill(f64::NEG_INFINITY);
@@ -108,6 +113,13 @@ impl LifeMeter {
         }
     }
 
+    /// Whether a meter that was read from a file has as many depths everywhere.
+    pub fn is_sound(&self, depths: usize) -> bool {
+        let all = self.phases.iter().chain(&self.spare).map(|p| &p.shares);
+        all.chain([&self.mean])
+            .all(|shares| shares.is_sound(depths))
+    }
+
     /// Makes the room again that a copy or a file does not keep.
     pub fn make_room(&mut self) {
         let room = |held: usize| (self.capacity + 1).saturating_sub(held);
@@ -141,7 +153,7 @@ impl LifeMeter {
         self.total += span;
         self.samples = self.samples.saturating_add(1);
         while let Some(first) = self.phases.front()
-            && self.total - first.span >= self.period
+            && self.total - first.span >= self.period * (1.0 - 1e-9)
         {
             self.total -= first.span;
             self.spare.extend(self.phases.pop_front());
@@ -214,6 +226,11 @@ impl Sweep {
     /// Forgets all.
     pub fn restart(&mut self) {
         self.tops.iter_mut().for_each(|tops| tops.fill(0.0));
+    }
+
+    /// Whether a sweep that was read from a file has so many rows.
+    pub fn is_sound(&self, rows: usize) -> bool {
+        self.tops.iter().all(|tops| tops.len() == rows)
     }
 
     /// Takes the rows of one surface.

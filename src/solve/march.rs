@@ -3,6 +3,8 @@
 //! One attempt of a step: predict, convect, solve; nothing is committed until the caller has seen the
 //! verdict. `State` is what a restart needs; everything else can be made again.
 
+use serde::{Deserialize, Serialize};
+
 use super::dry::{Dry, DryProblem};
 use super::film::macroscopic_gap;
 use super::history::History;
@@ -13,7 +15,7 @@ use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 
 /// What a restart needs.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// P, shape ny × nx.
     pub pressure: Vec<f64>,
@@ -23,6 +25,19 @@ pub struct State {
     pub h0: f64,
     /// Past masses and pressures.
     pub history: History,
+}
+
+impl State {
+    /// Whether every field has `len` nodes.
+    pub fn fits(&self, len: usize) -> bool {
+        let Self {
+            pressure,
+            film,
+            h0: _,
+            history,
+        } = self;
+        pressure.len() == len && film.len() == len && history.fits(len)
+    }
 }
 
 /// Where a step's first guess comes from.
@@ -52,6 +67,9 @@ pub struct March {
     s: Vec<f64>,
     mass: Vec<f64>,
     flow: Flow,
+    kappa: f64,
+    /// The step that the preconditioner is made for.
+    usual_nodes: f64,
 }
 
 /// Constants of a contact.
@@ -165,6 +183,8 @@ impl March {
             s: zero.clone(),
             mass: zero,
             flow,
+            kappa: shape.kappa,
+            usual_nodes: nodes,
             grid,
         }
     }
@@ -206,6 +226,44 @@ impl March {
                 h0: &mut self.state.h0,
             },
         )
+    }
+
+    /// A last try of a step of `nodes` nodes, with everything on the safe side: backward Euler, whose C* is
+    /// never extrapolated; the last pressure as first guess; the preconditioner's symbols made for this very
+    /// step, not for the usual one; three times the iterations.
+    pub fn attempt_safely(&mut self, conditions: &Conditions, nodes: f64) -> NewtonReport {
+        let dx = self.grid.dx;
+        self.set_symbols(nodes * dx);
+        let last_nodes = std::mem::replace(&mut self.state.history.last_nodes, 0.0);
+        let mut patient = *conditions;
+        patient.tolerance.max_iterations *= 3;
+        let report = self.attempt(&patient, nodes, Guess::Last);
+        self.state.history.last_nodes = last_nodes;
+        self.set_symbols(2.0 / 3.0 * self.usual_nodes * dx);
+        report
+    }
+
+    /// Makes the preconditioner for an effective step `s`.
+    fn set_symbols(&mut self, s: f64) {
+        let Newton {
+            elastic,
+            precondition,
+            ..
+        } = &mut self.newton;
+        precondition.set_symbols(&self.grid, elastic, self.kappa, s);
+    }
+
+    /// Error that steps like the one attempted last add to the film over a crossing ([`History::path_error`]);
+    /// `None`: not known yet, or there is no film.
+    pub fn path_error(&mut self, nodes: f64) -> Option<f64> {
+        if self.flow == Flow::Dry {
+            return None;
+        }
+        self.gather_mass();
+        let State {
+            pressure, history, ..
+        } = &self.state;
+        history.path_error(&self.grid, (&self.mass, pressure), nodes)
     }
 
     /// A dry step. Deflection by traction (unlike bodies) is at most βμ, some per cent, of that by
@@ -262,6 +320,14 @@ impl March {
             } = &mut self.state;
             return history.commit(film, pressure, *h0, nodes);
         }
+        self.gather_mass();
+        self.state
+            .history
+            .commit(&self.mass, &self.state.pressure, self.state.h0, nodes);
+    }
+
+    /// ρ̄H of the last attempt.
+    fn gather_mass(&mut self) {
         for (n, mass) in self.mass.iter_mut().enumerate() {
             let full = self.newton.reynolds.rho(n) * self.state.film[n];
             let left = self.newton.reynolds.residual[n];
@@ -275,9 +341,6 @@ impl March {
             };
             *mass = (full - missing).max(0.0);
         }
-        self.state
-            .history
-            .commit(&self.mass, &self.state.pressure, self.state.h0, nodes);
     }
 }
 

@@ -172,6 +172,26 @@ impl MaterialTracker {
         tracker
     }
 
+    /// Makes the room again that a copy or a file does not keep.
+    pub fn make_room(&mut self) {
+        self.points
+            .iter_mut()
+            .flat_map(Point::histories)
+            .for_each(History::make_room);
+        let room = self.spec.trace.max(1).saturating_sub(self.trace.len());
+        self.trace.reserve_exact(room);
+    }
+
+    /// Whether a tracker that was read from a file can be used.
+    pub fn is_sound(&self) -> bool {
+        let depths = self.spec.depths;
+        let whole = |p: &Point| p.shear.len() == depths && p.effective.len() == depths;
+        !self.points.is_empty()
+            && self.points.iter().all(whole)
+            && self.map.as_ref().is_none_or(|map| map.is_sound(depths))
+            && self.oldest < self.trace.len().max(1)
+    }
+
     /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are, and the
     /// body has moved by `way` (in a) since its origin.
     pub fn restart(&mut self, way: f64) {

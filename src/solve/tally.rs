@@ -69,6 +69,11 @@ impl History {
         }
     }
 
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        self.flow.make_room();
+    }
+
     pub(super) fn push(&mut self, value: f64, exponent: f64) {
         let Self {
             flow, tally, basis, ..

@@ -315,5 +315,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         n_body_2: Some(n_2),
         n_counted_body_1: Some(n_1 - 0.2),
         n_counted_body_2: Some(n_2 + 0.1),
+        repeat: None,
+        errors: None,
     }
 }

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use crate::sim::{Frame, Metrics, Stage};
+use crate::sim::{Frame, Metrics, Rhythm, Stage};
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
 use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
@@ -61,12 +61,21 @@ fn progress(app: &App, frame: &Frame) -> Words {
         Stage::Passage => (format!("passage {:.2}", frame.passages), Role::Text),
     };
     let rate = sig_or_dash(app.steps_per_s(), 2);
-    vec![
+    let mut words = vec![
         stage,
         (format!("step {}", frame.step), Role::Text),
         (format!("{rate} steps/s"), Role::Text),
         (format!("t {}", seconds(frame.time_s)), Role::Text),
-    ]
+    ];
+    if let Some(repeat) = frame.metrics.repeat.filter(|repeat| repeat.repeats) {
+        let what = match repeat.rhythm {
+            Rhythm::Steady => "steady".to_owned(),
+            Rhythm::Orbit => format!("repeats every {}", seconds(repeat.period_s)),
+            Rhythm::Statistics => "means settled".to_owned(),
+        };
+        words.push((what, Role::Good));
+    }
+    words
 }
 
 fn quality(app: &App, frame: &Frame) -> Words {
@@ -106,6 +115,10 @@ fn quality(app: &App, frame: &Frame) -> Words {
             Role::Film,
         ),
     ];
+    if let Some(errors) = metrics.errors {
+        let share = sig(100.0 * errors.h_central, 2);
+        words.push((format!("mesh ±{share} % of h"), Role::Dim));
+    }
     if !metrics.converged {
         // A failure stands first.
         words.truncate(4);

@@ -1,0 +1,148 @@
+//! A run's state in a file: JSON behind one line with format and digest.
+//!
+//! ```text
+//! asperity state 1 <FNV-1a of the rest, hexadecimal>
+//! { "program": ..., "scene": ..., "n_events_played": ..., "n_unconverged": ..., "sim": { ... } }
+//! ```
+//! Numbers are written with as many digits as read back to the same bits.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::scene::Scene;
+use crate::sim::State;
+
+const MAGIC: &str = "asperity state 1 ";
+/// Longest file that is read, bytes: ten times the state of the finest grid.
+const LONGEST: u64 = 20 << 30;
+
+/// Everything that a run needs to go on.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Program and version that wrote it.
+    pub program: String,
+    /// Its scene, as TOML.
+    pub scene: String,
+    /// Scripted events that have been played, in the order of their times.
+    pub n_events_played: usize,
+    /// Steps so far that did not converge.
+    pub n_unconverged: u64,
+    /// The simulation.
+    pub sim: State,
+}
+
+/// A state that cannot be taken up or written.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum CheckpointError {
+    /// The file cannot be read or is no state.
+    #[error("{path}: {reason}")]
+    File {
+        /// File.
+        path: String,
+        /// Why.
+        reason: String,
+    },
+    /// It belongs to another scene.
+    #[error("the saved state belongs to another scene: {0} differs")]
+    OtherScene(&'static str),
+}
+
+impl Checkpoint {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`CheckpointError::File`] when it cannot be read, is cut short, changed or no state at all.
+    pub fn read(path: &Path) -> Result<Self, CheckpointError> {
+        let failed = |reason: String| CheckpointError::File {
+            path: path.display().to_string(),
+            reason,
+        };
+        let size = std::fs::metadata(path)
+            .map_err(|e| failed(e.to_string()))?
+            .len();
+        if size > LONGEST {
+            return Err(failed("longer than any state".to_owned()));
+        }
+        let text = std::fs::read_to_string(path).map_err(|e| failed(e.to_string()))?;
+        let (head, body) = text.split_once('\n').unwrap_or_default();
+        let Some(digest) = head.strip_prefix(MAGIC) else {
+            return Err(failed("no state of this version of asperity".to_owned()));
+        };
+        if digest != format!("{:016x}", fnv(body.as_bytes())) {
+            return Err(failed(
+                "cut short or changed: its digest is wrong".to_owned(),
+            ));
+        }
+        serde_json::from_str(body).map_err(|error| failed(error.to_string()))
+    }
+
+    /// Writes it to an open file.
+    ///
+    /// # Errors
+    /// When the disk says no.
+    pub fn write(&self, file: &mut std::fs::File) -> std::io::Result<()> {
+        let body = serde_json::to_string(self)?;
+        writeln!(file, "{MAGIC}{:016x}", fnv(body.as_bytes()))?;
+        file.write_all(body.as_bytes())?;
+        file.sync_all()
+    }
+
+    /// Whether a run of `scene` can go on from here: all must agree but words, outputs and the length of
+    /// the run.
+    ///
+    /// # Errors
+    /// [`CheckpointError::OtherScene`] names the table that differs.
+    pub fn fits(&self, scene: &Scene) -> Result<(), CheckpointError> {
+        let saved = Scene::from_toml(&self.scene)
+            .map_err(|_| CheckpointError::OtherScene("the form of the scene"))?;
+        let Scene {
+            title: _,
+            about: _,
+            contact,
+            body_1,
+            body_2,
+            lubricant,
+            friction,
+            motion,
+            load,
+            grid,
+            time,
+            numerics,
+            stress,
+            life,
+            record: _,
+            events,
+        } = scene;
+        let mut time_asked = time.clone();
+        time_asked.passages = saved.time.passages;
+        let agree = [
+            (saved.contact == *contact, "[contact]"),
+            (saved.body_1 == *body_1, "[body_1]"),
+            (saved.body_2 == *body_2, "[body_2]"),
+            (saved.lubricant == *lubricant, "[lubricant]"),
+            (saved.friction == *friction, "[friction]"),
+            (saved.motion == *motion, "[motion]"),
+            (saved.load == *load, "[load]"),
+            (saved.grid == *grid, "[grid]"),
+            (saved.time == time_asked, "[time]"),
+            (saved.numerics == *numerics, "[numerics]"),
+            (saved.stress == *stress, "[stress]"),
+            (saved.life == *life, "[life]"),
+            (saved.events == *events, "[[event]]"),
+        ];
+        match agree.into_iter().find(|(same, _)| !same) {
+            Some((_, table)) => Err(CheckpointError::OtherScene(table)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// FNV-1a, 64 bits (Fowler, Noll and Vo): against accidents, not against malice.
+fn fnv(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}

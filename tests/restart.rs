@@ -1,0 +1,200 @@
+//! A run that is saved and taken up again equals the uninterrupted one, bit for bit.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::sync::{Arc, Mutex};
+
+use asperity::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
+use asperity::plan::Plan;
+use asperity::run::{Checkpoint, CheckpointError, End, Ending, Outcome, Request, Session, Watcher};
+use asperity::scene::{Override, Scene};
+use asperity::sim::{Frame, Simulation, State};
+
+fn scene(sets: &[&str]) -> Scene {
+    let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
+    Scene::load_with("demonstration", &sets).unwrap()
+}
+
+const SMALL: [&str; 3] = ["grid.nodes=65", "stress.depths=8", "record=none"];
+
+fn simulation(scene: &Scene) -> Simulation {
+    Simulation::new(scene, Plan::new(scene).unwrap(), 2).unwrap()
+}
+
+/// Every bit of a frame, so that −0 and 0 differ and NaN equals itself.
+fn bits(frame: &Frame) -> String {
+    // Debug prints floats with as many digits as tell them apart, and the sign of zero.
+    format!("{frame:?}")
+}
+
+fn through_json(state: &State) -> State {
+    serde_json::from_str(&serde_json::to_string(state).unwrap()).unwrap()
+}
+
+#[test]
+fn every_frame_after_a_restart_is_the_uninterrupted_one() {
+    let scene = scene(&[&SMALL[..], &["grid.nodes=129"]].concat());
+    let mut whole = simulation(&scene);
+    let mut frame = Frame::default();
+    let mut cut: Option<Simulation> = None;
+    let mut compared = 0;
+    // Cut in the smooth start-up, on the fine grid, in the development, and in the passage.
+    for step in 0..400 {
+        if [3, 70, 180, 270].contains(&step) {
+            let mut next = simulation(&scene);
+            next.restore(through_json(&whole.save())).unwrap();
+            let mut again = Frame::default();
+            (whole.fill(&mut frame), next.fill(&mut again));
+            assert!(bits(&frame) == bits(&again), "at once after step {step}");
+            cut = Some(next);
+        }
+        whole.step().unwrap();
+        if let Some(cut) = &mut cut {
+            cut.step().unwrap();
+            let mut again = Frame::default();
+            (whole.fill(&mut frame), cut.fill(&mut again));
+            assert!(bits(&frame) == bits(&again), "after step {step}");
+            compared += 1;
+        }
+        if whole.passage_steps() == 24 {
+            break;
+        }
+    }
+    assert_eq!(whole.passage_steps(), 24);
+    assert!(compared > 250);
+    assert_eq!(whole.summary(), cut.unwrap().summary());
+}
+
+#[test]
+fn dry_and_line_contacts_go_on_bit_for_bit_too() {
+    let dry = scene(&[&SMALL[..], &["lubricant=none"]].concat());
+    let line = Scene::load_with("fzg_point_b", &["record=none".parse().unwrap()]).unwrap();
+    for scene in [dry, line] {
+        let mut whole = simulation(&scene);
+        while whole.passage_steps() < 5 {
+            whole.step().unwrap();
+        }
+        let mut cut = simulation(&scene);
+        cut.restore(through_json(&whole.save())).unwrap();
+        let (mut one, mut two) = (Frame::default(), Frame::default());
+        for _ in 0..6 {
+            (whole.fill(&mut one), cut.fill(&mut two));
+            assert!(bits(&one) == bits(&two));
+            whole.step().unwrap();
+            cut.step().unwrap();
+        }
+    }
+}
+
+/// Keeps every frame as text.
+struct Keeper(Arc<Mutex<Vec<String>>>);
+
+impl Observer for Keeper {
+    fn begin(&mut self, _: &RunContext) -> Result<(), ObserveError> {
+        Ok(())
+    }
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+        self.0.lock().unwrap().push(bits(frame));
+        Ok(())
+    }
+    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        self.0.lock().unwrap().push(format!("{event:?}"));
+        Ok(())
+    }
+    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        Ok(ObserverReport::default())
+    }
+}
+
+fn run(scene: &Scene, from: Option<Checkpoint>) -> (Vec<String>, Outcome) {
+    let kept = Arc::new(Mutex::new(Vec::new()));
+    let request = Request {
+        name: "test".to_owned(),
+        scene: Arc::new(scene.clone()),
+        plan: Plan::new(scene).unwrap(),
+        threads: 2,
+        watchers: vec![Watcher::new("keeper", Box::new(Keeper(kept.clone())), 1)],
+        ending: Ending::Passages,
+    };
+    let session = match from {
+        None => Session::start(request),
+        Some(checkpoint) => Session::resume(request, checkpoint),
+    };
+    let outcome = session.unwrap().join().unwrap();
+    let kept = std::mem::take(&mut *kept.lock().unwrap());
+    (kept, outcome)
+}
+
+/// Two scripted events, one on each side of the cut, which comes after 16 of 32 steps.
+fn scripted(passages: f64) -> Scene {
+    let mut scene = scene(&SMALL);
+    scene.time.passages = passages;
+    let dt_s = Plan::new(&scene).unwrap().dt_s;
+    for (at, s) in [(8.0, 1.0), (24.0, 0.2)] {
+        let event = format!(
+            "at_s = {:e}\ncaption = 'S = {s}'\nset = {{ 'motion.slide_roll' = {s:?} }}",
+            (at + 0.5) * dt_s
+        );
+        scene.events.push(toml::from_str(&event).unwrap());
+    }
+    scene
+}
+
+#[test]
+fn a_session_goes_on_through_a_file_with_its_script() {
+    let (all, whole) = run(&scripted(0.5), None);
+    let (first, cut) = run(&scripted(0.25), None);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("half.state");
+    let mut file = std::fs::File::create(&path).unwrap();
+    cut.checkpoint.unwrap().write(&mut file).unwrap();
+    let checkpoint = Checkpoint::read(&path).unwrap();
+    let (second, rest) = run(&scripted(0.5), Some(checkpoint));
+    assert!(all.len() > 32 && first.len() > 16 && second.len() > 16);
+    assert!(all == [first, second].concat());
+    let timeless = |outcome: &Outcome| {
+        let mut summary = outcome.summary.clone().unwrap();
+        (summary.wall_s, summary.steps_per_s) = (0.0, None);
+        summary
+    };
+    assert_eq!(timeless(&whole), timeless(&rest));
+    // Nothing is left to do: the same results, no further step.
+    let done = run(&scripted(0.5), rest.checkpoint.map(|c| *c));
+    assert!(done.0.is_empty());
+    assert_eq!(timeless(&whole), timeless(&done.1));
+}
+
+#[test]
+fn a_spoiled_or_foreign_state_is_refused() {
+    let scene = scene(&[&SMALL[..], &["time.passages=0.02", "life=none"]].concat());
+    let (_, outcome) = run(&scene, None);
+    let checkpoint = *outcome.checkpoint.unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.state");
+    checkpoint
+        .write(&mut std::fs::File::create(&path).unwrap())
+        .unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    for spoiled in [
+        text.replacen("\"h0\":", "\"h0\": ", 1),
+        text[..text.len() / 2].to_owned(),
+        String::new(),
+        "{}".to_owned(),
+    ] {
+        assert!(spoiled != text);
+        std::fs::write(&path, spoiled).unwrap();
+        let error = Checkpoint::read(&path).unwrap_err();
+        assert!(matches!(error, CheckpointError::File { .. }), "{error}");
+    }
+    let mut other = scene.clone();
+    other.motion.slide_roll = 0.7;
+    assert_eq!(
+        checkpoint.fits(&other).unwrap_err(),
+        CheckpointError::OtherScene("[motion]")
+    );
+    let (_, refused) = run(&other, Some(checkpoint.clone()));
+    assert!(matches!(refused.end, End::NotStarted(_)));
+    // The engine itself refuses what would not fit its memory.
+    let finer = self::scene(&["grid.nodes=129", "record=none", "life=none"]);
+    let error = simulation(&finer).restore(checkpoint.sim).unwrap_err();
+    println!("{error}");
+}
