@@ -140,7 +140,10 @@ fn rainflow_counts_the_crests_that_pass_over_either_body() {
         let out = count(rough, s, amplitude_m);
         assert!((out.counted - out.zone).abs() <= 1.0);
         if out.zone >= 10.0 {
-            assert!((out.counted / out.zone - 1.0).abs() <= 0.05);
+            // Between the crests in the zone and one more: the edge cuts a crest, which counts when what is
+            // left of it passes the gate (`solve::material`).
+            let off = |expected: f64| (out.counted / expected - 1.0).abs();
+            assert!(off(out.zone).min(off(out.zone + 1.0)) <= 0.05);
         }
         assert!(out.end <= 2.0, "micro-cycles end above two wavelengths");
     }
