@@ -6,7 +6,7 @@
 //! ## Floors
 //! Imports go downward only (`tests/architecture.rs` reads them):
 //!
-//! `math < physics < scene < plan < solve < sim < observe < run < tui < cli/main`
+//! `math < physics < scene < plan < solve < sim < observe < run < study < tui < cli/main`
 //!
 //! * [`math`]: grids, fixed-order sums, planned FFTs, convolution. No contact words.
 //! * [`physics`]: closed forms: Hertz, fluid laws, waviness, film regressions, stress, fatigue.
@@ -16,7 +16,19 @@
 //! * [`sim`]: the simulation loop: `step`, `set`, `fill`.
 //! * [`observe`]: what watches a run: latest frame, bounded queue, table, Rerun recording.
 //! * [`run`]: a session: threads, commands, outcome.
+//! * [`study`]: error against run time, scaling.
 //! * `tui` (feature `tui`): the live screen. The engine never names it.
+
+/// Compiles a function for the wide vector units too, and picks one at run time.
+macro_rules! dispatched {
+    ($function:item) => {
+        #[multiversion::multiversion(targets(
+            "x86_64+avx512f+avx512vl+avx512dq+avx512bw+fma",
+            "x86_64+avx2+fma"
+        ))]
+        $function
+    };
+}
 
 pub mod math;
 pub mod observe;
@@ -26,5 +38,6 @@ pub mod run;
 pub mod scene;
 pub mod sim;
 pub mod solve;
+pub mod study;
 #[cfg(feature = "tui")]
 pub mod tui;

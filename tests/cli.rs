@@ -91,8 +91,8 @@ fn bad_input_is_refused_with_key_value_and_range() {
             &["contact.rx_m = \"19 mm\"", "1e-6 to 100 m"],
         ),
         (
-            "contact.kind=line",
-            &["contact.kind = \"line\"", "\"point\""],
+            "contact.kind=disc",
+            &["contact.kind = \"disc\"", "\"point\" or \"line\""],
         ),
         (
             "motion.slide_roll",

@@ -66,11 +66,12 @@ passages = 2.0
     Scene::load(path.to_str().unwrap()).unwrap()
 }
 
+/// Films, nm.
 struct Read {
-    central_nm: f64,
-    exit_nm: f64,
-    dent_nm: f64,
-    dip_nm: f64,
+    central: f64,
+    exit: f64,
+    dent: f64,
+    dip: f64,
 }
 
 fn run(nodes: usize) -> Read {
@@ -91,10 +92,10 @@ fn run(nodes: usize) -> Read {
     let a_m = scene.hertz().a_m;
     let start = -2.5 * a_m - 62e-6;
     let mut read = Read {
-        central_nm: 0.0,
-        exit_nm: 0.0,
-        dent_nm: 0.0,
-        dip_nm: 0.0,
+        central: 0.0,
+        exit: 0.0,
+        dent: 0.0,
+        dip: 0.0,
     };
     let mut nearest = f64::INFINITY;
     loop {
@@ -108,15 +109,15 @@ fn run(nodes: usize) -> Read {
         let row = &frame.film_m[(frame.ny / 2) * nx..(frame.ny / 2 + 1) * nx];
         let x = |i: usize| frame.x_min_m + i as f64 * frame.dx_m;
         if sim.passage_steps() == 1 {
-            read.central_nm = frame.metrics.h_central_m * 1e9;
-            read.exit_nm = 1e9 * lowest(row, |i| x(i) > 0.0 && x(i) < 1.1 * a_m);
+            read.central = frame.metrics.h_central_m * 1e9;
+            read.exit = 1e9 * lowest(row, |i| x(i) > 0.0 && x(i) < 1.1 * a_m);
         }
         let centre = start + sim.passage_steps() as f64 * dt * 0.09;
         let off = (centre + 48e-6).abs();
         if off < nearest.min(0.5 * a_m) {
             nearest = off;
-            read.dent_nm = 1e9 * highest(row, |i| (x(i) - centre).abs() < 30e-6);
-            read.dip_nm = 1e9 * lowest(row, |i| x(i) > centre && x(i) < centre + 80e-6);
+            read.dent = 1e9 * highest(row, |i| (x(i) - centre).abs() < 30e-6);
+            read.dip = 1e9 * lowest(row, |i| x(i) > centre && x(i) < centre + 80e-6);
         }
         if centre > -48e-6 + dx {
             break;
@@ -125,7 +126,7 @@ fn run(nodes: usize) -> Read {
     println!(
         "{nodes}²: smooth central {:.1} nm (computed 211.2, published 209-212), exit minimum {:.1} nm \
          (174.7, 172-175), in the dent {:.1} nm (377, 354-358), dip downstream {:.1} nm (195, 193)",
-        read.central_nm, read.exit_nm, read.dent_nm, read.dip_nm
+        read.central, read.exit, read.dent, read.dip
     );
     read
 }
@@ -157,15 +158,15 @@ fn the_moving_dent_of_mourier() {
     let limit = |a: f64, b: f64| b + (b - a) / 3.0;
     println!(
         "extrapolated: central {:.1}, exit {:.1}, dent {:.1}, dip {:.1}",
-        limit(coarse.central_nm, fine.central_nm),
-        limit(coarse.exit_nm, fine.exit_nm),
-        limit(coarse.dent_nm, fine.dent_nm),
-        limit(coarse.dip_nm, fine.dip_nm)
+        limit(coarse.central, fine.central),
+        limit(coarse.exit, fine.exit),
+        limit(coarse.dent, fine.dent),
+        limit(coarse.dip, fine.dip)
     );
     // Converged values and tolerances of the reference; the published film in the dent, 354-358 nm, is
     // what upwind differences leave of it.
-    assert!((fine.central_nm / 211.2 - 1.0).abs() < 0.015);
-    assert!((fine.exit_nm / 174.7 - 1.0).abs() < 0.02);
-    assert!((fine.dent_nm - 377.0).abs() < 3.0);
-    assert!((fine.dip_nm - 195.0).abs() < 3.0);
+    assert!((fine.central / 211.2 - 1.0).abs() < 0.015);
+    assert!((fine.exit / 174.7 - 1.0).abs() < 0.02);
+    assert!((fine.dent - 377.0).abs() < 3.0);
+    assert!((fine.dip - 195.0).abs() < 3.0);
 }

@@ -144,10 +144,10 @@ fn bad_values_are_refused_with_key_value_and_range() {
             "\"newtonian\" or \"eyring\"",
         ),
         (
-            "contact.kind=line",
+            "contact.kind=disc",
             "contact.kind",
-            "\"line\"",
-            "\"point\" (more in later versions)",
+            "\"disc\"",
+            "\"point\" or \"line\"",
         ),
         (
             "body_1.surface.kind=fractal",

@@ -72,12 +72,39 @@ Examples:
         /// Preset to print
         name: Option<String>,
     },
+    /// Measure what results cost
+    #[command(after_long_help = "\
+Examples:
+  asperity study scaling           cost of a step by grid, symmetry, threads and regime, some minutes
+  asperity study scaling --quick   half a minute")]
+    Study(StudyArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
         /// Recording, as written by run and explore
         #[arg(value_name = "FILE.rrd")]
         file: PathBuf,
     },
+}
+
+/// What to study.
+#[derive(Debug, Args)]
+pub(crate) struct StudyArgs {
+    /// Which study
+    #[arg(value_enum)]
+    pub(crate) kind: StudyKind,
+    /// The smallest set of cases
+    #[arg(long, conflicts_with = "full")]
+    pub(crate) quick: bool,
+    /// The largest set of cases
+    #[arg(long)]
+    pub(crate) full: bool,
+}
+
+/// The studies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum StudyKind {
+    /// Cost of a step by grid, symmetry, threads and regime
+    Scaling,
 }
 
 /// Which scene.

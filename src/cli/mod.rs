@@ -9,6 +9,7 @@ mod outputs;
 mod report;
 mod run;
 mod scenes;
+mod study;
 mod view;
 
 use std::io::IsTerminal as _;
@@ -44,6 +45,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
         Some(Command::Explore(args)) => explore(&args),
         Some(Command::Check(args)) => scenes::check(&args),
         Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+        Some(Command::Study(args)) => study::study(&args),
         Some(Command::View { file }) => view::view(&file),
     }
 }

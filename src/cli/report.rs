@@ -121,16 +121,25 @@ fn push_life(text: &mut String, s: &Summary) {
         return;
     };
     let band = match (s.life_relative_low, s.life_relative_high) {
-        (Some(low), Some(high)) => format!(" ({low:.3} to {high:.3})"),
+        (Some(low), Some(high)) => format!(" ({} to {})", factor(low), factor(high)),
         _ => String::new(),
     };
     let factors = match (s.cycle_factor, s.peak_factor, s.traction_factor) {
         (Some(cycles), Some(peaks), Some(traction)) => {
-            format!(" = cycles {cycles:.3} x peaks {peaks:.3} x traction {traction:.3}")
+            format!(
+                " = cycles {} x peaks {} x traction {}",
+                factor(cycles),
+                factor(peaks),
+                factor(traction)
+            )
         }
         _ => String::new(),
     };
-    line(text, "relative life", &format!("{life:.4}{band}{factors}"));
+    line(
+        text,
+        "relative life",
+        &format!("{}{band}{factors}", life_text(life)),
+    );
     push_life_beside(text, s);
     if let Some(ratio) = s.survival_ratio.filter(|ratio| *ratio != 1.0) {
         let what = format!("at the scene's survival every life is {ratio:.3} of that at 50 %");
@@ -148,6 +157,15 @@ fn push_life(text: &mut String, s: &Summary) {
     );
 }
 
+/// A relative life with four decimals, or digits that count where it is small.
+fn life_text(life: f64) -> String {
+    if life < SMALL {
+        factor(life)
+    } else {
+        format!("{life:.4}")
+    }
+}
+
 /// Both bodies, the choice of model, absolute cycles, and where pits start.
 fn push_life_beside(text: &mut String, s: &Summary) {
     if let (Some(model), Some(body)) = (&s.life_model, s.life_body) {
@@ -157,22 +175,24 @@ fn push_life_beside(text: &mut String, s: &Summary) {
     if let (Some(one), Some(two)) = (s.life_body_1, s.life_body_2) {
         let system = s
             .life_system
-            .map(|life| format!("; both as a system, in time: {life:.4}"))
+            .map(|life| format!("; both as a system, in time: {}", life_text(life)))
             .unwrap_or_default();
-        let what = format!("body 1 {one:.4}, body 2 {two:.4}{system}");
+        let (one, two) = (life_text(one), life_text(two));
+        let what = format!("body 1 {one}, body 2 {two}{system}");
         line(text, "bodies", &what);
     }
     if let (Some(low), Some(high), Some(count)) =
         (s.life_models_low, s.life_models_high, s.life_models)
         && count > 1
     {
-        let what = format!(
-            "{low:.4} to {high:.4} over {count} choices of cycle basis, integral and model"
-        );
+        let (low, high) = (life_text(low), life_text(high));
+        let what =
+            format!("{low} to {high} over {count} choices of cycle basis, integral and model");
         line(text, "model spread", &what);
     }
     if let (Some(snapshot), Some(swept)) = (s.life_snapshot, s.life_swept) {
-        let what = format!("snapshot {snapshot:.4}, swept {swept:.4} (bound)");
+        let (snapshot, swept) = (life_text(snapshot), life_text(swept));
+        let what = format!("snapshot {snapshot}, swept {swept} (bound)");
         line(text, "integrals", &what);
     }
     match (s.life_cycles, s.life_cycles_low, s.life_cycles_high) {
@@ -245,6 +265,17 @@ fn repetition(s: &Summary) -> Option<String> {
         "does not repeat"
     };
     Some(format!("{verdict}: {what}, {drift}"))
+}
+
+/// Below it a factor shows its power of ten: three decimals would show nothing.
+const SMALL: f64 = 0.01;
+
+fn factor(value: f64) -> String {
+    if value < SMALL {
+        format!("{value:.2e}")
+    } else {
+        format!("{value:.3}")
+    }
 }
 
 fn cycles(formula: Option<f64>, counted: Option<f64>) -> String {

@@ -16,11 +16,14 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftNum, FftPlanner};
 
+use super::even_transform::EvenTransform;
 use super::grid::{Grid, Symmetry};
 
 /// Rows of one task: eight single-precision complex numbers of a column fill a cache line.
 const ROWS: usize = 8;
 const COLUMNS: usize = 8;
+/// Values between the lines of a block: lines a power of two apart would share cache sets.
+const GAP: usize = 8;
 
 /// Padding of the transforms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +55,19 @@ struct RowWork<T> {
 struct ColumnWork<T> {
     line: Vec<Complex<T>>,
     image: Vec<Complex<T>>,
+    work: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
+}
+
+/// Transforms along y.
+enum Columns<T: FftNum> {
+    /// Of whole columns.
+    Whole {
+        forward: Arc<dyn Fft<T>>,
+        inverse: Arc<dyn Fft<T>>,
+    },
+    /// Of columns that are even in y.
+    Even(EvenTransform<T>),
 }
 
 /// A planned filter with `n_symbols` symbols.
@@ -61,15 +76,15 @@ pub struct Filter<T: FftNum> {
     ny: usize,
     lx: usize,
     ly: usize,
-    symmetry: Symmetry,
     parity: Parity,
     n_symbols: usize,
     n_kx: usize,
     row_forward: Arc<dyn RealToComplex<T>>,
     row_inverse: Arc<dyn ComplexToReal<T>>,
-    column_forward: Arc<dyn Fft<T>>,
-    column_inverse: Arc<dyn Fft<T>>,
-    /// `[symbol][kx][ky <= ly/2]`, the normalisation of the transforms included.
+    columns: Columns<T>,
+    /// Values of a column: the transform length, or half of it and one where fields are mirrored.
+    column_len: usize,
+    /// `[symbol][kx][column_len]`, the normalisation of the transforms included.
     symbols: Vec<T>,
     /// `[row][kx]`
     rows_spectrum: Vec<Complex<T>>,
@@ -93,18 +108,13 @@ impl<T: FftNum> Filter<T> {
         );
         let n_kx = lx / 2 + 1;
         let mut real_planner = RealFftPlanner::<T>::new();
-        let mut planner = FftPlanner::<T>::new();
+        let (columns, column_len, column_scratch) = Columns::plan(grid.symmetry, ly);
         let row_forward = real_planner.plan_fft_forward(lx);
         let row_inverse = real_planner.plan_fft_inverse(lx);
-        let column_forward = planner.plan_fft_forward(ly);
-        let column_inverse = planner.plan_fft_inverse(ly);
         let zero = Complex::new(T::zero(), T::zero());
         let row_scratch = row_forward
             .get_scratch_len()
             .max(row_inverse.get_scratch_len());
-        let column_scratch = column_forward
-            .get_inplace_scratch_len()
-            .max(column_inverse.get_inplace_scratch_len());
         let row_work = (0..grid.ny.div_ceil(ROWS))
             .map(|_| RowWork {
                 real: vec![T::zero(); lx],
@@ -114,8 +124,9 @@ impl<T: FftNum> Filter<T> {
             .collect();
         let column_work = (0..n_kx.div_ceil(COLUMNS))
             .map(|_| ColumnWork {
-                line: vec![zero; ly * COLUMNS],
-                image: vec![zero; ly],
+                line: vec![zero; (column_len + GAP) * COLUMNS],
+                image: vec![zero; column_len],
+                work: vec![zero; column_len],
                 scratch: vec![zero; column_scratch],
             })
             .collect();
@@ -124,15 +135,14 @@ impl<T: FftNum> Filter<T> {
             ny: grid.ny,
             lx,
             ly,
-            symmetry: grid.symmetry,
             parity: Parity::Even,
             n_symbols,
             n_kx,
             row_forward,
             row_inverse,
-            column_forward,
-            column_inverse,
-            symbols: vec![T::zero(); n_symbols * n_kx * (ly / 2 + 1)],
+            columns,
+            column_len,
+            symbols: vec![T::zero(); n_symbols * n_kx * column_len],
             rows_spectrum: vec![zero; grid.ny * n_kx],
             columns_out: vec![zero; n_kx * n_symbols * grid.ny],
             row_work,
@@ -159,12 +169,13 @@ impl<T: FftNum> Filter<T> {
 
     /// Sets symbol `b` from `f(kx index, ky index)`, 0 <= kx <= lx/2, 0 <= ky <= ly/2.
     pub fn set_symbol(&mut self, b: usize, f: impl Fn(usize, usize) -> f64) {
-        let (n_ky, scale) = (self.ly / 2 + 1, 1.0 / (self.lx * self.ly) as f64);
-        let start = b * self.n_kx * n_ky;
-        let table = &mut self.symbols[start..start + self.n_kx * n_ky];
-        for (kx, line) in table.chunks_exact_mut(n_ky).enumerate() {
+        let (ly, len) = (self.ly, self.column_len);
+        let scale = 1.0 / (self.lx * ly) as f64;
+        let start = b * self.n_kx * len;
+        let table = &mut self.symbols[start..start + self.n_kx * len];
+        for (kx, line) in table.chunks_exact_mut(len).enumerate() {
             for (ky, s) in line.iter_mut().enumerate() {
-                *s = T::from_f64(f(kx, ky) * scale).unwrap_or_else(T::zero);
+                *s = T::from_f64(f(kx, ky.min(ly - ky)) * scale).unwrap_or_else(T::zero);
             }
         }
     }
@@ -203,11 +214,9 @@ impl<T: FftNum> Filter<T> {
     }
 
     fn columns(&mut self) {
-        let (ny, ly, n_kx, n_symbols) = (self.ny, self.ly, self.n_kx, self.n_symbols);
-        let n_ky = ly / 2 + 1;
-        let (forward, inverse) = (&self.column_forward, &self.column_inverse);
-        let (rows, symbols, symmetry) = (&self.rows_spectrum, &self.symbols, self.symmetry);
-        let parity = self.parity;
+        let (ny, len, n_kx, n_symbols) = (self.ny, self.column_len, self.n_kx, self.n_symbols);
+        let (plan, parity) = (&self.columns, self.parity);
+        let (rows, symbols) = (&self.rows_spectrum, &self.symbols);
         self.columns_out
             .par_chunks_mut(COLUMNS * n_symbols * ny)
             .zip(self.column_work.par_iter_mut())
@@ -215,24 +224,25 @@ impl<T: FftNum> Filter<T> {
             .for_each(|(block, (out, work))| {
                 let k0 = block * COLUMNS;
                 let width = COLUMNS.min(n_kx - k0);
-                gather(rows, n_kx, k0, width, ny, ly, symmetry, &mut work.line);
+                let stride = len + GAP;
+                gather(rows, n_kx, k0, width, ny, len, &mut work.line);
                 for c in 0..width {
-                    let line = &mut work.line[c * ly..(c + 1) * ly];
-                    forward.process_with_scratch(line, &mut work.scratch);
+                    let line = &mut work.line[c * stride..c * stride + len];
+                    plan.forward(line, &mut work.work, &mut work.scratch);
                     for b in 0..n_symbols {
-                        let start = (b * n_kx + k0 + c) * n_ky;
-                        multiply(line, &symbols[start..start + n_ky], &mut work.image);
+                        let start = (b * n_kx + k0 + c) * len;
+                        multiply(line, &symbols[start..start + len], &mut work.image);
                         if parity == Parity::OddInX {
                             for v in &mut work.image {
                                 *v = Complex::new(-v.im, v.re);
                             }
                         }
-                        inverse.process_with_scratch(&mut work.image, &mut work.scratch);
+                        plan.inverse(&mut work.image, &mut work.work, &mut work.scratch);
                         let at = (c * n_symbols + b) * ny;
-                        let n = ny.min(ly);
+                        let n = ny.min(len);
                         out[at..at + n].copy_from_slice(&work.image[..n]);
-                        if ny > ly {
-                            out[at + ly] = work.image[0];
+                        if ny > len {
+                            out[at + len] = work.image[0];
                         }
                     }
                 }
@@ -299,56 +309,86 @@ fn accumulate<T: FftNum>(row: &mut [T], real: &[T], lx: usize, weight: Option<&[
     }
 }
 
-/// Columns `k0..k0+width` of the row spectra as contiguous lines of length `ly`.
+impl<T: FftNum> Columns<T> {
+    /// The transforms for length `ly`, the values of a column, the scratch.
+    fn plan(symmetry: Symmetry, ly: usize) -> (Self, usize, usize) {
+        match symmetry {
+            Symmetry::MirrorY => {
+                let even = EvenTransform::new(ly / 2);
+                let scratch = even.scratch_len();
+                (Self::Even(even), ly / 2 + 1, scratch)
+            }
+            Symmetry::General | Symmetry::Line => {
+                let mut planner = FftPlanner::<T>::new();
+                let forward = planner.plan_fft_forward(ly);
+                let inverse = planner.plan_fft_inverse(ly);
+                let scratch = forward
+                    .get_inplace_scratch_len()
+                    .max(inverse.get_inplace_scratch_len());
+                (Self::Whole { forward, inverse }, ly, scratch)
+            }
+        }
+    }
+
+    fn forward(
+        &self,
+        line: &mut [Complex<T>],
+        work: &mut [Complex<T>],
+        scratch: &mut [Complex<T>],
+    ) {
+        match self {
+            Self::Whole { forward, .. } => forward.process_with_scratch(line, scratch),
+            Self::Even(even) => even.process(line, work, scratch),
+        }
+    }
+
+    fn inverse(
+        &self,
+        line: &mut [Complex<T>],
+        work: &mut [Complex<T>],
+        scratch: &mut [Complex<T>],
+    ) {
+        match self {
+            Self::Whole { inverse, .. } => inverse.process_with_scratch(line, scratch),
+            Self::Even(even) => even.process(line, work, scratch),
+        }
+    }
+}
+
+dispatched! {
+/// Columns `k0..k0+width` of the row spectra as contiguous lines of length `len`, [`GAP`] apart.
 fn gather<T: FftNum>(
     rows: &[Complex<T>],
     n_kx: usize,
     k0: usize,
     width: usize,
     ny: usize,
-    ly: usize,
-    symmetry: Symmetry,
+    len: usize,
     line: &mut [Complex<T>],
 ) {
-    let zero = Complex::new(T::zero(), T::zero());
-    match symmetry {
-        Symmetry::General | Symmetry::Line => {
-            let n = ny.min(ly);
-            for j in 0..n {
-                for c in 0..width {
-                    line[c * ly + j] = rows[j * n_kx + k0 + c];
-                }
-            }
-            for c in 0..width {
-                line[c * ly + n..(c + 1) * ly].fill(zero);
-            }
+    let stride = len + GAP;
+    let n = ny.min(len);
+    for j in 0..n {
+        let row = &rows[j * n_kx + k0..][..width];
+        for (c, &v) in row.iter().enumerate() {
+            line[c * stride + j] = v;
         }
-        Symmetry::MirrorY => {
-            for c in 0..width {
-                line[c * ly + ny - 1..(c + 1) * ly + 1 - ny.min(ly)].fill(zero);
-            }
-            for j in 0..ny.min(ly / 2 + 1) {
-                for c in 0..width {
-                    let v = rows[j * n_kx + k0 + c];
-                    line[c * ly + j] = v;
-                    line[c * ly + (ly - j) % ly] = v;
-                }
-            }
-        }
+    }
+    for c in 0..width {
+        line[c * stride + n..c * stride + len].fill(Complex::new(T::zero(), T::zero()));
     }
 }
+}
 
-/// `out = line . symbol`, the symbol even in ky.
+dispatched! {
+/// `out = line . symbol`.
 fn multiply<T: FftNum>(line: &[Complex<T>], symbol: &[T], out: &mut [Complex<T>]) {
-    let ly = line.len();
-    let half = symbol.len();
-    for ((o, &v), &s) in out.iter_mut().zip(line).zip(symbol) {
-        *o = Complex::new(v.re * s, v.im * s);
+    let n = out.len();
+    let (line, symbol) = (&line[..n], &symbol[..n]);
+    for k in 0..n {
+        out[k] = Complex::new(line[k].re * symbol[k], line[k].im * symbol[k]);
     }
-    for (k, (o, &v)) in out.iter_mut().zip(line).enumerate().skip(half) {
-        let s = symbol[ly - k];
-        *o = Complex::new(v.re * s, v.im * s);
-    }
+}
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 pub mod elementary;
 pub mod elliptic;
+mod even_transform;
 pub mod filter;
 pub mod grid;
 pub mod kernel_symbol;

@@ -291,6 +291,27 @@ mod tests {
     }
 
     #[test]
+    fn a_line_follows_the_square_root_of_its_load() {
+        let line = EstimateBasis {
+            shape: HertzShape::Line,
+            ..basis()
+        };
+        let heavy = OperatingPoint {
+            load_n: 3200.0,
+            ..point(0.5)
+        };
+        let estimate = line.estimate(&anchor(), &heavy);
+        assert_relative_eq!(estimate.p_hertz_pa, 3.4e9, epsilon = 1.0);
+        // N ∝ F^−(c + 2/e)/2.
+        let life = load_factor(HertzShape::Line, 2.0, 31.0 / 3.0, 10.0 / 9.0);
+        assert_relative_eq!(
+            life.ln() / 4.0_f64.ln(),
+            -0.5 * (31.0 / 3.0 + 1.8),
+            epsilon = 1e-12
+        );
+    }
+
+    #[test]
     fn peaks_from_a_smooth_anchor_are_unknown() {
         let mut smooth = anchor();
         smooth.at.amplitude_1_m = 0.0;

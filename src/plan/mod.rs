@@ -351,11 +351,11 @@ impl Plan {
             .life
             .map_or(0, |life| self.steps / life.volume_every_steps + 1);
         Cost::new(cost::Load {
+            kind: self.kind,
             nodes: self.domain.nodes,
             rows: match self.symmetry {
                 Symmetry::MirrorY => 0.5,
-                Symmetry::General => 1.0,
-                Symmetry::Line => 1.0 / self.domain.nodes as f64,
+                Symmetry::General | Symmetry::Line => 1.0,
             },
             depths: self.depths(),
             steps: self.steps,

@@ -6,6 +6,7 @@ use toml::{Table, Value};
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, KNOB_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
 use super::model::{ContactKind, Event, Scene, Surface};
+use super::shape::{check_load, check_shape};
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
 pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
@@ -221,108 +222,8 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
         .try_for_each(|(index, event)| check_event_fits(scene, index, event))
 }
 
-/// A radius across belongs to a point contact; what varies along y does not belong to a line.
-fn check_shape(scene: &Scene) -> Result<(), SceneError> {
-    match (scene.contact.kind, scene.contact.ry_m) {
-        (ContactKind::Point, None) => Err(SceneError::Missing {
-            key: "contact.ry_m".to_owned(),
-            allowed: keys::find("contact.ry_m").map_or_else(String::new, Key::allowed),
-        }),
-        (ContactKind::Line, Some(ry_m)) => Err(SceneError::value(
-            "contact.ry_m",
-            format!("{} m", short(ry_m)),
-            "only with contact.kind = \"point\"; leave it out for a line",
-        )),
-        (ContactKind::Line, None) => scene
-            .surfaces()
-            .into_iter()
-            .zip(["body_1.surface", "body_2.surface"])
-            .try_for_each(|(surface, path)| check_transverse(path, surface)),
-        (ContactKind::Point, Some(_)) => Ok(()),
-    }
-}
-
-/// A line's surfaces must not vary along y.
-fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
-    if surface.wavenumbers_per_m()[1] == 0.0 {
-        return Ok(());
-    }
-    let Surface::Sinusoid {
-        wavelength_x_m,
-        wavelength_y_m,
-        angle_deg,
-        ..
-    } = *surface
-    else {
-        return Ok(());
-    };
-    let uniform = "a line contact is the same at every y, so its ridges must lie across";
-    Err(
-        if wavelength_y_m.is_finite() && wavelength_x_m.is_finite() {
-            SceneError::value(
-                joined(path, "wavelength_y_m"),
-                format!("{} m", short(wavelength_y_m)),
-                format!("inf: {uniform}"),
-            )
-        } else if angle_deg.rem_euclid(180.0) == 0.0 {
-            SceneError::value(
-                joined(path, "wavelength_x_m"),
-                "inf",
-                format!("a length in m, with wavelength_y_m = inf: {uniform}"),
-            )
-        } else {
-            SceneError::value(
-                joined(path, "angle_deg"),
-                short(angle_deg),
-                format!("0 with wavelength_y_m = inf: {uniform}"),
-            )
-        },
-    )
-}
-
-fn check_load(scene: &Scene) -> Result<(), SceneError> {
-    let load = &scene.load;
-    let (own, other) = match scene.contact.kind {
-        ContactKind::Point => (
-            ("load.force_n", "N", load.force_n),
-            ("load.force_n_per_m", "N/m", load.force_n_per_m),
-        ),
-        ContactKind::Line => (
-            ("load.force_n_per_m", "N/m", load.force_n_per_m),
-            ("load.force_n", "N", load.force_n),
-        ),
-    };
-    let (key, unit, force) = own;
-    if let (other, unit, Some(force)) = other {
-        let only = match scene.contact.kind {
-            ContactKind::Point => "line",
-            ContactKind::Line => "point",
-        };
-        return Err(SceneError::value(
-            other,
-            format!("{} {unit}", short(force)),
-            format!("only with contact.kind = \"{only}\"; here {key} or load.hertz_pressure_pa"),
-        ));
-    }
-    match (force, load.hertz_pressure_pa) {
-        (Some(_), Some(_)) => Err(SceneError::value(
-            "load",
-            format!("{} and hertz_pressure_pa", key.trim_start_matches("load.")),
-            "exactly one of the two",
-        )),
-        (None, None) => Err(SceneError::Missing {
-            key: key.to_owned(),
-            allowed: format!(
-                "exactly one of {key} ({unit}) and load.hertz_pressure_pa (1e6 to 1e10 Pa)"
-            ),
-        }),
-        (Some(force), None) => check_force(scene, key, force),
-        (None, Some(_)) => Ok(()),
-    }
-}
-
 /// A force may be anything whose Hertz pressure is possible.
-fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), SceneError> {
+pub(super) fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), SceneError> {
     let p_max_pa = scene.hertz_at(force_n).p_max_pa;
     if p_max_pa <= P_HERTZ_MAX_PA {
         return Ok(());

@@ -90,8 +90,15 @@ impl Override {
                 table.clear();
             }
         }
+        if self.key == "contact.kind"
+            && self.value.as_str() == Some("line")
+            && let Some(table) = descend(root, path)
+        {
+            // A contact made a line has no radius across; its load must be given per length or as pressure.
+            table.remove("ry_m");
+        }
         if path == "load" {
-            // The two ways of giving the load exclude each other: the last word counts.
+            // The ways of giving the load exclude each other: the last word counts.
             if let Some(table) = descend(root, path) {
                 table.clear();
             }

@@ -16,6 +16,7 @@ mod load;
 mod lubricant;
 mod model;
 pub mod presets;
+mod shape;
 
 pub use error::SceneError;
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, VolumeIntegral};

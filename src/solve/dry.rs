@@ -346,3 +346,29 @@ impl Dry {
         report.load_error = (load / problem.load - 1.0).abs();
     }
 }
+
+impl NewtonReport {
+    /// Nothing done yet.
+    pub(super) fn nothing() -> Self {
+        Self {
+            verdict: Verdict::Stalled,
+            iterations: 0,
+            linear_iterations: 0,
+            evaluations: 0,
+            change: f64::INFINITY,
+            film_error: 0.0,
+            mass_error: 0.0,
+            load_error: 0.0,
+            worst_node: 0,
+        }
+    }
+
+    /// Takes what a further solution reached and adds what it took.
+    pub(super) fn add(&mut self, further: &Self) {
+        let before = *self;
+        *self = *further;
+        self.iterations += before.iterations;
+        self.linear_iterations += before.linear_iterations;
+        self.evaluations += before.evaluations;
+    }
+}

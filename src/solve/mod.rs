@@ -1,16 +1,5 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
 
-/// Compiles a function for the wide vector units too, and picks one at run time.
-macro_rules! dispatched {
-    ($function:item) => {
-        #[multiversion::multiversion(targets(
-            "x86_64+avx512f+avx512vl+avx512dq+avx512bw+fma",
-            "x86_64+avx2+fma"
-        ))]
-        $function
-    };
-}
-
 mod axis;
 pub mod critical;
 pub mod damage;

@@ -81,32 +81,6 @@ pub struct NewtonReport {
     pub worst_node: usize,
 }
 
-impl NewtonReport {
-    /// Nothing done yet.
-    pub(super) fn nothing() -> Self {
-        Self {
-            verdict: Verdict::Stalled,
-            iterations: 0,
-            linear_iterations: 0,
-            evaluations: 0,
-            change: f64::INFINITY,
-            film_error: 0.0,
-            mass_error: 0.0,
-            load_error: 0.0,
-            worst_node: 0,
-        }
-    }
-
-    /// Takes what a further solution reached and adds what it took.
-    pub(super) fn add(&mut self, further: &Self) {
-        let before = *self;
-        *self = *further;
-        self.iterations += before.iterations;
-        self.linear_iterations += before.linear_iterations;
-        self.evaluations += before.evaluations;
-    }
-}
-
 /// What a step is solved against.
 pub struct Problem<'a> {
     /// Grid.
@@ -339,31 +313,25 @@ impl Newton {
             .unwrap_or_default()
     }
 
-    /// Marks the active nodes, P − F/D > 0, and notes v = −P of the others; whether any of them carries
-    /// pressure.
+    /// Marks the active nodes, P − F/D > 0 (where a step has lifted the bodies apart those with pressure: an
+    /// empty set carries no load), and notes v = −P of the others; whether any of them carries pressure.
     fn split(&mut self, grid: &Grid, p: &[f64]) -> bool {
         let (f, d) = (&self.reynolds.residual, &self.reynolds.diagonal);
         self.active.fill(false);
         self.fixed.fill(0.0);
-        let mut any_fixed = false;
         for j in grid.interior_rows() {
             for n in j * grid.nx + 1..(j + 1) * grid.nx - 1 {
                 self.active[n] = p[n] - f[n] / d[n] > 0.0;
                 if !self.active[n] && p[n] > 0.0 {
                     self.fixed[n] = -p[n] as f32;
-                    any_fixed = true;
                 }
             }
         }
         if !self.active.contains(&true) {
-            // The last step lifted the bodies apart. No set at all cannot carry the load: keep the old one.
-            for (active, &p) in self.active.iter_mut().zip(p) {
-                *active = p > 0.0;
-            }
+            (0..p.len()).for_each(|n| self.active[n] = p[n] > 0.0);
             self.fixed.fill(0.0);
-            return false;
         }
-        any_fixed
+        self.fixed.iter().any(|&v| v != 0.0)
     }
 
     /// Linearises, solves, leaves the step in `v`; returns the change of H0.

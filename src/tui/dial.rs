@@ -342,6 +342,18 @@ mod tests {
     }
 
     #[test]
+    fn a_line_has_a_load_per_length() {
+        let dial = load(ContactKind::Line, 4.22e5, 1.347e9);
+        assert_eq!(dial.knob, Knob::ForceNPerM);
+        assert_eq!(dial.unit(Units::Gpa).name, "N/m");
+        for force in &dial.typical {
+            let p = 1.347 * (force / 4.22e5).sqrt();
+            assert_relative_eq!((p / 0.25).round() * 0.25, p, epsilon = 1e-9);
+        }
+        assert!(dial.answers(Knob::ForceN) && !dial.answers(Knob::SlideRoll));
+    }
+
+    #[test]
     fn a_smooth_surface_has_a_dead_dial() {
         let dial = amplitude(Knob::Amplitude1M, &Surface::Smooth {});
         assert_eq!(dial.life, Life::Dead("smooth"));

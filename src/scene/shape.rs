@@ -1,0 +1,108 @@
+//! The rules that go with the kind of contact: a point has a radius across and a force, a line neither, but a
+//! force per length and surfaces that are the same at every y.
+
+use super::check::check_force;
+use super::error::SceneError;
+use super::keys::{self, Key, joined, short};
+use super::model::{ContactKind, Scene, Surface};
+
+/// A radius across belongs to a point contact; what varies along y does not belong to a line.
+pub(super) fn check_shape(scene: &Scene) -> Result<(), SceneError> {
+    match (scene.contact.kind, scene.contact.ry_m) {
+        (ContactKind::Point, None) => Err(SceneError::Missing {
+            key: "contact.ry_m".to_owned(),
+            allowed: keys::find("contact.ry_m").map_or_else(String::new, Key::allowed),
+        }),
+        (ContactKind::Line, Some(ry_m)) => Err(SceneError::value(
+            "contact.ry_m",
+            format!("{} m", short(ry_m)),
+            "only with contact.kind = \"point\"; leave it out for a line",
+        )),
+        (ContactKind::Line, None) => scene
+            .surfaces()
+            .into_iter()
+            .zip(["body_1.surface", "body_2.surface"])
+            .try_for_each(|(surface, path)| check_transverse(path, surface)),
+        (ContactKind::Point, Some(_)) => Ok(()),
+    }
+}
+
+/// A line's surfaces must not vary along y.
+fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
+    if surface.wavenumbers_per_m()[1] == 0.0 {
+        return Ok(());
+    }
+    let Surface::Sinusoid {
+        wavelength_x_m,
+        wavelength_y_m,
+        angle_deg,
+        ..
+    } = *surface
+    else {
+        return Ok(());
+    };
+    let uniform = "a line contact is the same at every y, so its ridges must lie across";
+    Err(
+        if wavelength_y_m.is_finite() && wavelength_x_m.is_finite() {
+            SceneError::value(
+                joined(path, "wavelength_y_m"),
+                format!("{} m", short(wavelength_y_m)),
+                format!("inf: {uniform}"),
+            )
+        } else if angle_deg.rem_euclid(180.0) == 0.0 {
+            SceneError::value(
+                joined(path, "wavelength_x_m"),
+                "inf",
+                format!("a length in m, with wavelength_y_m = inf: {uniform}"),
+            )
+        } else {
+            SceneError::value(
+                joined(path, "angle_deg"),
+                short(angle_deg),
+                format!("0 with wavelength_y_m = inf: {uniform}"),
+            )
+        },
+    )
+}
+
+/// Exactly one load, of the kind that the contact takes.
+pub(super) fn check_load(scene: &Scene) -> Result<(), SceneError> {
+    let load = &scene.load;
+    let (own, other) = match scene.contact.kind {
+        ContactKind::Point => (
+            ("load.force_n", "N", load.force_n),
+            ("load.force_n_per_m", "N/m", load.force_n_per_m),
+        ),
+        ContactKind::Line => (
+            ("load.force_n_per_m", "N/m", load.force_n_per_m),
+            ("load.force_n", "N", load.force_n),
+        ),
+    };
+    let (key, unit, force) = own;
+    if let (other, unit, Some(force)) = other {
+        let only = match scene.contact.kind {
+            ContactKind::Point => "line",
+            ContactKind::Line => "point",
+        };
+        return Err(SceneError::value(
+            other,
+            format!("{} {unit}", short(force)),
+            format!("only with contact.kind = \"{only}\"; here {key} or load.hertz_pressure_pa"),
+        ));
+    }
+    match (force, load.hertz_pressure_pa) {
+        (Some(_), Some(_)) => Err(SceneError::value(
+            "load",
+            format!("{} and hertz_pressure_pa", key.trim_start_matches("load.")),
+            "exactly one of the two",
+        )),
+        (None, None) => Err(SceneError::Missing {
+            key: key.to_owned(),
+            allowed: format!(
+                "exactly one of {key} ({unit}) and load.hertz_pressure_pa (1e6 to 1e10 Pa)"
+            ),
+        }),
+        (Some(force), None) => check_force(scene, key, force),
+        (None, Some(_)) => Ok(()),
+    }
+}

@@ -1,0 +1,284 @@
+//! What a step costs against grid, symmetry, threads and regime.
+//!
+//! ```text
+//! units = time of a step / time of one padded transform pair (f64, whole grid, one thread), same nodes
+//! ```
+//! The pair is what one deflection costs; it is measured in the same run, before and after the steps, so that
+//! units mean the same on any machine. Steps are those of the default scene's passage (rough on both bodies,
+//! mixed lubrication, converged to the scene's tolerance) without stress, life and recording; medians. The
+//! whole grid is had by turning body 2's waves by a hundredth of a degree, which breaks the symmetry and
+//! nothing else.
+
+use std::fmt::Write as _;
+use std::time::Instant;
+
+use super::StudyError;
+use crate::math::filter::{Filter, Padding};
+use crate::math::grid::{Grid, Symmetry};
+use crate::plan::Plan;
+use crate::scene::{Override, Scene, presets};
+use crate::sim::{Simulation, Stage};
+
+/// How much to measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// 65² and 129²: half a minute.
+    Quick,
+    /// Up to 257², and regimes: some minutes.
+    Usual,
+    /// Up to 513².
+    Full,
+}
+
+/// One measured case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScalingRow {
+    /// What was run.
+    pub case: String,
+    /// Nodes per side.
+    pub nodes: usize,
+    /// Worker threads.
+    pub threads: usize,
+    /// Transform pair, s.
+    pub pair_s: f64,
+    /// Median step, s.
+    pub step_s: f64,
+    /// Newton iterations a step.
+    pub newton: f64,
+    /// Krylov iterations a step.
+    pub krylov: f64,
+    /// Steps that did not converge.
+    pub failed: u32,
+}
+
+impl ScalingRow {
+    /// Cost of a step in transform pairs.
+    pub fn units(&self) -> f64 {
+        self.step_s / self.pair_s
+    }
+}
+
+/// One case to run: its name, nodes, threads, steps and the keys that it sets.
+struct Case {
+    name: &'static str,
+    nodes: usize,
+    threads: usize,
+    steps: usize,
+    keys: &'static [&'static str],
+}
+
+const GENERAL: &[&str] = &["body_2.surface.angle_deg=0.01"];
+const MIRRORED: &[&str] = &[];
+
+fn cases(extent: Extent) -> Vec<Case> {
+    let mut cases = Vec::new();
+    let sizes: &[(usize, usize)] = match extent {
+        Extent::Quick => &[(65, 32), (129, 32)],
+        Extent::Usual => &[(65, 64), (129, 64), (257, 24)],
+        Extent::Full => &[(65, 64), (129, 64), (257, 24), (513, 8)],
+    };
+    let mut push = |name, nodes, threads, steps, keys| {
+        cases.push(Case {
+            name,
+            nodes,
+            threads,
+            steps,
+            keys,
+        });
+    };
+    for &(nodes, steps) in sizes {
+        for threads in [1, 2] {
+            push("whole grid", nodes, threads, steps, GENERAL);
+            push("mirrored in y", nodes, threads, steps, MIRRORED);
+        }
+    }
+    if extent != Extent::Quick {
+        push(
+            "U = 5 m/s, full film",
+            129,
+            2,
+            32,
+            &["motion.entrainment_m_s=5"],
+        );
+        push("U = 0.01 m/s", 129, 2, 32, &["motion.entrainment_m_s=1e-2"]);
+        push(
+            "U = 1e-3 m/s, near dry",
+            129,
+            2,
+            32,
+            &["motion.entrainment_m_s=1e-3"],
+        );
+        push(
+            "U = 1e-4 m/s, near dry",
+            129,
+            2,
+            32,
+            &["motion.entrainment_m_s=1e-4"],
+        );
+        push("dry", 129, 2, 32, &["lubricant=none"]);
+    }
+    cases
+}
+
+/// Measures; `progress` hears the name of each case before it runs.
+///
+/// # Errors
+/// [`StudyError`] when a case cannot be made or fails.
+pub fn scaling(
+    extent: Extent,
+    progress: &mut dyn FnMut(&str, usize, usize),
+) -> Result<Vec<ScalingRow>, StudyError> {
+    let cases = cases(extent);
+    let mut rows = Vec::with_capacity(cases.len());
+    for (n, case) in cases.iter().enumerate() {
+        let name = format!("{}² {}, {} threads", case.nodes, case.name, case.threads);
+        progress(&name, n, cases.len());
+        rows.push(measure(case).map_err(|reason| StudyError::Run { case: name, reason })?);
+    }
+    Ok(rows)
+}
+
+fn measure(case: &Case) -> Result<ScalingRow, String> {
+    let nodes = format!("grid.nodes={}", case.nodes);
+    let common = [
+        "stress=none",
+        "life=none",
+        "record=none",
+        "time.passages=4",
+        &nodes,
+    ];
+    let overrides = common
+        .iter()
+        .chain(case.keys)
+        .map(|text| text.parse::<Override>())
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|error| error.to_string())?;
+    let scene =
+        Scene::load_with(presets::DEFAULT, &overrides).map_err(|error| error.to_string())?;
+    let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
+    let mut sim = Simulation::new(&scene, plan, case.threads).map_err(|error| error.to_string())?;
+    while sim.stage() != Stage::Passage {
+        sim.step().map_err(|error| error.to_string())?;
+    }
+    let before = pair_s(case.nodes)?;
+    let start = *sim.stats();
+    let mut times = Vec::with_capacity(case.steps);
+    let mut failed = 0;
+    for _ in 0..case.steps {
+        let clock = Instant::now();
+        sim.step().map_err(|error| error.to_string())?;
+        times.push(clock.elapsed().as_secs_f64());
+        failed += u32::from(!sim.metrics().converged);
+    }
+    let pair_s = before.min(pair_s(case.nodes)?);
+    times.sort_by(f64::total_cmp);
+    let per_step = |count: u64| count as f64 / case.steps as f64;
+    Ok(ScalingRow {
+        case: case.name.to_owned(),
+        nodes: case.nodes,
+        threads: case.threads,
+        pair_s,
+        step_s: times[times.len() / 2],
+        newton: per_step(sim.stats().newton_iterations - start.newton_iterations),
+        krylov: per_step(sim.stats().linear_iterations - start.linear_iterations),
+        failed,
+    })
+}
+
+/// Best time of one padded double-precision transform pair on the whole grid, one thread.
+fn pair_s(nodes: usize) -> Result<f64, String> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .map_err(|error| error.to_string())?;
+    let grid = Grid::new(nodes, -2.5, 1.5, 2.0, Symmetry::General);
+    let mut filter = Filter::<f64>::new(&grid, Padding::Doubled, 1);
+    filter.set_symbol(0, |_, _| 1.0);
+    let input = vec![1.0; grid.len()];
+    let mut out = vec![0.0; grid.len()];
+    Ok(pool.install(|| {
+        (0..40)
+            .map(|_| {
+                let clock = Instant::now();
+                filter.apply(&input, &mut out);
+                clock.elapsed().as_secs_f64()
+            })
+            .fold(f64::INFINITY, f64::min)
+    }))
+}
+
+/// The rows as a Markdown table, with the ratios that the rows give.
+pub fn scaling_text(rows: &[ScalingRow]) -> String {
+    let mut text = String::from(
+        "| grid | case | threads | pair, ms | step, ms | units (pairs) | steps/s | Newton | Krylov | not converged |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for row in rows {
+        let _ = writeln!(
+            text,
+            "| {n}² | {} | {} | {:.3} | {:.2} | {:.0} | {:.1} | {:.1} | {:.1} | {} |",
+            row.case,
+            row.threads,
+            row.pair_s * 1e3,
+            row.step_s * 1e3,
+            row.units(),
+            1.0 / row.step_s,
+            row.newton,
+            row.krylov,
+            row.failed,
+            n = row.nodes,
+        );
+    }
+    text.push('\n');
+    push_ratios(&mut text, rows);
+    text
+}
+
+fn push_ratios(text: &mut String, rows: &[ScalingRow]) {
+    let find = |case: &str, nodes: usize, threads: usize| {
+        rows.iter()
+            .find(|row| row.case == case && row.nodes == nodes && row.threads == threads)
+    };
+    let mut sizes: Vec<usize> = rows.iter().map(|row| row.nodes).collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    for &n in &sizes {
+        let whole = [find("whole grid", n, 1), find("whole grid", n, 2)];
+        let mirrored = find("mirrored in y", n, 2);
+        if let ([Some(one), Some(two)], Some(mirrored)) = (whole, mirrored) {
+            let _ = writeln!(
+                text,
+                "{n}²: two threads {:.2} times one; mirrored {:.2} times as fast as the whole grid",
+                one.step_s / two.step_s,
+                two.step_s / mirrored.step_s
+            );
+        }
+    }
+    for pair in sizes.windows(2) {
+        let (small, large) = (
+            find("whole grid", pair[0], 1),
+            find("whole grid", pair[1], 1),
+        );
+        if let (Some(small), Some(large)) = (small, large) {
+            let work = |n: usize| (n * n) as f64 * (n as f64).log2();
+            let _ = writeln!(
+                text,
+                "{}² to {}²: cost x {:.2}, N² log N x {:.2}",
+                pair[0],
+                pair[1],
+                large.step_s / small.step_s,
+                work(pair[1]) / work(pair[0])
+            );
+        }
+    }
+    if let Some(mixed) = find("mirrored in y", 129, 2) {
+        for row in rows.iter().filter(|row| row.case.contains("near dry")) {
+            let _ = writeln!(
+                text,
+                "{}: {:.2} times the cost of the mixed regime",
+                row.case,
+                row.step_s / mixed.step_s
+            );
+        }
+    }
+}
