@@ -201,9 +201,14 @@ impl LifeStage {
         self.variants.first()?.risk(body)
     }
 
+    /// Whether a model wants the volume pass.
+    pub(super) fn integrates(&self) -> bool {
+        !self.laws.is_empty()
+    }
+
     /// The volume pass, where a model wants one.
     fn pass(&mut self, stress: &mut StressStage) {
-        if self.laws.is_empty() {
+        if !self.integrates() {
             return;
         }
         stress.volume(&self.laws);

@@ -44,7 +44,7 @@ impl Simulation {
                 && due
             {
                 life.push(every, stress);
-                self.stats.stress_volumes += 1;
+                self.stats.stress_volumes += u64::from(life.integrates());
                 self.next_volume = next_due(self.next_volume, self.way, every);
             }
         });
