@@ -171,7 +171,7 @@ fn compare(case: &Case, more: &[&str], truth: usize) -> bool {
     let mut bracketed = true;
     for (name, value, exact, estimate, relative) in rows {
         let scale = if relative > 0.0 {
-            exact.abs().max(1e-12)
+            exact.abs().max(1e-10)
         } else {
             1.0
         };

@@ -360,7 +360,7 @@ fn a_short_inlet_starves_the_film_as_the_plan_says() {
         let long = film(-6.5);
         for x_min in [-2.0, -2.5, -3.5, -4.5] {
             let lost = 1.0 - film(x_min) / long;
-            let rule = inlet_error(ContactKind::Line, long, x_min);
+            let rule = inlet_error(ContactKind::Line, long, 10.0, x_min);
             println!(
                 "M {m}: inlet {x_min}: {:.2} % of the film, rule {:.2} %",
                 100.0 * lost,

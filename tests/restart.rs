@@ -43,7 +43,8 @@ fn every_frame_after_a_restart_is_the_uninterrupted_one() {
             let mut next = simulation(&scene);
             next.restore(through_json(&whole.save())).unwrap();
             let mut again = Frame::default();
-            (whole.fill(&mut frame), next.fill(&mut again));
+            whole.fill(&mut frame);
+            next.fill(&mut again);
             assert!(bits(&frame) == bits(&again), "at once after step {step}");
             cut = Some(next);
         }
@@ -51,7 +52,8 @@ fn every_frame_after_a_restart_is_the_uninterrupted_one() {
         if let Some(cut) = &mut cut {
             cut.step().unwrap();
             let mut again = Frame::default();
-            (whole.fill(&mut frame), cut.fill(&mut again));
+            whole.fill(&mut frame);
+            cut.fill(&mut again);
             assert!(bits(&frame) == bits(&again), "after step {step}");
             compared += 1;
         }
@@ -77,7 +79,8 @@ fn dry_and_line_contacts_go_on_bit_for_bit_too() {
         cut.restore(through_json(&whole.save())).unwrap();
         let (mut one, mut two) = (Frame::default(), Frame::default());
         for _ in 0..6 {
-            (whole.fill(&mut one), cut.fill(&mut two));
+            whole.fill(&mut one);
+            cut.fill(&mut two);
             assert!(bits(&one) == bits(&two));
             whole.step().unwrap();
             cut.step().unwrap();

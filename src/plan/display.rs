@@ -144,14 +144,24 @@ impl Plan {
         }
         match self.march {
             March::Steady { .. } => writeln!(f, "Time        steady: one solution"),
-            March::Transient => writeln!(
-                f,
-                "Time        {} steps of {:.3e} s after the start-up: {:.3e} s, {:.2} lengths of 4 a",
-                self.steps,
-                self.dt_s,
-                self.steps as f64 * self.dt_s,
-                self.steps as f64 / self.steps_per_passage as f64
-            ),
+            March::Transient => {
+                writeln!(
+                    f,
+                    "Time        {} steps of {:.3e} s after the start-up: {:.3e} s, {:.2} lengths of 4 a",
+                    self.steps,
+                    self.dt_s,
+                    self.steps as f64 * self.dt_s,
+                    self.steps as f64 / self.steps_per_passage as f64
+                )?;
+                if let Some(tolerance) = self.step_tolerance {
+                    writeln!(
+                        f,
+                        "            adaptive: shorter or longer, to add at most {} % to the film in a crossing",
+                        significant(100.0 * tolerance)
+                    )?;
+                }
+                Ok(())
+            }
         }
     }
 

@@ -1,10 +1,14 @@
 //! What the plan tells about fatigue life.
 
 use super::Plan;
-use crate::scene::{CycleBasis, Life, LifeModel, Spread, StressMeasure, VolumeIntegral};
+use crate::scene::{
+    ContactKind, CycleBasis, Life, LifeModel, Spread, StressMeasure, VolumeIntegral,
+};
 
 /// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
 const PHASES: u64 = 16;
+/// Same for a line, where it is cheap: crests that meet are rare and weigh most (16 phases erred by 10⁵).
+const LINE_PHASES: u64 = 256;
 
 /// Fatigue life.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +54,11 @@ impl Plan {
     pub(super) fn life_plan(&self, life: &Life, measure: StressMeasure) -> LifePlan {
         /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
         const GAP: f64 = 0.14;
-        let longest = (self.steps_per_passage / PHASES).max(1);
+        let phases = match self.kind {
+            ContactKind::Point => PHASES,
+            ContactKind::Line => LINE_PHASES,
+        };
+        let longest = (self.steps_per_passage / phases).max(1);
         let widest = |every: u64| {
             let n = self.steps_per_passage / every;
             let waves = self.waves.iter().flatten();

@@ -50,8 +50,10 @@ pub struct Plan {
     pub march: March,
     /// Time step, s.
     pub dt_s: f64,
-    /// Time steps after the start-up.
+    /// Time steps after the start-up; of adaptive ones, what as many of the usual length would be.
     pub steps: u64,
+    /// Tolerance of adaptive steps; `None`: all have the usual length.
+    pub step_tolerance: Option<f64>,
     /// Time steps of one length of 4 a at U.
     pub steps_per_passage: u64,
     /// One length of 4 a at U, in a: what means are taken over.
@@ -292,6 +294,7 @@ impl Plan {
             march,
             dt_s: step_m / scene.motion.entrainment_m_s.abs(),
             steps,
+            step_tolerance: scene.time.tolerance,
             steps_per_passage,
             passage_a: PASSAGE_A,
             length_a: scene.time.passages * PASSAGE_A,

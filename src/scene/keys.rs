@@ -318,6 +318,9 @@ impl Key {
     /// Whether the key may be left out of a `table` of that `kind` (its key `kind`); `None`: it has no
     /// place there.
     pub fn need_in(&self, table: &str, kind: Option<&str>) -> Option<Need> {
+        if (table, kind, self.name) == ("contact", Some("point"), "ry_m") {
+            return Some(Required);
+        }
         if !table.ends_with(".surface") || self.name == "kind" {
             return Some(self.need);
         }

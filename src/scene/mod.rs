@@ -15,6 +15,7 @@ mod life_keys;
 mod load;
 mod lubricant;
 mod model;
+mod numerics;
 pub mod presets;
 mod shape;
 
@@ -23,6 +24,7 @@ pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, Volu
 pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, Contact, ContactKind, ErrorSource, Event, Grid, Load, MapEdge, Motion, Numerics, Record,
-    Scene, Stress, StressMeasure, Surface, Time,
+    Body, Contact, ContactKind, Event, Grid, Load, MapEdge, Motion, Record, Scene, Stress,
+    StressMeasure, Surface,
 };
+pub use numerics::{ErrorSource, Numerics, Time};

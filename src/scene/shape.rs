@@ -3,16 +3,12 @@
 
 use super::check::check_force;
 use super::error::SceneError;
-use super::keys::{self, Key, joined, short};
+use super::keys::{joined, short};
 use super::model::{ContactKind, Scene, Surface};
 
 /// A radius across belongs to a point contact; what varies along y does not belong to a line.
 pub(super) fn check_shape(scene: &Scene) -> Result<(), SceneError> {
     match (scene.contact.kind, scene.contact.ry_m) {
-        (ContactKind::Point, None) => Err(SceneError::Missing {
-            key: "contact.ry_m".to_owned(),
-            allowed: keys::find("contact.ry_m").map_or_else(String::new, Key::allowed),
-        }),
         (ContactKind::Line, Some(ry_m)) => Err(SceneError::value(
             "contact.ry_m",
             format!("{} m", short(ry_m)),
@@ -23,7 +19,8 @@ pub(super) fn check_shape(scene: &Scene) -> Result<(), SceneError> {
             .into_iter()
             .zip(["body_1.surface", "body_2.surface"])
             .try_for_each(|(surface, path)| check_transverse(path, surface)),
-        (ContactKind::Point, Some(_)) => Ok(()),
+        // That a point has one is checked with the keys that are missing.
+        (ContactKind::Point, _) => Ok(()),
     }
 }
 
@@ -31,6 +28,14 @@ pub(super) fn check_shape(scene: &Scene) -> Result<(), SceneError> {
 fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
     if surface.wavenumbers_per_m()[1] == 0.0 {
         return Ok(());
+    }
+    let uniform = "a line contact is the same at every y, so its ridges must lie across";
+    if let Surface::HeightMap { .. } = surface {
+        return Err(SceneError::value(
+            joined(path, "kind"),
+            "\"height_map\"",
+            format!("a map whose rows are all alike, \"sinusoid\" or \"smooth\": {uniform}"),
+        ));
     }
     let Surface::Sinusoid {
         wavelength_x_m,
@@ -41,7 +46,6 @@ fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
     else {
         return Ok(());
     };
-    let uniform = "a line contact is the same at every y, so its ridges must lie across";
     Err(
         if wavelength_y_m.is_finite() && wavelength_x_m.is_finite() {
             SceneError::value(

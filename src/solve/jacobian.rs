@@ -28,9 +28,15 @@ impl Jacobian {
         }
     }
 
-    /// The ten lines of every grid row, to be filled in parallel.
-    pub fn rows_mut(&mut self) -> rayon::slice::ChunksExactMut<'_, f32> {
-        self.lines.par_chunks_exact_mut(2 * STENCIL * self.nx)
+    /// Values of one grid row: its ten lines.
+    pub fn row_len(&self) -> usize {
+        2 * STENCIL * self.nx
+    }
+
+    /// The ten lines of every grid row, in blocks of `rows` rows to be filled in parallel.
+    pub fn blocks_mut(&mut self, rows: usize) -> rayon::slice::ChunksMut<'_, f32> {
+        let size = rows * self.row_len();
+        self.lines.par_chunks_mut(size)
     }
 
     /// Line `k` of A_P in grid row `j`.

@@ -252,13 +252,14 @@ impl Reynolds {
         let interior = grid.interior_rows();
         let mut scratch = std::mem::take(&mut self.scratch);
         let this = &*self;
+        let row_len = jacobian.row_len();
+        // Slices: rayon's own `chunks` would make a vector for each block.
         jacobian
-            .rows_mut()
-            .chunks(ROWS)
+            .blocks_mut(ROWS)
             .zip(scratch.par_iter_mut())
             .enumerate()
             .for_each(|(b, (rows, scratch))| {
-                for (k, row) in rows.into_iter().enumerate() {
+                for (k, row) in rows.chunks_exact_mut(row_len).enumerate() {
                     let j = b * ROWS + k;
                     if !interior.contains(&j) {
                         row.fill(0.0);
