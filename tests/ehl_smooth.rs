@@ -188,7 +188,11 @@ fn m_2000_l_15_converges_from_hertz() {
 #[test]
 #[ignore = "minutes"]
 fn speed_sweep_of_the_base_case() {
-    for row in Table::read("speed_sweep_mixed_base_case.csv").rows() {
+    // At 0.01 m/s the reference has no minimum and says 15 %: its own 512² and 1024² give 11.7 and 15.3 nm.
+    let table = rows("speed_sweep_mixed_base_case.csv", |row| {
+        row.get("hmin_trusted").is_some()
+    });
+    for row in table.rows() {
         let speed = row.number("u_m_s");
         let point = OperatingPoint {
             rx_m: 0.01905,
@@ -202,7 +206,11 @@ fn speed_sweep_of_the_base_case() {
         let case = Case::of_point(&point, SWEEP);
         let a = point.hertz().a_m;
         let nm = a * a / point.rx_m * 1e9;
-        let films = films(&case, 513, nm);
-        println!("U {speed} m/s: central, minimum in nm by grid {films:.2?}");
+        let reference = Reference {
+            central: row.number("hc_trusted"),
+            minimum: row.number("hmin_trusted"),
+            tolerance: row.number("tolerance_percent") / 100.0,
+        };
+        compare(&format!("U {speed} m/s, nm"), &case, 513, nm, &reference);
     }
 }
