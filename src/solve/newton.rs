@@ -41,6 +41,8 @@ pub struct Tolerance {
     pub film: f64,
     /// Mass error.
     pub mass: f64,
+    /// Film below which both errors are taken of it, not of the film that is there.
+    pub least_film: f64,
     /// Load error.
     pub load: f64,
     /// Most Newton iterations.
@@ -284,6 +286,7 @@ impl Newton {
                 &self.reference[here.clone()],
                 &self.reynolds.densities()[here.clone()],
                 &iterate.h[here],
+                problem.tolerance.least_film,
             );
             if row.largest > largest {
                 (worst_row, largest) = (j, row.largest);
@@ -448,14 +451,21 @@ const LANES: usize = 8;
 
 dispatched! {
 /// Sums over one row; the boundary adds nothing, because F and P are zero there.
-fn sum_row(f: &[f64], p: &[f64], reference: &[f64], rho: &[f64], h: &[f64]) -> Sums {
+fn sum_row(
+    f: &[f64],
+    p: &[f64],
+    reference: &[f64],
+    rho: &[f64],
+    h: &[f64],
+    least_film: f64,
+) -> Sums {
     let mut lanes = [[0.0_f64; LANES]; 6];
     let n = f.len();
     let (p, reference, rho, h) = (&p[..n], &reference[..n], &rho[..n], &h[..n]);
     let mut take = |i: usize, k: usize| {
         let phi = p[i].min(f[i] / reference[i]);
         let pressed = if p[i] > 0.0 { 1.0 } else { 0.0 };
-        let (left, full) = (f[i].abs(), (rho[i] * h[i]).abs());
+        let (left, full) = (f[i].abs(), (rho[i] * h[i]).max(least_film));
         lanes[0][k] += phi * phi;
         lanes[1][k] += pressed * left;
         lanes[2][k] += pressed * (left - CARRIED * full).max(0.0);
