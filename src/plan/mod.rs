@@ -7,17 +7,19 @@ mod cost;
 mod decide;
 mod display;
 mod domain;
+mod life;
 mod surfaces;
-
-use thiserror::Error;
+mod warning;
 
 pub use cost::Cost;
 pub use domain::{Domain, inlet_error, mesh_error, side_error};
+pub use life::{LifeAsked, LifePlan};
 pub use surfaces::WavePlan;
+pub use warning::{LeftOut, PlanError, Warning};
 
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Record, Scene};
+use crate::scene::{ContactKind, Record, Scene, StressMeasure};
 
 /// Everything that is decided before the first step.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,15 +150,6 @@ pub struct StressPlan {
     pub depth_max_m: f64,
 }
 
-/// Fatigue life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LifePlan {
-    /// Time steps between two volume integrals.
-    pub volume_every_steps: u64,
-    /// Volume integrals in one length of 4 a at U.
-    pub phases_per_passage: u64,
-}
-
 /// Recording, as far as it can be known before: the recorder keeps to the budget by what it measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RecordPlan {
@@ -168,97 +161,13 @@ pub struct RecordPlan {
     pub bytes: u64,
 }
 
-/// A stage that is left out.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LeftOut {
-    /// Stage, in a word or two.
-    pub stage: &'static str,
-    /// Why.
-    pub why: String,
-}
-
-/// What the user should know before trusting the numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum Warning {
-    /// The mesh is too coarse for the film.
-    #[error(
-        "the mesh costs about {:.0} % of the central film ((dX/H_c^(2/3))^2); more grid.nodes make it thinner{}",
-        100.0 * error.min(9.99), if *error > 1.0 { ", and here the film may vanish" } else { "" }
-    )]
-    CoarseForTheFilm {
-        /// Estimated relative error.
-        error: f64,
-    },
-    /// The inlet is too short.
-    #[error("the inlet at {x_min_a} a starves the film by about {:.1} %; grid.x_min_a moves it", 100.0 * error)]
-    ShortInlet {
-        /// Estimated relative error.
-        error: f64,
-        /// Inlet edge, in a.
-        x_min_a: f64,
-    },
-    /// A wave has few nodes.
-    #[error("body {body}: {nodes:.1} nodes a wave; 12 or more follow its deformation well")]
-    CoarseWave {
-        /// Body, 1 or 2.
-        body: u8,
-        /// Nodes of the shorter wavelength.
-        nodes: f64,
-    },
-    /// The film wave that travels at U has few nodes.
-    #[error(
-        "body {body}: {nodes:.1} nodes in its convected film wave (W U/U_{body}); 16 are advised"
-    )]
-    CoarseConvectedWave {
-        /// Body, 1 or 2.
-        body: u8,
-        /// Nodes.
-        nodes: f64,
-    },
-    /// Crests pass a material point in few time steps.
-    #[error(
-        "body {body}'s crests pass in {samples:.1} steps; cycle counting wants 16: less time.step_nodes"
-    )]
-    CoarseCounting {
-        /// Body whose crests pass, 1 or 2.
-        body: u8,
-        /// Time steps in which one crest of it slides past a point of the other body.
-        samples: f64,
-    },
-    /// The stress integral is cut off.
-    #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; 2 or more hold it")]
-    ShallowStress {
-        /// Deepest point, in a.
-        depth_max_a: f64,
-    },
-}
-
 /// Rows by which frames show a line contact, all alike: enough for a map or a mesh.
 pub const LINE_ROWS: usize = 9;
 /// Half of the width that they span, in half-widths of the contact.
 pub const LINE_HALF_WIDTH: f64 = 2.0;
 
-/// A scene that cannot be computed as asked.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum PlanError {
-    /// A wavelength is not resolved by the grid.
-    #[error("{key} = {value} is refused; allowed: {allowed}")]
-    Unresolved {
-        /// Key in full.
-        key: String,
-        /// The value.
-        value: String,
-        /// What is allowed.
-        allowed: String,
-    },
-}
-
 /// A passage, in a.
 const PASSAGE_A: f64 = 4.0;
-/// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
-const PHASES: u64 = 16;
-/// Same for a line, where it is cheap: crests that meet are rare and weigh most (16 phases erred by 10⁵).
-const LINE_PHASES: u64 = 256;
 /// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
 const START_UP_PASSAGES: f64 = 2.5;
 
@@ -321,7 +230,13 @@ impl Plan {
                 time_s: 0.0,
             },
         };
-        plan.life = scene.life.as_ref().map(|_| plan.life_plan());
+        plan.life = scene.life.as_ref().map(|life| {
+            let measure = scene
+                .stress
+                .as_ref()
+                .map_or(StressMeasure::VonMises, |s| s.measure);
+            plan.life_plan(life, measure)
+        });
         plan.record = scene.record.as_ref().map(|record| plan.record_plan(record));
         plan.left_out = decide::left_out(scene, &plan);
         plan.cost = plan.estimate();
@@ -330,35 +245,6 @@ impl Plan {
 
     fn depths(&self) -> usize {
         self.stress.map_or(0, |stress| stress.depths)
-    }
-
-    /// Volume integrals at least [`PHASES`] times in 4 a, at the longest interval that meets every wave in
-    /// all of its phases; an interval that fits a whole number of times into a wave would miss most.
-    fn life_plan(&self) -> LifePlan {
-        /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
-        const GAP: f64 = 0.14;
-        let phases = match self.kind {
-            ContactKind::Point => PHASES,
-            ContactKind::Line => LINE_PHASES,
-        };
-        let longest = (self.steps_per_passage / phases).max(1);
-        let widest = |every: u64| {
-            let n = self.steps_per_passage / every;
-            let waves = self.waves.iter().flatten();
-            waves
-                .map(|wave| wave.widest_gap(every, n))
-                .fold(0.0, f64::max)
-        };
-        let intervals = (1..=longest).rev();
-        let every = intervals
-            .clone()
-            .find(|every| widest(*every) <= GAP)
-            .or_else(|| intervals.min_by(|one, two| widest(*one).total_cmp(&widest(*two))))
-            .unwrap_or(1);
-        LifePlan {
-            volume_every_steps: every,
-            phases_per_passage: self.steps_per_passage / every,
-        }
     }
 
     fn record_plan(&self, record: &Record) -> RecordPlan {

@@ -1,0 +1,83 @@
+//! What a plan says in words: stages left out, warnings with numbers, and what it refuses.
+
+use thiserror::Error;
+
+/// A stage that is left out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Stage, in a word or two.
+    pub stage: &'static str,
+    /// Why.
+    pub why: String,
+}
+
+/// What the user should know before trusting the numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Warning {
+    /// The mesh is too coarse for the film.
+    #[error(
+        "the mesh costs about {:.0} % of the central film ((dX/H_c^(2/3))^2); more grid.nodes make it thinner{}",
+        100.0 * error.min(9.99), if *error > 1.0 { ", and here the film may vanish" } else { "" }
+    )]
+    CoarseForTheFilm {
+        /// Estimated relative error.
+        error: f64,
+    },
+    /// The inlet is too short.
+    #[error("the inlet at {x_min_a} a starves the film by about {:.1} %; grid.x_min_a moves it", 100.0 * error)]
+    ShortInlet {
+        /// Estimated relative error.
+        error: f64,
+        /// Inlet edge, in a.
+        x_min_a: f64,
+    },
+    /// A wave has few nodes.
+    #[error("body {body}: {nodes:.1} nodes a wave; 12 or more follow its deformation well")]
+    CoarseWave {
+        /// Body, 1 or 2.
+        body: u8,
+        /// Nodes of the shorter wavelength.
+        nodes: f64,
+    },
+    /// The film wave that travels at U has few nodes.
+    #[error(
+        "body {body}: {nodes:.1} nodes in its convected film wave (W U/U_{body}); 16 are advised"
+    )]
+    CoarseConvectedWave {
+        /// Body, 1 or 2.
+        body: u8,
+        /// Nodes.
+        nodes: f64,
+    },
+    /// Crests pass a material point in few time steps.
+    #[error(
+        "body {body}'s crests pass in {samples:.1} steps; cycle counting wants 16: less time.step_nodes"
+    )]
+    CoarseCounting {
+        /// Body whose crests pass, 1 or 2.
+        body: u8,
+        /// Time steps in which one crest of it slides past a point of the other body.
+        samples: f64,
+    },
+    /// The stress integral is cut off.
+    #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; 2 or more hold it")]
+    ShallowStress {
+        /// Deepest point, in a.
+        depth_max_a: f64,
+    },
+}
+
+/// A scene that cannot be computed as asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PlanError {
+    /// A wavelength is not resolved by the grid.
+    #[error("{key} = {value} is refused; allowed: {allowed}")]
+    Unresolved {
+        /// Key in full.
+        key: String,
+        /// The value.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+    },
+}
