@@ -62,6 +62,7 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
         time: Time {
             step_nodes: 1.0,
             passages,
+            tolerance: None,
         },
         numerics: Numerics::default(),
         stress: None,
@@ -138,6 +139,7 @@ pub(crate) fn frame(n: usize, step: u64) -> Arc<Frame> {
         step,
         time_s: t,
         stage: Stage::Passage,
+        kind: ContactKind::Point,
         passages: t * ENTRAINMENT / (4.0 * A),
         nx: n,
         ny: n,
@@ -272,5 +274,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         n_body_2: Some(2.5),
         n_counted_body_1: (step > 60).then_some(4.0),
         n_counted_body_2: (step > 60).then_some(2.4),
+        repeat: None,
+        errors: None,
     }
 }
