@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use asperity::observe::RunContext;
+use asperity::observe::{Began, RunContext};
 use asperity::scene::{
     Body, Contact, ContactKind, Event, Friction, Grid, Load, Motion, Numerics, Record, Scene,
     Surface, Time,
@@ -79,6 +79,7 @@ pub(crate) fn context(scene: Scene) -> RunContext {
         plan_text: "film: synthetic\nstress: synthetic\n".into(),
         program: format!("asperity {}", env!("CARGO_PKG_VERSION")),
         scene: Arc::new(scene),
+        began: Began::FromScene,
     }
 }
 
