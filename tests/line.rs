@@ -382,7 +382,7 @@ fn hertz_engine(nodes: usize, measure: StressMeasure) -> (LineStress, Vec<f32>) 
         })
         .collect();
     (
-        LineStress::new(nodes, (-2.5, dx), 0.3, (48, 4.0), measure),
+        LineStress::new(nodes, (-2.5, dx), [0.3; 2], (48, 4.0), measure),
         pressure,
     )
 }

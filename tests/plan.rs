@@ -46,7 +46,15 @@ fn the_default_scene() {
     assert!(nodes >= 13.0, "{nodes}");
     let record = plan.record.unwrap();
     assert_eq!((record.every_steps, record.frames), (1, 256));
-    assert_eq!(left_out(&plan), ["rows y < 0", "deflection by traction"]);
+    assert_eq!(
+        left_out(&plan),
+        [
+            "rows y < 0",
+            "deflection by traction",
+            "other life models",
+            "absolute life"
+        ]
+    );
 }
 
 #[test]

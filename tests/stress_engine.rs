@@ -131,7 +131,7 @@ fn peak_between_nodes_is_the_published_one() {
              exact {value} at {x}, {z})",
             peak.value, peak.x, peak.z
         );
-        assert!((peak.value / value - 1.0).abs() < 1e-3);
+        assert!((peak.value / value - 1.0).abs() < 2e-4, "0.02 %");
         assert!((peak.x - x).abs() < 2e-3 && (peak.z - z).abs() < 2e-3);
     }
 }
@@ -397,7 +397,7 @@ fn every_measure_finds_its_hertz_maximum() {
             "{measure:?}: slice {:.6}, volume's greatest sample {sampled:.6}, exact {exact}",
             out.peak.value
         );
-        assert!((out.peak.value / exact - 1.0).abs() < 1e-3);
+        assert!((out.peak.value / exact - 1.0).abs() < 2e-4, "0.02 %");
         assert!((sampled / exact - 1.0).abs() < 1e-2);
     }
 }

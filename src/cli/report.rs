@@ -135,12 +135,12 @@ fn push_life(text: &mut String, s: &Summary) {
         }
         _ => String::new(),
     };
-    let life = if life < SMALL {
-        factor(life)
-    } else {
-        format!("{life:.4}")
-    };
-    line(text, "relative life", &format!("{life}{band}{factors}"));
+    line(
+        text,
+        "relative life",
+        &format!("{}{band}{factors}", life_text(life)),
+    );
+    push_life_beside(text, s);
     if let Some(ratio) = s.survival_ratio.filter(|ratio| *ratio != 1.0) {
         let what = format!("at the scene's survival every life is {ratio:.3} of that at 50 %");
         line(text, "", &what);
@@ -155,6 +155,77 @@ fn push_life(text: &mut String, s: &Summary) {
         "",
         "no wear, isothermal, elastic, initiation only; c and e are assumptions",
     );
+}
+
+/// A relative life with four decimals, or digits that count where it is small.
+fn life_text(life: f64) -> String {
+    if life < SMALL {
+        factor(life)
+    } else {
+        format!("{life:.4}")
+    }
+}
+
+/// Both bodies, the choice of model, absolute cycles, and where pits start.
+fn push_life_beside(text: &mut String, s: &Summary) {
+    if let (Some(model), Some(body)) = (&s.life_model, s.life_body) {
+        let what = format!("{model}, body {body} governs, in own loading cycles");
+        line(text, "", &what);
+    }
+    if let (Some(one), Some(two)) = (s.life_body_1, s.life_body_2) {
+        let system = s
+            .life_system
+            .map(|life| format!("; both as a system, in time: {}", life_text(life)))
+            .unwrap_or_default();
+        let (one, two) = (life_text(one), life_text(two));
+        let what = format!("body 1 {one}, body 2 {two}{system}");
+        line(text, "bodies", &what);
+    }
+    if let (Some(low), Some(high), Some(count)) =
+        (s.life_models_low, s.life_models_high, s.life_models)
+        && count > 1
+    {
+        let (low, high) = (life_text(low), life_text(high));
+        let what =
+            format!("{low} to {high} over {count} choices of cycle basis, integral and model");
+        line(text, "model spread", &what);
+    }
+    if let (Some(snapshot), Some(swept)) = (s.life_snapshot, s.life_swept) {
+        let (snapshot, swept) = (life_text(snapshot), life_text(swept));
+        let what = format!("snapshot {snapshot}, swept {swept} (bound)");
+        line(text, "integrals", &what);
+    }
+    match (s.life_cycles, s.life_cycles_low, s.life_cycles_high) {
+        (Some(cycles), Some(low), Some(high)) => {
+            let what = format!("{cycles:.3e} loading cycles ({low:.2e} to {high:.2e})");
+            line(text, "absolute life", &what);
+        }
+        _ => {
+            if let Some(basis) = &s.life_basis {
+                line(text, "", basis);
+            }
+        }
+    }
+    let depths = [s.cycles_end_depth_1_m, s.cycles_end_depth_2_m];
+    for (body, (pit, depth)) in [s.pit_body_1, s.pit_body_2].iter().zip(depths).enumerate() {
+        let Some(pit) = pit else { continue };
+        let single = depth
+            .map(|depth| format!("; one cycle a passage below {:.1} um", depth * 1e6))
+            .unwrap_or_default();
+        let what = format!(
+            "body {}: {:.1} um deep, {:.1} um from a crest, damage {:.3} of smooth{single}",
+            body + 1,
+            pit.depth_m * 1e6,
+            pit.place_m * 1e6,
+            pit.damage
+        );
+        line(text, "pit starts", &what);
+    }
+    if let Some(a_iso) = s.a_iso {
+        let what =
+            format!("{a_iso:.3} (side comparison: it holds a penalty of roughness of its own)");
+        line(text, "ISO 281 a_ISO", &what);
+    }
 }
 
 /// The discretisation error of a run, from a companion on `nodes` that took `wall_s`.

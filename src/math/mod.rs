@@ -6,5 +6,6 @@ mod even_transform;
 pub mod filter;
 pub mod grid;
 pub mod kernel_symbol;
+pub mod ln_sum;
 pub mod root;
 pub mod spectrum;

@@ -283,6 +283,7 @@ impl Row {
             life_relative_low,
             life_relative_high,
             settled,
+            detail: _,
         } = life;
         self.cell(i_ref);
         self.cell(i_mean);

@@ -63,6 +63,28 @@ pub enum BodyId {
     Two,
 }
 
+impl BodyId {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::One, Self::Two];
+
+    /// 0 or 1.
+    pub fn index(self) -> usize {
+        match self {
+            Self::One => 0,
+            Self::Two => 1,
+        }
+    }
+
+    /// The body that it runs against.
+    #[must_use]
+    pub fn mate(self) -> Self {
+        match self {
+            Self::One => Self::Two,
+            Self::Two => Self::One,
+        }
+    }
+}
+
 impl Kinematics {
     /// From entrainment speed and slide-to-roll ratio `S = (U_2 − U_1)/U`.
     pub fn from_slide_roll(entrainment: f64, slide_roll: f64, zone: f64) -> Self {

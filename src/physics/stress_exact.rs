@@ -4,7 +4,7 @@
 //! each with a factor of the wave direction `n = (nx, ny)`:
 //!
 //! ```text
-//!       normal p                             traction q_x
+//!       normal p                             traction q_x (q_y: x and y exchanged)
 //! σxx   −2ν f_1 − (1−2ν) f_nx² + g_nx²       2(1+ν) f_inx − 2ν f_inx³ − g_inx³
 //! σyy   −2ν f_1 − (1−2ν) f_ny² + g_ny²       2ν (f_inx − f_inxny²) − g_inxny²
 //! σzz   −f_1 − g_1                           g_inx
@@ -68,6 +68,10 @@ impl Directions {
     fn inx3(self) -> f64 {
         self.inx - self.inxny2
     }
+
+    fn iny3(self) -> f64 {
+        self.iny - self.inx2ny
+    }
 }
 
 /// Both families at a point.
@@ -103,6 +107,19 @@ impl Harmonics {
             xy: f.iny - 2.0 * nu * f.inx2ny - g.inx2ny,
             xz: -f.one + g.nx2,
             yz: g.nxny,
+        }
+    }
+
+    /// Stress due to the traction along y whose harmonics these are.
+    pub fn tangential_y(self, poisson: f64) -> Stress6 {
+        let (f, g, nu) = (self.f, self.g, poisson);
+        Stress6 {
+            xx: 2.0 * nu * (f.iny - f.inx2ny) - g.inx2ny,
+            yy: 2.0 * (1.0 + nu) * f.iny - 2.0 * nu * f.iny3() - g.iny3(),
+            zz: g.iny,
+            xy: f.inx - 2.0 * nu * f.inxny2 - g.inxny2,
+            xz: g.nxny,
+            yz: -f.one + g.ny2(),
         }
     }
 }

@@ -1,12 +1,13 @@
 //! The decisions, one function each: what a scene needs, and why a stage is left out.
 
+use super::LifeAsked;
 use super::{
     Domain, FilmPlan, LeftOut, March, OtherFilms, Plan, StressPlan, Symmetry, TractionDeflection,
     Warning, inlet_error, mesh_error,
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Rheology, Scene};
+use crate::scene::{ContactKind, Rheology, Scene, Spread};
 
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     if let Some(line) = scene.line_point() {
@@ -123,6 +124,33 @@ pub(super) fn stress_plan(
     })
 }
 
+/// What a scene with `[life]` does not compute.
+fn leave_parts_of_life(asked: &LifeAsked, leave: &mut impl FnMut(&'static str, &str)) {
+    if !asked.volumes() {
+        leave(
+            "stress volume",
+            "the life model looks at the plane y = 0 only, and life.spread does not ask for the others",
+        );
+    }
+    match asked.spread {
+        Spread::Off => leave("spread over models", "life.spread is \"off\""),
+        Spread::Cycles => leave("other life models", "life.spread is \"cycles\""),
+        Spread::Models => {}
+    }
+    match asked.maps {
+        [true, true] => {}
+        [true, false] => leave("damage map of body 2", "life.damage_map is \"body_1\""),
+        [false, true] => leave("damage map of body 1", "life.damage_map is \"body_2\""),
+        [false, false] => leave("damage maps", "life.damage_map is \"off\""),
+    }
+    if asked.calibration.is_none() {
+        leave(
+            "absolute life",
+            "the scene gives no calibration point (life.calibration_cycles): lives are relative",
+        );
+    }
+}
+
 pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
     let mut list = Vec::new();
     let mut leave = |stage: &'static str, why: &str| {
@@ -164,7 +192,21 @@ pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
     if plan.stress.is_none() {
         leave("subsurface stress", "the scene has no [stress]");
     }
-    if plan.life.is_none() {
+    if let Some(life) = plan.life {
+        leave_parts_of_life(&life.asked, &mut leave);
+        for (surface, stage) in scene
+            .surfaces()
+            .into_iter()
+            .zip(["damage of body 1", "damage of body 2"])
+        {
+            if !surface.has_block() {
+                leave(
+                    stage,
+                    "its height map stands once: no place on it comes back",
+                );
+            }
+        }
+    } else {
         leave("fatigue life", "the scene has no [life]");
     }
     if plan.record.is_none() {

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::{LINE_ROWS, March, OtherFilms, Plan, Symmetry, WavePlan};
-use crate::scene::ContactKind;
+use super::{LINE_ROWS, LifePlan, March, OtherFilms, Plan, Symmetry, WavePlan};
+use crate::scene::{ContactKind, CycleBasis, Spread, VolumeIntegral};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -194,16 +194,8 @@ impl Plan {
                 stress.depth_max_m * 1e6
             ));
         }
-        if let Some(life) = self.life {
-            lines.push(format!(
-                "{} and relative life, every {} steps ({} phases in 4 a)",
-                match self.kind {
-                    ContactKind::Point => "stress in the whole volume",
-                    ContactKind::Line => "the life integral over x and z",
-                },
-                life.volume_every_steps,
-                life.phases_per_passage
-            ));
+        if let Some(life) = &self.life {
+            lines.extend(life_lines(life, self.kind));
         }
         if let Some(record) = self.record {
             lines.push(format!(
@@ -218,6 +210,55 @@ impl Plan {
             ));
         }
         lines
+    }
+}
+
+/// What is computed for life.
+fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
+    let asked = &life.asked;
+    let what = match kind {
+        ContactKind::Point if asked.volumes() => "stress in the whole volume of both bodies",
+        ContactKind::Point => "stress below y = 0 of both bodies",
+        ContactKind::Line => "the life integral over x and z of both bodies",
+    };
+    let mut lines = vec![
+        format!(
+            "{what} and relative life, every {} steps ({} phases in 4 a)",
+            life.volume_every_steps, life.phases_per_passage
+        ),
+        format!(
+            "life by {} of {}; cycles: {}; {}",
+            asked.model.name(),
+            asked.measure.name(),
+            cycles_text(asked.cycles),
+            match asked.volume {
+                VolumeIntegral::Snapshot => "mean of snapshots",
+                VolumeIntegral::Swept => "swept: greatest stress of every track",
+            }
+        ),
+    ];
+    if asked.spread == Spread::Models {
+        lines.push("the other life models beside it: their spread".to_owned());
+    }
+    let bodies = match asked.maps {
+        [true, true] => "both bodies",
+        [true, false] => "body 1",
+        [false, true] => "body 2",
+        [false, false] => return lines,
+    };
+    lines.push(format!(
+        "damage of {bodies} over depth and along the surface, by material points on y = 0"
+    ));
+    lines
+}
+
+/// A cycle basis in words.
+fn cycles_text(cycles: CycleBasis) -> &'static str {
+    match cycles {
+        CycleBasis::Global => "one n for the volume, an upper bound on damage",
+        CycleBasis::Depth => "n by depth",
+        CycleBasis::Peaks => "counted by depth, by peaks",
+        CycleBasis::Ranges => "counted by depth, by ranges",
     }
 }
 

@@ -7,17 +7,19 @@ mod cost;
 mod decide;
 mod display;
 mod domain;
+mod life;
 mod surfaces;
 
 use thiserror::Error;
 
 pub use cost::Cost;
 pub use domain::{Domain, inlet_error, mesh_error, side_error};
+pub use life::{LifeAsked, LifePlan};
 pub use surfaces::WavePlan;
 
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Record, Scene};
+use crate::scene::{ContactKind, Record, Scene, StressMeasure};
 
 /// Everything that is decided before the first step.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,15 +150,6 @@ pub struct StressPlan {
     pub depth_max_m: f64,
 }
 
-/// Fatigue life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LifePlan {
-    /// Time steps between two volume integrals.
-    pub volume_every_steps: u64,
-    /// Volume integrals in one length of 4 a at U.
-    pub phases_per_passage: u64,
-}
-
 /// Recording, as far as it can be known before: the recorder keeps to the budget by what it measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RecordPlan {
@@ -255,10 +248,6 @@ pub enum PlanError {
 
 /// A passage, in a.
 const PASSAGE_A: f64 = 4.0;
-/// Volume integrals that a length of 4 a wants at least; 8 is the least for a mean over phases.
-const PHASES: u64 = 16;
-/// Same for a line, where it is cheap: crests that meet are rare and weigh most (16 phases erred by 10⁵).
-const LINE_PHASES: u64 = 256;
 /// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
 const START_UP_PASSAGES: f64 = 2.5;
 
@@ -321,7 +310,13 @@ impl Plan {
                 time_s: 0.0,
             },
         };
-        plan.life = scene.life.as_ref().map(|_| plan.life_plan());
+        plan.life = scene.life.as_ref().map(|life| {
+            let measure = scene
+                .stress
+                .as_ref()
+                .map_or(StressMeasure::VonMises, |s| s.measure);
+            plan.life_plan(life, measure)
+        });
         plan.record = scene.record.as_ref().map(|record| plan.record_plan(record));
         plan.left_out = decide::left_out(scene, &plan);
         plan.cost = plan.estimate();
@@ -330,35 +325,6 @@ impl Plan {
 
     fn depths(&self) -> usize {
         self.stress.map_or(0, |stress| stress.depths)
-    }
-
-    /// Volume integrals at least [`PHASES`] times in 4 a, at the longest interval that meets every wave in
-    /// all of its phases; an interval that fits a whole number of times into a wave would miss most.
-    fn life_plan(&self) -> LifePlan {
-        /// Widest gap between the phases met, in waves; 16 even ones leave 0.06.
-        const GAP: f64 = 0.14;
-        let phases = match self.kind {
-            ContactKind::Point => PHASES,
-            ContactKind::Line => LINE_PHASES,
-        };
-        let longest = (self.steps_per_passage / phases).max(1);
-        let widest = |every: u64| {
-            let n = self.steps_per_passage / every;
-            let waves = self.waves.iter().flatten();
-            waves
-                .map(|wave| wave.widest_gap(every, n))
-                .fold(0.0, f64::max)
-        };
-        let intervals = (1..=longest).rev();
-        let every = intervals
-            .clone()
-            .find(|every| widest(*every) <= GAP)
-            .or_else(|| intervals.min_by(|one, two| widest(*one).total_cmp(&widest(*two))))
-            .unwrap_or(1);
-        LifePlan {
-            volume_every_steps: every,
-            phases_per_passage: self.steps_per_passage / every,
-        }
     }
 
     fn record_plan(&self, record: &Record) -> RecordPlan {

@@ -214,6 +214,7 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
             "only with a [stress] table; leave both out, or --set life=none",
         ));
     }
+    super::life::check_calibration(scene)?;
     scene
         .events
         .iter()

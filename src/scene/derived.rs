@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::model::{ContactKind, Scene, Surface};
+use super::model::{ContactKind, MapEdge, Scene, Surface};
 use crate::physics::groups::OperatingPoint;
 use crate::physics::hertz::{self, Hertz};
 use crate::physics::line::{self, LinePoint};
@@ -115,6 +115,36 @@ impl Scene {
 }
 
 impl Surface {
+    /// A stretch along x that repeats itself, m, and the way from a crest (of a map: from its first column) to
+    /// the body's origin, m: one wavelength of a sinusoid, one period of a map; `None`: nothing repeats.
+    pub fn block_m(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Smooth {} => None,
+            Self::Sinusoid { phase_deg, .. } => {
+                let k = self.wavenumbers_per_m()[0];
+                (k > 0.0).then(|| (1.0 / k, phase_deg / 360.0 / k))
+            }
+            Self::HeightMap {
+                pixel_m, edge, map, ..
+            } => {
+                let nx = map.as_ref()?.nx();
+                (*edge == MapEdge::Periodic).then(|| (nx as f64 * pixel_m, 0.0))
+            }
+        }
+    }
+
+    /// Whether damage can be gathered in a block: a map that stands once never comes back.
+    pub fn has_block(&self) -> bool {
+        self.block_m().is_some()
+            || !matches!(
+                self,
+                Self::HeightMap {
+                    edge: MapEdge::Windowed,
+                    ..
+                }
+            )
+    }
+
     /// A, m; 0 for a smooth surface.
     pub fn amplitude_m(&self) -> f64 {
         match *self {

@@ -59,7 +59,7 @@ pub struct Section {
     pub keys: &'static [Key],
 }
 
-const fn key(
+pub(super) const fn key(
     name: &'static str,
     unit: &'static str,
     kind: Kind,
@@ -227,20 +227,16 @@ pub const SECTIONS: &[Section] = &[
             key("depths", "", Integer(8, 256), Defaulted, "number of depths"),
             key("depth_max_a", "a", Number(0.5, 20.0), Defaulted, "deepest point, in the narrower Hertz half-width; life wants 2 or more"),
             key("measure", "", Choice(&["von_mises", "max_shear", "octahedral"]), Defaulted, "effective stress that drives fatigue"),
+            key("plane_x_a", "a", Number(-20.0, 20.0), Optional("no such plane"), "a plane x = const of body 1 in every frame that is shown, beside y = 0; some 10 ms each at 129 nodes"),
+            key("plane_y_a", "a", Number(-20.0, 20.0), Optional("no such plane"), "a plane y = const, likewise"),
+            key("plane_z_a", "a", Number(1e-3, 20.0), Optional("no such plane"), "a plane z = const, likewise"),
         ],
     },
     Section {
         path: "life",
         need: Optional("no fatigue life"),
-        doc: "Relative fatigue life: ln(1/Ps) = C (n N)^e times the integral of sigma^(c e) over the volume.",
-        keys: &[
-            key("model", "", Choice(&["zaretsky"]), Defaulted, "life model"),
-            key("stress_exponent", "", Number(1.0, 40.0), Defaulted, "c: assumption, not from the paper"),
-            key("weibull_slope", "", Number(0.3, 10.0), Defaulted, "e: assumption, not from the paper"),
-            key("survival", "", Number(0.001, 0.999), Defaulted, "probability of survival Ps; drops out of relative lives"),
-            key("cycles", "", Choice(&["global"]), Defaulted, "how cycles enter: one n for the volume, an upper bound on damage"),
-            key("volume", "", Choice(&["snapshot"]), Defaulted, "which integral: mean over the phases of a passage"),
-        ],
+        doc: "Relative fatigue life; zaretsky: ln(1/Ps) = C (n N)^e times the integral of sigma^(c e) over the volume.",
+        keys: super::life_keys::LIFE,
     },
     Section {
         path: "record",

@@ -10,6 +10,8 @@ mod emit;
 mod error;
 mod height_map;
 pub mod keys;
+mod life;
+mod life_keys;
 mod load;
 mod lubricant;
 mod model;
@@ -18,10 +20,11 @@ pub mod presets;
 mod shape;
 
 pub use error::SceneError;
+pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, VolumeIntegral};
 pub use load::Override;
 pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
 pub use model::{
-    Body, Contact, ContactKind, CycleBasis, Event, Grid, Life, LifeModel, Load, MapEdge, Motion,
-    Record, Scene, Stress, StressMeasure, Surface, VolumeIntegral,
+    Body, Contact, ContactKind, Event, Grid, Load, MapEdge, Motion, Record, Scene, Stress,
+    StressMeasure, Surface,
 };
 pub use numerics::{ErrorSource, Numerics, Time};

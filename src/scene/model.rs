@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::life::Life;
 use super::lubricant::{Friction, Lubricant};
 use super::numerics::{Numerics, Time};
 use crate::physics::height_map::HeightMap;
@@ -246,6 +247,17 @@ pub enum StressMeasure {
     Octahedral,
 }
 
+impl StressMeasure {
+    /// Name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VonMises => "von Mises",
+            Self::MaxShear => "max. shear",
+            Self::Octahedral => "octahedral",
+        }
+    }
+}
+
 /// `[stress]`
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -256,6 +268,15 @@ pub struct Stress {
     pub depth_max_a: f64,
     /// Scalar measure.
     pub measure: StressMeasure,
+    /// A plane x = const of body 1 beside y = 0, in a.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane_x_a: Option<f64>,
+    /// A plane y = const, in a.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane_y_a: Option<f64>,
+    /// A plane z = const, in a.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane_z_a: Option<f64>,
 }
 
 impl Default for Stress {
@@ -264,61 +285,9 @@ impl Default for Stress {
             depths: 32,
             depth_max_a: 3.0,
             measure: StressMeasure::VonMises,
-        }
-    }
-}
-
-/// Life model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LifeModel {
-    /// Zaretsky 1987: `ln(1/Ps) = C M^e int sigma^(c e) dV`.
-    Zaretsky,
-}
-
-/// How cycles enter the life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum CycleBasis {
-    /// One global n for the whole volume (the paper's form; an upper bound on damage).
-    Global,
-}
-
-/// Which volume integral is averaged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum VolumeIntegral {
-    /// Mean of the integral over the phases of a passage.
-    Snapshot,
-}
-
-/// `[life]`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Life {
-    /// Model.
-    pub model: LifeModel,
-    /// Stress exponent c (assumption, not from the paper).
-    pub stress_exponent: f64,
-    /// Weibull slope e (assumption, not from the paper).
-    pub weibull_slope: f64,
-    /// Probability of survival.
-    pub survival: f64,
-    /// Cycle basis.
-    pub cycles: CycleBasis,
-    /// Volume integral.
-    pub volume: VolumeIntegral,
-}
-
-impl Default for Life {
-    fn default() -> Self {
-        Self {
-            model: LifeModel::Zaretsky,
-            stress_exponent: 31.0 / 3.0,
-            weibull_slope: 10.0 / 9.0,
-            survival: 0.5,
-            cycles: CycleBasis::Global,
-            volume: VolumeIntegral::Snapshot,
+            plane_x_a: None,
+            plane_y_a: None,
+            plane_z_a: None,
         }
     }
 }

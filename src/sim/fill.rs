@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use super::door::Heading;
-use super::{Frame, MaterialPoint, Simulation, StressSlice};
+use super::{DamageBlock, Frame, MaterialPoint, Simulation, StressPlane, StressSlice};
+use crate::physics::cycles::BodyId;
 use crate::plan::LINE_ROWS;
 use crate::scene::ContactKind;
+use crate::solve::stress::{Cut, Plane};
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
 pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
@@ -87,6 +89,16 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     }
     fill_slice(sim, frame);
     frame.material_point = material_point(sim);
+    fill_planes(sim, frame);
+    for body in BodyId::BOTH {
+        let risk = &mut frame.risk_pa[body.index()];
+        risk.clear();
+        if let Some(values) = sim.life.as_ref().and_then(|life| life.risk(body)) {
+            let unit = sim.door.p_hertz_pa as f32;
+            risk.extend(values.iter().map(|value| value * unit));
+        }
+        fill_damage(sim, body, &mut frame.damage[body.index()]);
+    }
     frame.metrics.clone_from(&sim.metrics);
 }
 
@@ -122,6 +134,105 @@ fn fill_slice(sim: &Simulation, frame: &mut Frame) {
     // Shear along x changes its sign in the mirror.
     let shear_unit = heading.sign() as f32 * unit;
     scaled(&stress.slice.sxz, shear_unit, &mut slice.tau_xz_pa);
+}
+
+/// Way from a crest along +x; the solver's x is a mirror image where the flow runs towards −x.
+pub(super) fn place_m(sim: &Simulation, place: f64, length: f64) -> f64 {
+    match sim.door.heading {
+        Heading::Forward => sim.door.m_from_x(place),
+        Heading::Backward => sim.door.m_from_x(length - place),
+    }
+}
+
+/// The planes that the scene asks for. They run along the solver's x, which is the scene's mirror image where
+/// the flow runs towards −x.
+fn fill_planes(sim: &Simulation, frame: &mut Frame) {
+    frame.planes.clear();
+    let Some(stress) = sim.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
+        return;
+    };
+    let sign = sim.door.heading.sign();
+    for &cut in &sim.cuts {
+        let mirrored = match cut {
+            Cut::X(x) => Cut::X(sign * x),
+            other => other,
+        };
+        let Some(plane) = stress.plane(mirrored) else {
+            continue;
+        };
+        let (normal, at) = match cut {
+            Cut::X(x) => ('x', x),
+            Cut::Y(y) => ('y', y),
+            Cut::Z(z) => ('z', z),
+        };
+        frame.planes.push(plane_in_si(sim, &plane, (normal, at)));
+    }
+}
+
+fn plane_in_si(sim: &Simulation, plane: &Plane, (normal, at): (char, f64)) -> StressPlane {
+    let unit = sim.door.p_hertz_pa;
+    let mut out = StressPlane {
+        normal,
+        at_m: sim.door.m_from_x(at),
+        width: plane.width,
+        rows: plane.rows,
+        first_m: sim.door.m_from_x(plane.along.0),
+        step_m: sim.door.m_from_x(plane.along.1),
+        ..StressPlane::default()
+    };
+    let backward = normal != 'x' && sim.door.heading == Heading::Backward;
+    if backward {
+        out.first_m = -out.first_m - (plane.width - 1) as f64 * out.step_m;
+    }
+    for row in 0..plane.rows {
+        for i in 0..plane.width {
+            let i = if backward { plane.width - 1 - i } else { i };
+            out.effective_pa
+                .push((f64::from(plane.effective[row * plane.width + i]) * unit) as f32);
+            let principal = plane.state(row, i).principal();
+            for (list, value) in out.principal_pa.iter_mut().zip(principal) {
+                list.push((value * unit) as f32);
+            }
+        }
+    }
+    out
+}
+
+/// Columns in the opposite order.
+fn mirror_columns(damage: &mut [f32], depths: usize) {
+    let columns = damage.len() / depths.max(1);
+    for column in 0..columns / 2 {
+        let (low, high) = damage.split_at_mut((columns - 1 - column) * depths);
+        low[column * depths..][..depths].swap_with_slice(&mut high[..depths]);
+    }
+}
+
+/// The damage map of a body.
+fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) {
+    let found = sim.counting.as_ref().and_then(|counting| {
+        let (map, unit) = counting.map(body)?;
+        Some((map, unit, counting.pit(body)?, sim.stress.as_ref()?))
+    });
+    let Some((map, unit, pit, stress)) = found else {
+        *block = None;
+        return;
+    };
+    let block = block.get_or_insert_with(DamageBlock::default);
+    if block.depths_m.len() != stress.depth_count() {
+        let depths = stress.depths().iter().map(|&z| sim.door.m_from_x(z));
+        block.depths_m = depths.collect();
+    }
+    block.length_m = sim.door.m_from_x(map.spec().length);
+    block.columns = map.spec().columns;
+    block.filled = map.filled();
+    map.relative_into(unit, &mut block.damage);
+    if sim.door.heading == Heading::Backward {
+        let depths = map.spec().depths;
+        mirror_columns(&mut block.damage, depths);
+    }
+    block.pit_place_m = place_m(sim, pit.place, map.spec().length);
+    block.pit_depth_m = block.depths_m.get(pit.depth).copied().unwrap_or(0.0);
+    block.pit_damage = pit.damage;
 }
 
 /// The shown point of body 1, its stress interpolated in the slice.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::ContactKind;
+use crate::scene::{ContactKind, LifeModel};
 
 /// Which part of a run a frame belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -67,8 +67,59 @@ pub struct Frame {
     pub slice: Option<StressSlice>,
     /// The material point that is followed through the contact.
     pub material_point: Option<MaterialPoint>,
+    /// Risk by depth below y = 0 of body 1 and 2 (depths of the slice), Pa: half range of the orthogonal shear
+    /// (Lundberg-Palmgren), Dang Van's or Findley's; empty for models that integrate over the volume.
+    pub risk_pa: [Vec<f32>; 2],
+    /// Planes x, y or z = const that the scene asks for.
+    pub planes: Vec<StressPlane>,
+    /// Damage collected by blocks of both surfaces; `None` where none is mapped or nothing has crossed.
+    pub damage: [Option<DamageBlock>; 2],
     /// Scalars.
     pub metrics: Metrics,
+}
+
+/// Stress of body 1 in a plane: index `row * width + i`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StressPlane {
+    /// Axis that the plane is normal to: `'x'`, `'y'` or `'z'`.
+    pub normal: char,
+    /// Where it cuts that axis, m.
+    pub at_m: f64,
+    /// Points along a row: along y for x = const, else along x.
+    pub width: usize,
+    /// Rows: depths as in the slice, but along y for z = const.
+    pub rows: usize,
+    /// First coordinate along a row, m.
+    pub first_m: f64,
+    /// Spacing along a row, m.
+    pub step_m: f64,
+    /// Effective stress, Pa.
+    pub effective_pa: Vec<f32>,
+    /// Principal stresses, greatest (most tensile) first, Pa.
+    pub principal_pa: [Vec<f32>; 3],
+}
+
+/// Damage of a block of one surface that moves with its body: index `column * depths + k`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DamageBlock {
+    /// Length of the block along the surface, m: one wavelength, or the whole track of a smooth body. Columns
+    /// divide it evenly; place 0 is a crest.
+    pub length_m: f64,
+    /// Columns.
+    pub columns: usize,
+    /// Depths below the surface, m, increasing.
+    pub depths_m: Arc<[f64]>,
+    /// Damage of one crossing by Miner's rule over that of the worst point of the smooth contact; 0 where no
+    /// material point has crossed yet.
+    pub damage: Vec<f32>,
+    /// Columns that have been crossed.
+    pub filled: usize,
+    /// Middle of the worst column, way from a crest, m.
+    pub pit_place_m: f64,
+    /// Depth of the worst point, m.
+    pub pit_depth_m: f64,
+    /// Its damage.
+    pub pit_damage: f64,
 }
 
 /// Stress in the plane y = 0 below body 1's surface: index `k * nx + i`, `k` over depths.
@@ -236,4 +287,31 @@ pub struct LifeEstimate {
     pub life_relative_high: f64,
     /// Whether a full period has been averaged since the last knob change.
     pub settled: bool,
+    /// Both bodies, other forms, other models.
+    pub detail: LifeDetail,
+}
+
+/// What stands beside a life.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct LifeDetail {
+    /// The model.
+    pub model: Option<LifeModel>,
+    /// Body that gives the life, 1 or 2.
+    pub body: u8,
+    /// Relative life of body 1 and 2 in own loading cycles; `None`: the body stands, or is not counted yet.
+    pub life_body: [Option<f64>; 2],
+    /// Both together in time, as equal discs, relative to both of the reference.
+    pub life_system: Option<f64>,
+    /// Same life by the mean of snapshots.
+    pub life_snapshot: Option<f64>,
+    /// Same life by the swept integral.
+    pub life_swept: Option<f64>,
+    /// Least life over the choice of model (`life.spread`).
+    pub spread_low: f64,
+    /// Greatest.
+    pub spread_high: f64,
+    /// Variants in the spread.
+    pub variants: u32,
+    /// Loading cycles at the scene's survival; `None` without a calibration point.
+    pub cycles: Option<f64>,
 }

@@ -1,5 +1,6 @@
 //! The simulation loop: `step`, `set`, `fill`; state, workspace, drive, frames, work counters.
 
+mod counting;
 mod door;
 mod drive;
 mod error;
@@ -21,14 +22,16 @@ mod stress_stage;
 mod summary;
 mod terrain;
 mod totals;
+mod variant;
 mod watching;
 
 pub use error::{SimError, StepError};
 pub use frame::{
-    Frame, LifeEstimate, MaterialPoint, MeshErrors, Metrics, Repeat, Rhythm, Stage, StressSlice,
+    DamageBlock, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics, Repeat,
+    Rhythm, Stage, StressPlane, StressSlice,
 };
 pub use knob::Knob;
 pub use simulation::Simulation;
 pub use state::State;
 pub use stats::Stats;
-pub use summary::Summary;
+pub use summary::{PitStart, Summary};

@@ -2,9 +2,10 @@
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::door::Door;
+use super::counting::{Counting, CountingSpec};
+use super::door::{Door, Heading};
 use super::drive::Drive;
-use super::fatigue_stage::{Counting, LifeStage};
+use super::fatigue_stage::LifeStage;
 use super::motion::Motion;
 use super::orbit::{LONGEST, Orbit};
 use super::pace::{Pace, Stepping};
@@ -14,11 +15,12 @@ use super::stress_stage::StressStage;
 use super::terrain::Terrain;
 use super::{Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
-use crate::scene::{Cavitation, Scene, Surface};
+use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
 use crate::solve::march::{Flow, March, Shape};
+use crate::solve::material::DamageBasis;
 use crate::solve::newton::Tolerance;
+use crate::solve::stress::{Cut, Purpose};
 use crate::solve::traction::{FilmShear, TractionLaw};
 
 /// Nodes per side of the first grid.
@@ -48,11 +50,12 @@ impl Simulation {
         let march = pool.install(|| March::from_hertz(grid, &shape, film, nodes, flow));
         let fine = grid_of(&plan, plan.domain.nodes, door.b_over_a);
         let stress = pool.install(|| stress_stage(scene, &plan, &fine, &door))?;
-        let life = life_stage(scene, &plan);
-        let counting = scene.stress.as_ref().map(|_| {
-            let depths = stress.as_ref().map_or(&[][..], |stress| stress.depths());
-            let exponent = scene.life.as_ref().map_or(9.0, |life| life.stress_exponent);
-            Counting::new(&fine, depths, exponent)
+        let life = stress
+            .as_ref()
+            .and_then(|stress| LifeStage::new(scene, &plan, stress));
+        let counting = stress.as_ref().map(|stress| {
+            let spec = counting_spec(scene, &plan, door.heading, stress.depth_count());
+            Counting::new(&fine, stress.depths(), &spec)
         });
         let wanted = Drive::new(|knob| initial(scene, &plan, knob));
         let mut drive = wanted.clone();
@@ -79,6 +82,8 @@ impl Simulation {
         let mut this = Self {
             traction: vec![0.0; fine.len()],
             counting,
+            cuts: cuts(scene),
+            iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
             stress_error: stress_error(&plan),
             plan,
             door,
@@ -174,20 +179,55 @@ fn stress_stage(
         return Ok(None);
     };
     let depths = (planned.depths, planned.depth_max_m / door.a_m);
-    StressStage::new(grid, scene.body_1.poisson, depths, asked.measure)
+    let poisson = [scene.body_1.poisson, scene.body_2.poisson];
+    let purpose = if scene.life.is_some() {
+        Purpose::Volumes
+    } else {
+        Purpose::Slices
+    };
+    StressStage::new(grid, poisson, depths, asked.measure, purpose)
         .map(Some)
         .map_err(|error| SimError::Stress(error.to_string()))
 }
 
-fn life_stage(scene: &Scene, plan: &Plan) -> Option<LifeStage> {
-    let (life, life_plan) = scene.life.as_ref().zip(plan.life)?;
-    let period = plan.passage_a;
-    let phases = life_plan.phases_per_passage.max(1) as usize + 1;
-    let law = LifeLaw {
-        stress_exponent: life.stress_exponent,
-        weibull_slope: life.weibull_slope,
+/// The planes that the scene asks for beside y = 0.
+fn cuts(scene: &Scene) -> Vec<Cut> {
+    let Some(stress) = &scene.stress else {
+        return Vec::new();
     };
-    Some(LifeStage::new(law, life.survival, period, phases))
+    [
+        stress.plane_x_a.map(Cut::X),
+        stress.plane_y_a.map(Cut::Y),
+        stress.plane_z_a.map(Cut::Z),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// What material points count: damage by ranges where the scene's life goes by ranges, else by peaks.
+fn counting_spec(scene: &Scene, plan: &Plan, heading: Heading, depths: usize) -> CountingSpec {
+    let life = scene.life.as_ref();
+    let maps = life.map_or([false; 2], crate::scene::Life::maps);
+    let a_m = plan.hertz.a_m;
+    let track = plan.domain.x_max_a - plan.domain.x_min_a;
+    let surfaces = scene.surfaces();
+    let block = |body: usize| {
+        let repeated = surfaces[body].block_m();
+        repeated.map_or((track, 0.0), |(length_m, offset_m)| {
+            (length_m / a_m, heading.sign() * offset_m / a_m)
+        })
+    };
+    CountingSpec {
+        depths,
+        exponent: life.map_or(9.0, |life| life.stress_exponent),
+        basis: match life.map(|life| life.cycles) {
+            Some(CycleBasis::Ranges) => DamageBasis::Ranges,
+            _ => DamageBasis::Peaks,
+        },
+        blocks: [0, 1]
+            .map(|body: usize| (maps[body] && surfaces[body].has_block()).then(|| block(body))),
+    }
 }
 
 /// Root-mean-square height over amplitude; 0 for a surface without height.

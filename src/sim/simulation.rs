@@ -10,9 +10,10 @@
 use rayon::ThreadPool;
 use serde::{Deserialize, Serialize};
 
+use super::counting::Counting;
 use super::door::Door;
 use super::drive::Drive;
-use super::fatigue_stage::{Counting, LifeStage};
+use super::fatigue_stage::LifeStage;
 use super::measure::Measured;
 use super::motion::Motion;
 use super::orbit::Orbit;
@@ -24,6 +25,7 @@ use super::{Frame, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
 use crate::plan::{March as Marching, Plan};
 use crate::solve::march::{Flow, March, Shape};
 use crate::solve::newton::Tolerance;
+use crate::solve::stress::Cut;
 use crate::solve::traction::TractionLaw;
 
 /// Time (a/U) to ramp sliding and roughness and to flush the contact once; also what a steady contact
@@ -53,6 +55,8 @@ pub struct Simulation {
     pub(super) stress: Option<StressStage>,
     pub(super) traction: Vec<f64>,
     pub(super) counting: Option<Counting>,
+    pub(super) cuts: Vec<Cut>,
+    pub(super) iso_load_ratio: Option<f64>,
     pub(super) life: Option<LifeStage>,
     pub(super) stress_error: f64,
     pub(super) law: TractionLaw,
@@ -121,7 +125,7 @@ impl Simulation {
             life.restart(window);
         }
         if let Some(counting) = &mut self.counting {
-            counting.restart();
+            counting.restart(self.motion.travelled);
         }
     }
 
@@ -308,7 +312,12 @@ impl Simulation {
 
     /// Result so far.
     pub fn summary(&self) -> Summary {
-        super::totals::summary(self, &self.totals, self.life_estimate(), self.stats)
+        super::totals::summary(
+            self,
+            &self.totals,
+            self.life_estimate().as_ref(),
+            self.stats,
+        )
     }
 
     pub(super) fn contact_film_m(&self) -> f64 {

@@ -33,7 +33,10 @@ impl Simulation {
             let (p, q) = (&self.march.state.pressure, &self.traction);
             self.pool.install(|| {
                 stress.slice(p, q, 0.0);
-                life.set_reference(&stress.volume(life.exponent()));
+                life.set_reference(stress);
+                if let Some(counting) = &mut self.counting {
+                    counting.set_reference(stress, life.stress_exponent());
+                }
             });
         }
         for knob in Knob::ALL {

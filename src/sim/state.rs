@@ -9,8 +9,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::counting::Counting;
 use super::drive::Drive;
-use super::fatigue_stage::{Counting, LifeStage};
+use super::fatigue_stage::LifeStage;
 use super::measure::Measured;
 use super::motion::Motion;
 use super::orbit::Orbit;
@@ -18,6 +19,7 @@ use super::pace::Pace;
 use super::setup::{COARSEST, grid_of};
 use super::simulation::{Phase, Simulation};
 use super::stepping::place_surfaces;
+use super::stress_stage::StressStage;
 use super::totals::Totals;
 use super::{Metrics, SimError, Stats};
 use crate::solve::march::{self, March};
@@ -68,6 +70,8 @@ impl Simulation {
             motion,
             watched,
             stress: _,
+            cuts: _,
+            iso_load_ratio: _,
             traction: _,
             counting,
             life,
@@ -215,13 +219,23 @@ impl Simulation {
         if !state.orbit.fits(fine.len()) {
             return refuse("its orbit is spoiled");
         }
-        if state.counting.as_ref().is_some_and(|c| !c.fits(&fine)) {
+        let depths = self.stress.as_ref().map_or(0, StressStage::depth_count);
+        if state
+            .counting
+            .as_ref()
+            .is_some_and(|c| !c.fits(&fine, depths))
+        {
             return refuse("its counts are spoiled");
         }
         if state.counting.is_some() != self.counting.is_some()
             || state.life.is_some() != self.life.is_some()
         {
             return refuse("it was saved with other stages for stress and life");
+        }
+        if let (Some(own), Some(saved)) = (&self.life, &state.life)
+            && !own.fits(saved)
+        {
+            return refuse("its life is of another make");
         }
         Ok(())
     }

@@ -1,9 +1,11 @@
-//! Subsurface stress of a step: the slice y = 0, and the volume integral at the plan's cadence.
+//! Subsurface stress of a step: the slices y = 0 of both bodies, and the volume integral at the plan's cadence.
 
 use crate::math::grid::{Grid, Symmetry};
+use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
 use crate::solve::stress::{
-    LineStress, SliceOut, StressEngine, StressError, StressSpec, VolumeOut,
+    Cut, LineStress, Loading, Plane, Purpose, SliceOut, StressEngine, StressError, StressLaw,
+    StressSpec, VolumeSums,
 };
 
 /// What computes: a volume below a point contact, a plane below a line.
@@ -19,33 +21,75 @@ impl Engine {
             Self::Line(engine) => engine.spec(),
         }
     }
+
+    fn load(&mut self, pressure: &[f32], traction: Option<&[f32]>) {
+        match self {
+            Self::Volume(engine) => engine.load(pressure, traction),
+            Self::Line(engine) => engine.load(pressure, traction),
+        }
+    }
+
+    fn slice_of(&mut self, loading: Loading, out: &mut SliceOut) {
+        match self {
+            Self::Volume(engine) => engine.slice_of(loading, out),
+            Self::Line(engine) => engine.slice_of(loading, out),
+        }
+    }
+
+    fn sums(&self) -> &VolumeSums {
+        match self {
+            Self::Volume(engine) => engine.sums(),
+            Self::Line(engine) => engine.sums(),
+        }
+    }
 }
 
-/// Engine, its single-precision inputs and the last slice.
+/// Engine, its single-precision inputs and the last slices.
 pub(super) struct StressStage {
     engine: Engine,
     pressure: Vec<f32>,
     traction: Vec<f32>,
-    /// The slice of the last step.
+    shear: Shear,
+    /// The slice of the last step in body 1.
     pub(super) slice: SliceOut,
+    /// What life looks at besides; `None` where no life is asked for.
+    companions: Option<Companions>,
+}
+
+/// Whether a traction acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Shear {
+    None,
+    AlongX,
+}
+
+struct Companions {
+    /// The slice of the last step in body 2.
+    mate: SliceOut,
+    /// The slice that a criterion reads.
+    criterion: SliceOut,
 }
 
 impl StressStage {
-    /// Makes the engine for `grid` with `depths` depths down to `depth_max` (in a).
+    /// Makes the engine for `grid` with Poisson's ratios of both bodies, and `depths` depths down to
+    /// `depth_max` (in a).
     ///
     /// # Errors
     /// [`StressError`] names what the engine refuses.
     pub(super) fn new(
         grid: &Grid,
-        poisson: f64,
+        poisson: [f64; 2],
         depths: (usize, f64),
         measure: StressMeasure,
+        purpose: Purpose,
     ) -> Result<Self, StressError> {
         use crate::solve::stress::Symmetry as Rows;
         let volume = |rows: Rows| {
             let (nodes, spacing) = ((grid.nx, grid.ny), (grid.dx, grid.dy));
-            let mut spec = StressSpec::new(nodes, spacing, poisson, depths, rows);
+            let mut spec = StressSpec::new(nodes, spacing, poisson[0], depths, rows);
+            spec.nu_2 = poisson[1];
             (spec.x_first, spec.measure) = (grid.x_min, measure);
+            spec.purpose = purpose;
             StressEngine::new(&spec).map(|engine| Engine::Volume(Box::new(engine)))
         };
         let engine = match grid.symmetry {
@@ -62,6 +106,11 @@ impl StressStage {
             engine,
             pressure: vec![0.0; grid.len()],
             traction: vec![0.0; grid.len()],
+            shear: Shear::None,
+            companions: (purpose == Purpose::Volumes).then(|| Companions {
+                mate: slice.clone(),
+                criterion: slice.clone(),
+            }),
             slice,
         })
     }
@@ -71,29 +120,99 @@ impl StressStage {
         &self.engine.spec().depths
     }
 
-    /// Takes the surface of a step and computes the slice.
+    /// How many depths.
+    pub(super) fn depth_count(&self) -> usize {
+        self.engine.spec().depths.len()
+    }
+
+    /// Rows that a volume pass reports.
+    pub(super) fn row_count(&self) -> usize {
+        let one = Loading::Normal(BodyId::One);
+        self.engine.sums().row_tops(one).len()
+    }
+
+    /// Takes the surface of a step and computes the slices.
     pub(super) fn slice(&mut self, p: &[f64], q: &[f64], friction: f64) {
         narrow(p, &mut self.pressure);
         narrow(q, &mut self.traction);
-        let traction = (friction != 0.0).then_some(&self.traction[..]);
-        match &mut self.engine {
-            Engine::Volume(engine) => {
-                engine.load(&self.pressure, traction);
-                engine.slice(&mut self.slice);
-            }
-            Engine::Line(engine) => {
-                engine.load(&self.pressure, traction);
-                engine.slice(&mut self.slice);
-            }
+        self.shear = if friction == 0.0 {
+            Shear::None
+        } else {
+            Shear::AlongX
+        };
+        let traction = (self.shear == Shear::AlongX).then_some(&self.traction[..]);
+        self.engine.load(&self.pressure, traction);
+        self.engine
+            .slice_of(Loading::Full(BodyId::One), &mut self.slice);
+        let two = Loading::Full(BodyId::Two);
+        let alike = self.equal_loading(two).is_some();
+        if let Some(companions) = self.companions.as_mut().filter(|_| !alike) {
+            self.engine.slice_of(two, &mut companions.mate);
         }
     }
 
-    /// ln ∫ s^m dV of the surface loaded last, without and with traction.
-    pub(super) fn volume(&mut self, exponent: f64) -> VolumeOut {
-        match &mut self.engine {
-            Engine::Volume(engine) => engine.volume(exponent),
-            Engine::Line(engine) => engine.volume(exponent),
+    /// The slice of the last step in a body; body 2 has one of its own where life is asked for.
+    pub(super) fn slice_in(&self, body: BodyId) -> &SliceOut {
+        match (body, &self.companions) {
+            (BodyId::Two, Some(companions))
+                if self.equal_loading(Loading::Full(BodyId::Two)).is_none() =>
+            {
+                &companions.mate
+            }
+            _ => &self.slice,
         }
+    }
+
+    /// A loading earlier in [`Loading::ALL`] with the same stress: without traction, and with the same
+    /// Poisson's ratio, both bodies are alike.
+    pub(super) fn equal_loading(&self, loading: Loading) -> Option<Loading> {
+        let spec = self.engine.spec();
+        let alike = spec.nu == spec.nu_2;
+        match (loading, self.shear) {
+            (Loading::Normal(BodyId::Two), _) | (Loading::Full(BodyId::Two), Shear::None)
+                if alike =>
+            {
+                Some(Loading::Normal(BodyId::One))
+            }
+            (Loading::Full(body), Shear::None) => Some(Loading::Normal(body)),
+            _ => None,
+        }
+    }
+
+    /// Stress of body 1 in a plane under the surface loaded last; `None` below a line, where y does not matter.
+    pub(super) fn plane(&self, cut: Cut) -> Option<Plane> {
+        match &self.engine {
+            Engine::Volume(engine) => Some(engine.plane(Loading::Full(BodyId::One), cut)),
+            Engine::Line(_) => None,
+        }
+    }
+
+    /// Volume pass under the surface loaded last, both bodies.
+    pub(super) fn volume(&mut self, laws: &[StressLaw]) {
+        match &mut self.engine {
+            Engine::Volume(engine) => engine.volume_under(laws, &BodyId::BOTH),
+            Engine::Line(engine) => engine.volume_under(laws, &BodyId::BOTH),
+        };
+    }
+
+    /// Sums of the last volume pass.
+    pub(super) fn sums(&self) -> &VolumeSums {
+        self.engine.sums()
+    }
+
+    /// Computes the slice that a criterion reads.
+    pub(super) fn criterion_slice(&mut self, loading: Loading) {
+        if let Some(companions) = &mut self.companions {
+            self.engine.slice_of(loading, &mut companions.criterion);
+        }
+    }
+
+    /// Nodes along x, depths and the slice that a criterion reads.
+    pub(super) fn criterion(&self) -> (usize, &[f64], &SliceOut) {
+        let spec = self.engine.spec();
+        let companions = self.companions.as_ref();
+        let slice = companions.map_or(&self.slice, |companions| &companions.criterion);
+        (spec.nx, &spec.depths, slice)
     }
 }
 

@@ -78,6 +78,44 @@ pub struct Summary {
     pub sigma_eff_max_x_m: Option<f64>,
     /// Work counters.
     pub counters: Stats,
+    /// Life model.
+    pub life_model: Option<String>,
+    /// What lives are relative to, and why.
+    pub life_basis: Option<String>,
+    /// Body that gives `life_relative`, 1 or 2.
+    pub life_body: Option<u8>,
+    /// Relative life of body 1 in own loading cycles.
+    pub life_body_1: Option<f64>,
+    /// Same of body 2.
+    pub life_body_2: Option<f64>,
+    /// Both bodies together, in time, as equal discs, relative to both of the reference.
+    pub life_system: Option<f64>,
+    /// Relative life by the mean of snapshots.
+    pub life_snapshot: Option<f64>,
+    /// Relative life by the swept integral, the bound.
+    pub life_swept: Option<f64>,
+    /// Least relative life over the choice of model.
+    pub life_models_low: Option<f64>,
+    /// Greatest.
+    pub life_models_high: Option<f64>,
+    /// How many variants the choice has.
+    pub life_models: Option<u32>,
+    /// Loading cycles at the scene's survival, by the scene's calibration point.
+    pub life_cycles: Option<f64>,
+    /// Lower end of its band.
+    pub life_cycles_low: Option<f64>,
+    /// Upper end of its band.
+    pub life_cycles_high: Option<f64>,
+    /// Where the pit of body 1 starts.
+    pub pit_body_1: Option<PitStart>,
+    /// Same of body 2.
+    pub pit_body_2: Option<PitStart>,
+    /// Depth below which a crossing of body 1 is one cycle of signed shear, m.
+    pub cycles_end_depth_1_m: Option<f64>,
+    /// Same of body 2, m.
+    pub cycles_end_depth_2_m: Option<f64>,
+    /// ISO 281's life factor, a side comparison: it holds a penalty of roughness of its own.
+    pub a_iso: Option<f64>,
     /// What was looked at for repetition: `"steady"`, `"orbit"` (fields one period apart) or
     /// `"statistics"` (means over 4 a).
     pub rhythm: Option<Rhythm>,
@@ -95,4 +133,15 @@ pub struct Summary {
     pub error_p_max_pa: Option<f64>,
     /// Same of ln `life_relative`; with it, the ends of life's band are `life_relative * exp(-+ error)`.
     pub error_ln_life: Option<f64>,
+}
+
+/// The point of a surface whose damage is greatest.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PitStart {
+    /// Depth, m.
+    pub depth_m: f64,
+    /// Way along the surface from a crest of the body, m.
+    pub place_m: f64,
+    /// Damage of a crossing over that of the worst point of the smooth contact.
+    pub damage: f64,
 }

@@ -4,7 +4,10 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+use super::summary::PitStart;
 use super::{LifeEstimate, Metrics, Simulation, Stats, Summary};
+use crate::physics::cycles::BodyId;
+use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
 
 /// One step.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -107,7 +110,7 @@ impl Totals {
 pub(super) fn summary(
     sim: &Simulation,
     totals: &Totals,
-    life: Option<LifeEstimate>,
+    life: Option<&LifeEstimate>,
     counters: Stats,
 ) -> Summary {
     let m = sim.metrics();
@@ -150,6 +153,30 @@ pub(super) fn summary(
         sigma_eff_max_depth_m: stress.map(|s| s[1]),
         sigma_eff_max_x_m: stress.map(|s| s[2]),
         counters,
+        life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
+        life_basis: sim
+            .life
+            .as_ref()
+            .map(super::fatigue_stage::LifeStage::basis_text),
+        life_body: life.map(|l| l.detail.body),
+        life_body_1: life.and_then(|l| l.detail.life_body[0]),
+        life_body_2: life.and_then(|l| l.detail.life_body[1]),
+        life_system: life.and_then(|l| l.detail.life_system),
+        life_snapshot: life.and_then(|l| l.detail.life_snapshot),
+        life_swept: life.and_then(|l| l.detail.life_swept),
+        life_models_low: life.map(|l| l.detail.spread_low),
+        life_models_high: life.map(|l| l.detail.spread_high),
+        life_models: life.map(|l| l.detail.variants),
+        life_cycles: life.and_then(|l| l.detail.cycles),
+        life_cycles_low: life
+            .and_then(|l| Some(l.detail.cycles? * l.life_relative_low / l.life_relative)),
+        life_cycles_high: life
+            .and_then(|l| Some(l.detail.cycles? * l.life_relative_high / l.life_relative)),
+        pit_body_1: pit(sim, BodyId::One),
+        pit_body_2: pit(sim, BodyId::Two),
+        cycles_end_depth_1_m: cycles_end(sim, BodyId::One),
+        cycles_end_depth_2_m: cycles_end(sim, BodyId::Two),
+        a_iso: a_iso(sim),
         rhythm: m.repeat.map(|r| r.rhythm),
         period_s: m.repeat.map(|r| r.period_s),
         period_drift: m.repeat.and_then(|r| r.drift),
@@ -159,4 +186,32 @@ pub(super) fn summary(
         error_p_max_pa: None,
         error_ln_life: None,
     }
+}
+
+/// Where the pit of a body starts.
+fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
+    let counting = sim.counting.as_ref()?;
+    let pit = counting.pit(body)?;
+    let depth = *sim.stress.as_ref()?.depths().get(pit.depth)?;
+    let length = counting.map(body)?.0.spec().length;
+    Some(PitStart {
+        depth_m: sim.door.m_from_x(depth),
+        place_m: super::fill::place_m(sim, pit.place, length),
+        damage: pit.damage,
+    })
+}
+
+/// Depth from which on a crossing counts less than 1.5 cycles of signed shear.
+fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
+    let counts = sim.counting.as_ref()?.shear_counts(body)?;
+    let depths = sim.stress.as_ref()?.depths();
+    let last = counts.iter().rposition(|count| *count >= 1.5);
+    let k = last.map_or(0, |k| (k + 1).min(depths.len() - 1));
+    Some(sim.door.m_from_x(depths[k]))
+}
+
+/// a_ISO beside the result, from the scene's load ratio and its film parameter.
+fn a_iso(sim: &Simulation) -> Option<f64> {
+    let lambda = sim.plan.film?.lambda_ratio?;
+    a_iso_radial_ball(kappa_from_lambda(lambda), sim.iso_load_ratio?)
 }

@@ -1,6 +1,6 @@
 //! What is looked at after each step: traction, stress, counts, life, scalars.
 
-use super::fatigue_stage::contacts;
+use super::counting::contacts;
 use super::measure::{Measured, measure};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
@@ -21,9 +21,8 @@ impl Simulation {
             && let Some(counting) = &mut self.counting
         {
             let travel = [0, 1].map(|body: usize| self.watched[body] - before[body]);
-            let tau_xz = self.stress.as_ref().map(|stress| &stress.slice.sxz[..]);
             let pressure = &self.march.state.pressure;
-            counting.step(&self.march.grid, travel, pressure, tau_xz);
+            counting.step(&self.march.grid, travel, pressure, self.stress.as_ref());
         }
         self.publish(attempted);
     }
@@ -44,8 +43,8 @@ impl Simulation {
             if let Some(life) = &mut self.life
                 && due
             {
-                life.push(every, &stress.volume(life.exponent()));
-                self.stats.stress_volumes += 1;
+                life.push(every, stress);
+                self.stats.stress_volumes += u64::from(life.integrates());
                 self.next_volume = next_due(self.next_volume, self.way, every);
             }
         });
@@ -161,6 +160,8 @@ impl Simulation {
     pub(super) fn life_estimate(&self) -> Option<LifeEstimate> {
         self.life.as_ref()?.estimate(
             [self.metrics.n_body_1, self.metrics.n_body_2],
+            self.metrics.slide_roll,
+            self.counting.as_ref(),
             self.stress_error,
         )
     }

@@ -1,54 +1,88 @@
 //! Relative life of the run so far: the running mean of the life integral over a passage of the roughness.
 //!
 //! ```text
-//! Ī = Σ τ_s I_s / Σ τ_s     over the samples s of the last full period (phases of the roughness)
-//! N/N_ref = (n_ref/n) (I_ref/Ī)^{1/e} = cycle · peak · traction
+//! J_k   = Σ τ_s J_ks / Σ τ_s          share of depth k, over the samples s of the last full period (snapshot)
+//! J_k   = Σ_rows w max_s max_x σ^m    greatest of each row over all samples (swept)
+//! cycle · peak · traction = (J/J_n)^{1/e} (J_ref/J_p)^{1/e} (J_p/J)^{1/e} = N/N_ref
+//! J = Σ_k J_k,   J_n = Σ_k n(z_k)^e J_k,   J_p: pressure alone
 //! ```
-//! The integral is averaged, not the life (the *snapshot* form of the literature). Integrals are kept and
-//! added as logarithms. τ is the length of the step in whatever the period is given in (time, or distance
-//! at U). Memory is bounded: when the samples of one period do not fit, neighbours are merged in pairs,
-//! which leaves the mean as it is.
-
-use std::collections::VecDeque;
+//! The integral is averaged, not the life (the *snapshot* form of the literature); the *swept* form takes for
+//! every track the greatest stress that passes over it, which is what a material point sees once S ≠ 0, and is
+//! the bound. Integrals are kept and added as logarithms. τ is the length of the step in whatever the period
+//! is given in (time, or distance at U). Memory is bounded: when the samples of one period do not fit,
+//! neighbours are merged in pairs, which leaves the mean as it is. A warm `push` allocates nothing.
 
 use serde::{Deserialize, Serialize};
 
-use super::stress::VolumeOut;
-use crate::physics::fatigue::{CyclePair, IntegralLogs, LifeFactors, LifeLaw};
+use std::collections::VecDeque;
 
-/// One sample, or several merged.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-struct Phase {
-    span: f64,
-    normal: f64,
-    full: f64,
+use super::stress::Loading;
+use crate::math::ln_sum::{ln_list, ln_sum};
+use crate::physics::cycles::BodyId;
+use crate::physics::fatigue::{CyclePair, IntegralLogs, LifeFactors, LifeLaw};
+use crate::physics::life_models::CycleProfile;
+
+/// ln of every depth's share of J, for each of the four loadings (`[loading · depths + k]`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Shares {
+    depths: usize,
+    #[serde(with = "ln_list")]
+    logs: Vec<f64>,
 }
 
-/// Mean over the last period, and the life from it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+impl Shares {
+    /// Nothing at any depth.
+    pub fn new(depths: usize) -> Self {
+        Self {
+            depths,
+            logs: vec![f64::NEG_INFINITY; 4 * depths],
+        }
+    }
+
+    /// Shares of one loading.
+    pub fn of(&self, loading: Loading) -> &[f64] {
+        &self.logs[loading.index() * self.depths..][..self.depths]
+    }
+
+    /// Same, to fill.
+    pub fn of_mut(&mut self, loading: Loading) -> &mut [f64] {
+        &mut self.logs[loading.index() * self.depths..][..self.depths]
+    }
+
+    /// ln of the sum over depths.
+    pub fn ln(&self, loading: Loading) -> f64 {
+        ln_sum(self.of(loading).iter().map(|ln| (1.0, *ln)))
+    }
+
+    /// Whether shares that were read from a file are those of so many depths.
+    pub fn is_sound(&self, depths: usize) -> bool {
+        self.depths == depths && self.logs.len() == 4 * depths
+    }
+
+    /// Nothing at any depth again.
+    pub fn clear(&mut self) {
+        self.logs.fill(f64::NEG_INFINITY);
+    }
+}
+
+/// One sample, or several merged.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Phase {
+    span: f64,
+    shares: Shares,
+}
+
+/// Mean over the last period.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LifeMeter {
-    law: LifeLaw,
-    ln_reference: f64,
     period: f64,
     phases: VecDeque<Phase>,
+    /// Phases that are not in use.
+    spare: Vec<Phase>,
     capacity: usize,
     total: f64,
     samples: u32,
-}
-
-/// Relative life now.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LifeNow {
-    /// Factors.
-    pub factors: LifeFactors,
-    /// ln of the mean integral with traction.
-    pub ln_mean: f64,
-    /// Ends of the band from the error of stress.
-    pub band: (f64, f64),
-    /// Samples since the last restart.
-    pub samples: u32,
-    /// How much of the period the mean covers.
-    pub coverage: Coverage,
+    mean: Shares,
 }
 
 /// How much of a period a mean covers.
@@ -61,32 +95,36 @@ pub enum Coverage {
 }
 
 impl LifeMeter {
-    /// Meter against the reference integral `ln_reference`, over `period`, with memory for `capacity`
-    /// samples (at least 16).
-    pub fn new(law: LifeLaw, ln_reference: f64, period: f64, capacity: usize) -> Self {
+    /// Meter of `depths` depths over `period`, with memory for `capacity` samples (at least 16).
+    pub fn new(depths: usize, period: f64, capacity: usize) -> Self {
         let capacity = capacity.max(16);
+        let empty = Phase {
+            span: 0.0,
+            shares: Shares::new(depths),
+        };
         Self {
-            law,
-            ln_reference,
             period,
             phases: VecDeque::with_capacity(capacity + 1),
+            spare: vec![empty; capacity + 1],
             capacity,
             total: 0.0,
             samples: 0,
+            mean: Shares::new(depths),
         }
     }
 
-    /// Forgets the samples (after a change of load, speed or roughness) and takes a new period.
-    pub fn restart(&mut self, period: f64) {
-        self.phases.clear();
-        (self.total, self.samples) = (0.0, 0);
-        self.period = period;
+    /// Whether a meter that was read from a file has as many depths everywhere.
+    pub fn is_sound(&self, depths: usize) -> bool {
+        let all = self.phases.iter().chain(&self.spare).map(|p| &p.shares);
+        all.chain([&self.mean])
+            .all(|shares| shares.is_sound(depths))
     }
 
     /// Makes the room again that a copy or a file does not keep.
     pub fn make_room(&mut self) {
-        let room = (self.capacity + 1).saturating_sub(self.phases.len());
-        self.phases.reserve_exact(room);
+        let room = |held: usize| (self.capacity + 1).saturating_sub(held);
+        self.phases.reserve_exact(room(self.phases.len()));
+        self.spare.reserve_exact(room(self.spare.len()));
     }
 
     /// Takes the mean over `period` from now on.
@@ -94,149 +132,232 @@ impl LifeMeter {
         self.period = period;
     }
 
-    /// Takes the integrals of a step of length `span`.
-    pub fn push(&mut self, span: f64, volume: &VolumeOut) {
+    /// Forgets the samples (after a change of load, speed or roughness).
+    pub fn restart(&mut self) {
+        self.spare.extend(self.phases.drain(..));
+        (self.total, self.samples) = (0.0, 0);
+        self.mean.clear();
+    }
+
+    /// Takes the shares of a step of length `span`.
+    pub fn push(&mut self, span: f64, shares: &Shares) {
         if span <= 0.0 {
             return;
         }
-        self.phases.push_back(Phase {
-            span,
-            normal: volume.normal.ln,
-            full: volume.full.ln,
-        });
+        let Some(mut phase) = self.spare.pop() else {
+            return;
+        };
+        phase.span = span;
+        phase.shares.logs.copy_from_slice(&shares.logs);
+        self.phases.push_back(phase);
         self.total += span;
         self.samples = self.samples.saturating_add(1);
         while let Some(first) = self.phases.front()
             && self.total - first.span >= self.period * (1.0 - 1e-9)
         {
             self.total -= first.span;
-            self.phases.pop_front();
+            self.spare.extend(self.phases.pop_front());
         }
         if self.phases.len() > self.capacity {
             self.merge_pairs();
         }
+        self.take_mean();
     }
 
     fn merge_pairs(&mut self) {
         let pairs = self.phases.len() / 2;
-        for i in 0..pairs {
-            let (a, b) = (self.phases[2 * i], self.phases[2 * i + 1]);
-            let span = a.span + b.span;
-            let mean = |a_ln: f64, b_ln: f64| ln_sum([(a.span, a_ln), (b.span, b_ln)]) - span.ln();
-            self.phases[i] = Phase {
-                span,
-                normal: mean(a.normal, b.normal),
-                full: mean(a.full, b.full),
+        for pair in 0..pairs {
+            let Some(other) = self.phases.remove(pair + 1) else {
+                break;
             };
+            let one = &mut self.phases[pair];
+            let span = one.span + other.span;
+            for (a, b) in one.shares.logs.iter_mut().zip(&other.shares.logs) {
+                *a = ln_sum([(one.span, *a), (other.span, *b)]) - span.ln();
+            }
+            one.span = span;
+            self.spare.push(other);
         }
-        let odd = self.phases.len() % 2;
-        if odd == 1 {
-            self.phases[pairs] = self.phases[2 * pairs];
-        }
-        self.phases.truncate(pairs + odd);
     }
 
-    /// Life with contacts per cycle `n` and a relative error of stress; `None` before the first sample.
-    pub fn now(&self, n: CyclePair, stress_error: f64) -> Option<LifeNow> {
-        if self.phases.is_empty() {
-            return None;
-        }
+    fn take_mean(&mut self) {
         let span: f64 = self.phases.iter().map(|p| p.span).sum();
-        let mean =
-            |ln: fn(&Phase) -> f64| ln_sum(self.phases.iter().map(|p| (p.span, ln(p)))) - span.ln();
-        let ln = IntegralLogs {
-            reference: self.ln_reference,
-            normal: mean(|p| p.normal),
-            full: mean(|p| p.full),
-        };
-        let factors = self.law.factors(n, ln);
-        Some(LifeNow {
-            factors,
-            ln_mean: ln.full,
-            band: self.law.band(factors.relative, stress_error),
-            samples: self.samples,
-            coverage: if span >= self.period * (1.0 - 1e-9) {
-                Coverage::Settled
-            } else {
-                Coverage::Partial
-            },
-        })
+        for (i, mean) in self.mean.logs.iter_mut().enumerate() {
+            let terms = self.phases.iter().map(|p| (p.span, p.shares.logs[i]));
+            *mean = ln_sum(terms) - span.ln();
+        }
+    }
+
+    /// Mean shares of the last period; `None` before the first sample.
+    pub fn mean(&self) -> Option<&Shares> {
+        (!self.phases.is_empty()).then_some(&self.mean)
+    }
+
+    /// Samples since the last restart.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// How much of the period the mean covers.
+    pub fn coverage(&self) -> Coverage {
+        let span: f64 = self.phases.iter().map(|p| p.span).sum();
+        if span >= self.period * (1.0 - 1e-9) {
+            Coverage::Settled
+        } else {
+            Coverage::Partial
+        }
     }
 }
 
-/// ln Σ w e^a.
-fn ln_sum(terms: impl IntoIterator<Item = (f64, f64)> + Clone) -> f64 {
-    let top = terms
-        .clone()
-        .into_iter()
-        .fold(f64::NEG_INFINITY, |top, (_, a)| top.max(a));
-    if top == f64::NEG_INFINITY {
-        return top;
+/// The greatest of every row, or of every depth, over all samples since the last restart.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sweep {
+    tops: [Vec<f32>; 4],
+}
+
+impl Sweep {
+    /// Of `rows` rows.
+    pub fn new(rows: usize) -> Self {
+        Self {
+            tops: [0, 1, 2, 3].map(|_| vec![0.0; rows]),
+        }
     }
-    let sum: f64 = terms.into_iter().map(|(w, a)| w * (a - top).exp()).sum();
-    top + sum.ln()
+
+    /// Forgets all.
+    pub fn restart(&mut self) {
+        self.tops.iter_mut().for_each(|tops| tops.fill(0.0));
+    }
+
+    /// Whether a sweep that was read from a file has so many rows.
+    pub fn is_sound(&self, rows: usize) -> bool {
+        self.tops.iter().all(|tops| tops.len() == rows)
+    }
+
+    /// Takes the rows of one surface.
+    pub fn push(&mut self, loading: Loading, tops: &[f32]) {
+        for (most, &top) in self.tops[loading.index()].iter_mut().zip(tops) {
+            *most = most.max(top);
+        }
+    }
+
+    /// Greatest so far.
+    pub fn of(&self, loading: Loading) -> &[f32] {
+        &self.tops[loading.index()]
+    }
+}
+
+/// Factors of one body's life: `shares` against the reference `ln_reference`, with cycles by `profile` at the
+/// `depths`.
+pub fn factors(
+    law: LifeLaw,
+    shares: &Shares,
+    body: BodyId,
+    ln_reference: f64,
+    profile: CycleProfile,
+    depths: &[f64],
+) -> LifeFactors {
+    let full = shares.of(Loading::Full(body));
+    let ln_full = shares.ln(Loading::Full(body));
+    let n = match profile {
+        CycleProfile::Global(n) => n,
+        CycleProfile::Depth { .. } | CycleProfile::Counted(_) => {
+            let e = law.weibull_slope;
+            let weighted = full
+                .iter()
+                .zip(depths)
+                .enumerate()
+                .map(|(k, (ln, z))| (1.0, ln + e * profile.at(k, *z).ln()));
+            ((ln_sum(weighted) - ln_full) / e).exp()
+        }
+    };
+    law.factors(
+        CyclePair {
+            reference: 1.0,
+            scene: n,
+        },
+        IntegralLogs {
+            reference: ln_reference,
+            normal: shares.ln(Loading::Normal(body)),
+            full: ln_full,
+        },
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::stress::{Integral, Peak};
     use approx::assert_relative_eq;
 
-    const N: CyclePair = CyclePair {
-        reference: 1.0,
-        scene: 1.0,
-    };
+    const NORMAL: Loading = Loading::Normal(BodyId::One);
+    const FULL: Loading = Loading::Full(BodyId::One);
 
-    fn volume(normal: f64, full: f64) -> VolumeOut {
-        let integral = |i: f64| Integral {
-            ln: i.ln(),
-            peak: Peak::default(),
-        };
-        VolumeOut {
-            normal: integral(normal),
-            full: integral(full),
-        }
+    fn shares(normal: f64, full: f64) -> Shares {
+        let mut shares = Shares::new(2);
+        shares.of_mut(NORMAL).fill((0.5 * normal).ln());
+        shares.of_mut(FULL).fill((0.5 * full).ln());
+        shares
     }
 
     #[test]
     fn mean_is_of_the_integral_over_the_last_period() {
         let law = LifeLaw::default();
-        let mut meter = LifeMeter::new(law, 0.0, 4.0, 64);
-        assert!(meter.now(N, 0.0).is_none());
+        let mut meter = LifeMeter::new(2, 4.0, 64);
+        assert!(meter.mean().is_none());
         for (i, value) in [100.0, 1.0, 2.0, 3.0, 6.0].into_iter().enumerate() {
-            meter.push(1.0, &volume(value, 2.0 * value));
-            let coverage = meter.now(N, 0.0).expect("sampled").coverage;
-            assert_eq!(coverage == Coverage::Settled, i >= 3);
+            meter.push(1.0, &shares(value, 2.0 * value));
+            assert_eq!(meter.coverage() == Coverage::Settled, i >= 3);
         }
-        let now = meter.now(N, 0.01).expect("sampled");
-        assert_relative_eq!(now.ln_mean.exp(), 6.0, max_relative = 1e-12);
-        assert_relative_eq!(now.factors.peak, 3.0_f64.powf(-0.9), max_relative = 1e-12);
-        assert_relative_eq!(
-            now.factors.traction,
-            2.0_f64.powf(-0.9),
-            max_relative = 1e-12
-        );
-        assert!(now.band.0 < now.factors.relative && now.factors.relative < now.band.1);
-        meter.restart(2.0);
-        assert!(meter.now(N, 0.0).is_none());
+        let mean = meter.mean().expect("sampled");
+        assert_relative_eq!(mean.ln(FULL).exp(), 6.0, max_relative = 1e-12);
+        let profile = CycleProfile::Global(4.0);
+        let f = factors(law, mean, BodyId::One, 0.0, profile, &[0.1, 0.2]);
+        assert_relative_eq!(f.peak, 3.0_f64.powf(-0.9), max_relative = 1e-12);
+        assert_relative_eq!(f.traction, 2.0_f64.powf(-0.9), max_relative = 1e-12);
+        assert_eq!(f.cycle, 0.25);
+        meter.restart();
+        assert!(meter.mean().is_none());
+    }
+
+    #[test]
+    fn cycles_weigh_the_depth_that_they_reach() {
+        let law = LifeLaw::default();
+        let mut shares = shares(1.0, 1.0);
+        shares
+            .of_mut(FULL)
+            .copy_from_slice(&[0.2_f64.ln(), 0.8_f64.ln()]);
+        let cycle = |profile| factors(law, &shares, BodyId::One, 0.0, profile, &[0.05, 0.9]).cycle;
+        // n = 9 in a fifth of the integral: J_n/J = 0.2 · 9^e + 0.8.
+        let expected = (0.2 * 9.0_f64.powf(law.weibull_slope) + 0.8).powf(-0.9);
+        let depth = CycleProfile::Depth {
+            n: 9.0,
+            wavelength: 0.2,
+        };
+        assert_relative_eq!(cycle(depth), expected, max_relative = 1e-12);
+        assert_relative_eq!(cycle(CycleProfile::Counted(&[9.0, 1.0])), expected);
+        assert!(cycle(CycleProfile::Global(9.0)) < cycle(depth));
     }
 
     #[test]
     fn merging_keeps_the_mean() {
-        let law = LifeLaw::default();
-        let (mut small, mut large) = (
-            LifeMeter::new(law, 0.0, 1e9, 16),
-            LifeMeter::new(law, 0.0, 1e9, 4096),
-        );
+        let (mut small, mut large) = (LifeMeter::new(2, 1e9, 16), LifeMeter::new(2, 1e9, 4096));
         for i in 0..1000 {
-            let v = volume(1.0 + f64::from(i % 7), 2.0 + f64::from(i % 5));
-            small.push(0.5 + f64::from(i % 3), &v);
-            large.push(0.5 + f64::from(i % 3), &v);
+            let s = shares(1.0 + f64::from(i % 7), 2.0 + f64::from(i % 5));
+            small.push(0.5 + f64::from(i % 3), &s);
+            large.push(0.5 + f64::from(i % 3), &s);
         }
-        let (a, b) = (small.now(N, 0.0), large.now(N, 0.0));
-        let ln = |now: Option<LifeNow>| now.expect("sampled").ln_mean;
-        assert_relative_eq!(ln(a), ln(b), max_relative = 1e-12);
-        assert!(small.phases.len() <= 17);
+        let ln = |meter: &LifeMeter| meter.mean().expect("sampled").ln(FULL);
+        assert_relative_eq!(ln(&small), ln(&large), max_relative = 1e-12);
+        assert!(small.phases.len() <= 17 && small.phases.len() + small.spare.len() == 17);
+    }
+
+    #[test]
+    fn a_sweep_keeps_the_greatest() {
+        let mut sweep = Sweep::new(3);
+        sweep.push(FULL, &[1.0, 5.0, 2.0]);
+        sweep.push(FULL, &[3.0, 4.0, 0.0]);
+        assert_eq!(sweep.of(FULL), [3.0, 5.0, 2.0]);
+        assert_eq!(sweep.of(NORMAL), [0.0; 3]);
+        sweep.restart();
+        assert_eq!(sweep.of(FULL), [0.0; 3]);
     }
 }

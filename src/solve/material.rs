@@ -17,11 +17,23 @@
 //! `f δ` or of n (`tests/life.rs`), with at least 8 points and 16 samples a crest,
 //! `Δt ≤ W/(16 |U_2 − U_1|)`.
 //!
+//! *Two histories a depth.* The signed shear tells cycles by their ranges; the effective stress, which does
+//! not return to zero between crests, tells them by their peaks:
+//! ```text
+//! ranges   n_r(z) = Σ count (range/greatest range)^c         of τ_xz
+//! peaks    n_p(z) = Σ count (peak/greatest peak)^c           of the effective stress
+//! ```
+//! Each is the number of cycles at the greatest that do the same damage by Miner's rule. The same sums, not
+//! divided, make the map of damage ([`super::damage`]) in coordinates that move with the body.
+//!
 //! Lengths in a, stress in p_h. Memory is made once; steps allocate nothing.
 
 use serde::{Deserialize, Serialize};
 
-use crate::physics::rainflow::{Cycle, Ends, Rainflow};
+pub use super::axis::Line;
+use super::damage::{BlockSpec, DamageMap};
+use super::tally::{Crossing, History, mean};
+pub use super::tally::{DamageBasis, Tally};
 
 /// Fraction of the golden section: multiples of it, modulo 1, spread evenly and never fall into step with
 /// the ripples, as equal spacing may.
@@ -40,6 +52,8 @@ pub struct TrackerSpec {
     pub pressure_gate: f64,
     /// Least range of shear that counts, p_h.
     pub shear_gate: f64,
+    /// Least range of effective stress that counts, p_h.
+    pub effective_gate: f64,
     /// Depths at which shear is followed (0: pressure alone); the slice's own depths.
     pub depths: usize,
     /// Depth of the point that is shown, an index below `depths`.
@@ -48,6 +62,8 @@ pub struct TrackerSpec {
     pub damage_exponent: f64,
     /// Samples kept of the shown point's crossing.
     pub trace: usize,
+    /// Damage map of a block of the surface; `None`: not kept.
+    pub map: Option<(BlockSpec, DamageBasis)>,
 }
 
 impl TrackerSpec {
@@ -55,6 +71,10 @@ impl TrackerSpec {
     pub const PRESSURE_GATE: f64 = 0.05;
     /// Gate on the shear's ranges, p_h: the same part of its own scale (τ_xz of Hertz swings by 0.5 p_h).
     pub const SHEAR_GATE: f64 = 0.02;
+    /// Gate on the effective stress's ranges, p_h: the same part of its scale (0.62 p_h under Hertz).
+    pub const EFFECTIVE_GATE: f64 = 0.03;
+    /// Points where a damage map is kept.
+    pub const MAP_POINTS: usize = 64;
 
     /// Sixteen points, default gates.
     pub fn new((x_first, x_last): (f64, f64), depths: usize, damage_exponent: f64) -> Self {
@@ -64,134 +84,33 @@ impl TrackerSpec {
             x_last,
             pressure_gate: Self::PRESSURE_GATE,
             shear_gate: Self::SHEAR_GATE,
+            effective_gate: Self::EFFECTIVE_GATE,
             depths,
             shown_depth: 0,
             damage_exponent,
             trace: 2048,
+            map: None,
         }
     }
-}
-
-/// The line y = 0 at one instant.
-#[derive(Debug, Clone, Copy)]
-pub struct Line<'a> {
-    /// Coordinate of the first node, a.
-    pub x_first: f64,
-    /// Node spacing, a.
-    pub dx: f64,
-    /// Pressure at the nodes, p_h.
-    pub pressure: &'a [f32],
-    /// Signed orthogonal shear below the nodes, `[k·nx + i]`; `None`: not known.
-    pub tau_xz: Option<&'a [f32]>,
-}
-
-impl Line<'_> {
-    /// Linear interpolation in one row of nodes; 0 outside.
-    fn at(&self, row: &[f32], x: f64) -> f64 {
-        let place = (x - self.x_first) / self.dx;
-        if place < 0.0 || place > (row.len() - 1) as f64 {
-            return 0.0;
-        }
-        let i = (place as usize).min(row.len().saturating_sub(2));
-        let part = place - i as f64;
-        f64::from(row[i]) * (1.0 - part) + f64::from(row[i + 1]) * part
-    }
-
-    fn pressure_at(&self, x: f64) -> f64 {
-        self.at(self.pressure, x)
-    }
-
-    fn shear_at(&self, k: usize, x: f64) -> f64 {
-        let nx = self.pressure.len();
-        self.tau_xz
-            .and_then(|tau| tau.get(k * nx..(k + 1) * nx))
-            .map_or(0.0, |row| self.at(row, x))
-    }
-}
-
-/// Cycles of one history.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Tally {
-    /// Cycles with a range above the gate.
-    pub count: f64,
-    /// Σ count · range^m.
-    damage: f64,
-    /// Greatest range.
-    pub range: f64,
-    /// `Σ count · (range/greatest)^m`: as many cycles of the greatest range do the same damage.
-    pub equivalent: f64,
-}
-
-impl Tally {
-    fn add(&mut self, cycle: Cycle, exponent: f64) {
-        self.count += cycle.count;
-        self.damage += cycle.count * cycle.range.powf(exponent);
-        self.range = self.range.max(cycle.range);
-        self.equivalent = self.damage / self.range.powf(exponent);
-    }
-}
-
-/// One history: its counter and tally.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-struct History {
-    flow: Rainflow,
-    tally: Tally,
-    /// Tally of the last whole crossing.
-    last: Option<Tally>,
-}
-
-impl History {
-    /// Open reversals of a crossing: far more than the crests of any contact that a grid resolves.
-    const OPEN: usize = 512;
-
-    fn new(gate: f64) -> Self {
-        Self {
-            flow: Rainflow::new(Ends::Repeating, gate, Self::OPEN),
-            tally: Tally::default(),
-            last: None,
-        }
-    }
-
-    fn push(&mut self, value: f64, exponent: f64) {
-        let Self { flow, tally, .. } = self;
-        flow.push(value, &mut |cycle| tally.add(cycle, exponent));
-    }
-
-    /// Starts a crossing at zero stress.
-    fn start(&mut self, exponent: f64) {
-        self.flow.reset();
-        self.tally = Tally::default();
-        self.push(0.0, exponent);
-    }
-
-    /// Ends it at zero stress.
-    fn end(&mut self, exponent: f64, crossing: Crossing) {
-        self.push(0.0, exponent);
-        let Self { flow, tally, last } = self;
-        flow.finish(&mut |cycle| tally.add(cycle, exponent));
-        if crossing == Crossing::Whole {
-            *last = Some(*tally);
-        }
-    }
-}
-
-/// Whether a point's crossing has been followed from its start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-enum Crossing {
-    /// Not sampled yet.
-    New,
-    /// From before the contact.
-    Whole,
-    /// From inside or behind the contact: not counted.
-    Part,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Point {
     x: f64,
     crossing: Crossing,
+    /// Place on the body, a: does not change during a crossing.
+    place: f64,
     pressure: History,
     shear: Vec<History>,
+    effective: Vec<History>,
+}
+
+impl Point {
+    fn histories(&mut self) -> impl Iterator<Item = &mut History> {
+        std::iter::once(&mut self.pressure)
+            .chain(&mut self.shear)
+            .chain(&mut self.effective)
+    }
 }
 
 /// A sample of the shown point.
@@ -216,6 +135,9 @@ pub struct MaterialTracker {
     /// Samples of the shown point's crossing, oldest first from `oldest` on.
     trace: Vec<Sample>,
     oldest: usize,
+    /// Way of the body, a.
+    way: f64,
+    map: Option<DamageMap>,
 }
 
 impl MaterialTracker {
@@ -223,13 +145,18 @@ impl MaterialTracker {
     pub fn new(spec: TrackerSpec) -> Self {
         let length = spec.x_last - spec.x_first;
         let count = spec.points.max(1);
+        let below = |gate: f64, basis: DamageBasis| History::new(gate, basis, History::OPEN_BELOW);
         let point = |i: usize| Point {
             x: spec.x_first + length * (GOLDEN * i as f64).fract(),
             crossing: Crossing::New,
-            pressure: History::new(spec.pressure_gate),
+            place: 0.0,
+            pressure: History::new(spec.pressure_gate, DamageBasis::Ranges, History::OPEN),
             // Each made anew: a clone would not have the room.
             shear: (0..spec.depths)
-                .map(|_| History::new(spec.shear_gate))
+                .map(|_| below(spec.shear_gate, DamageBasis::Ranges))
+                .collect(),
+            effective: (0..spec.depths)
+                .map(|_| below(spec.effective_gate, DamageBasis::Peaks))
                 .collect(),
         };
         let mut tracker = Self {
@@ -238,39 +165,48 @@ impl MaterialTracker {
             crossings: 0,
             trace: Vec::with_capacity(spec.trace.max(1)),
             oldest: 0,
+            way: 0.0,
+            map: spec.map.map(|(block, _)| DamageMap::new(block)),
         };
-        tracker.restart();
+        tracker.restart(0.0);
         tracker
     }
 
     /// Makes the room again that a copy or a file does not keep.
     pub fn make_room(&mut self) {
-        for point in &mut self.points {
-            for history in std::iter::once(&mut point.pressure).chain(&mut point.shear) {
-                history.flow.make_room();
-            }
-        }
+        self.points
+            .iter_mut()
+            .flat_map(Point::histories)
+            .for_each(History::make_room);
         let room = self.spec.trace.max(1).saturating_sub(self.trace.len());
         self.trace.reserve_exact(room);
     }
 
     /// Whether a tracker that was read from a file can be used.
     pub fn is_sound(&self) -> bool {
-        let depths = |point: &Point| point.shear.len() == self.spec.depths;
+        let depths = self.spec.depths;
+        let whole = |p: &Point| p.shear.len() == depths && p.effective.len() == depths;
         !self.points.is_empty()
-            && self.points.iter().all(depths)
+            && self.points.iter().all(whole)
+            && self.map.as_ref().is_none_or(|map| map.is_sound(depths))
             && self.oldest < self.trace.len().max(1)
     }
 
-    /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are.
-    pub fn restart(&mut self) {
+    /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are, and the
+    /// body has moved by `way` (in a) since its origin.
+    pub fn restart(&mut self, way: f64) {
         let exponent = self.spec.damage_exponent;
+        self.way = way;
         for point in &mut self.points {
             point.crossing = Crossing::New;
-            for history in std::iter::once(&mut point.pressure).chain(&mut point.shear) {
+            point.place = point.x - way;
+            for history in point.histories() {
                 history.start(exponent);
                 history.last = None;
             }
+        }
+        if let Some(map) = &mut self.map {
+            map.clear();
         }
         self.crossings = 0;
         self.trace.clear();
@@ -279,6 +215,7 @@ impl MaterialTracker {
 
     /// Moves every point by `travel = U_i Δt` (in a, signed) and samples the line there.
     pub fn step(&mut self, travel: f64, line: &Line) {
+        self.way += travel;
         for i in 0..self.points.len() {
             if self.advance(i, travel) {
                 self.crossings += u64::from(self.points[i].crossing == Crossing::Whole);
@@ -313,10 +250,21 @@ impl MaterialTracker {
         if left {
             point.x = first + (point.x - first).rem_euclid(last - first);
             let crossing = point.crossing;
-            for history in std::iter::once(&mut point.pressure).chain(&mut point.shear) {
+            for history in point.histories() {
                 history.end(exponent, crossing);
                 history.start(exponent);
             }
+            if let (Some(map), Some((_, basis)), Crossing::Whole) =
+                (&mut self.map, self.spec.map, crossing)
+            {
+                let histories = match basis {
+                    DamageBasis::Ranges => &point.shear,
+                    DamageBasis::Peaks => &point.effective,
+                };
+                let damage = histories.iter().filter_map(|h| Some(h.last?.damage));
+                map.add(point.place, damage);
+            }
+            point.place = point.x - self.way;
         }
         left
     }
@@ -338,6 +286,11 @@ impl MaterialTracker {
         if line.tau_xz.is_some() {
             for (k, history) in point.shear.iter_mut().enumerate() {
                 history.push(line.shear_at(k, point.x), exponent);
+            }
+        }
+        if line.effective.is_some() {
+            for (k, history) in point.effective.iter_mut().enumerate() {
+                history.push(line.effective_at(k, point.x), exponent);
             }
         }
     }
@@ -375,6 +328,38 @@ impl MaterialTracker {
         mean(self.points.iter().filter_map(|p| p.shear.get(k)?.last))
     }
 
+    /// Same of the effective stress at depth `k`; sizes are peaks.
+    pub fn effective_cycles(&self, k: usize) -> Option<Tally> {
+        mean(self.points.iter().filter_map(|p| p.effective.get(k)?.last))
+    }
+
+    /// Mean of the counts and of the equivalent cycles of every depth, on a basis, into `counted` and
+    /// `equivalent`; false until a crossing is finished.
+    pub fn cycles_by_depth(
+        &self,
+        basis: DamageBasis,
+        counted: &mut [f64],
+        equivalent: &mut [f64],
+    ) -> bool {
+        let mut known = !counted.is_empty();
+        for (k, (counted, equivalent)) in counted.iter_mut().zip(equivalent).enumerate() {
+            let tally = match basis {
+                DamageBasis::Ranges => self.shear_cycles(k),
+                DamageBasis::Peaks => self.effective_cycles(k),
+            };
+            known &= tally.is_some();
+            let tally = tally.unwrap_or_default();
+            // What never passes the gate is one loading cycle all the same.
+            (*counted, *equivalent) = (tally.count.max(1.0), tally.equivalent.max(1.0));
+        }
+        known
+    }
+
+    /// Damage of the block so far.
+    pub fn map(&self) -> Option<&DamageMap> {
+        self.map.as_ref()
+    }
+
     /// Points whose last whole crossing is in the mean.
     pub fn phases(&self) -> usize {
         self.points
@@ -389,23 +374,6 @@ impl MaterialTracker {
         let sum: f64 = self.points.iter().map(|p| p.pressure.tally.count).sum();
         sum / self.points.len() as f64
     }
-}
-
-fn mean(tallies: impl Iterator<Item = Tally>) -> Option<Tally> {
-    let (mut sum, mut count) = (Tally::default(), 0.0);
-    for tally in tallies {
-        sum.count += tally.count;
-        sum.damage += tally.damage;
-        sum.equivalent += tally.equivalent;
-        sum.range = sum.range.max(tally.range);
-        count += 1.0;
-    }
-    (count > 0.0).then(|| Tally {
-        count: sum.count / count,
-        damage: sum.damage / count,
-        equivalent: sum.equivalent / count,
-        range: sum.range,
-    })
 }
 
 #[cfg(test)]
@@ -430,6 +398,7 @@ mod tests {
             dx: 0.02,
             pressure: &pressure,
             tau_xz: None,
+            effective: None,
         };
         for travel in [0.03, -0.03] {
             let mut tracker = MaterialTracker::new(TrackerSpec::new((-2.0, 2.0), 0, 10.0));
@@ -450,6 +419,7 @@ mod tests {
             dx: 0.02,
             pressure: &pressure,
             tau_xz: None,
+            effective: None,
         };
         let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 10.0);
         spec.points = 4; // at −2, 0.47, −1.06 and 1.42
@@ -477,6 +447,7 @@ mod tests {
                 dx: 0.5,
                 pressure: &pressure,
                 tau_xz: None,
+                effective: None,
             };
             tracker.step(0.0, &line);
         }
@@ -493,6 +464,7 @@ mod tests {
             dx: 0.02,
             pressure: &pressure,
             tau_xz: None,
+            effective: None,
         };
         let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 10.0);
         spec.trace = 10;

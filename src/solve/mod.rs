@@ -1,5 +1,8 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
 
+mod axis;
+pub mod critical;
+pub mod damage;
 pub mod dry;
 mod faces;
 pub mod film;
@@ -14,5 +17,6 @@ pub mod newton;
 pub mod precondition;
 pub mod reynolds;
 pub mod stress;
+mod tally;
 pub mod tangential;
 pub mod traction;

@@ -160,6 +160,7 @@ pub(crate) fn frame(n: usize, step: u64) -> Arc<Frame> {
         slice: Some(slice),
         material_point: Some(point(t, &pressure)),
         metrics: metrics(step, t, f64::from(p_max), peak),
+        ..Frame::default()
     })
 }
 
@@ -270,6 +271,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
             life_relative_low: life_relative * 0.8,
             life_relative_high: life_relative * 1.25,
             settled: step > 120,
+            ..LifeEstimate::default()
         }),
         n_body_1: Some(4.2),
         n_body_2: Some(2.5),

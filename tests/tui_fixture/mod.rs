@@ -309,6 +309,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
             life_relative_low: 0.8 * life_relative,
             life_relative_high: 1.25 * life_relative,
             settled: state.settled,
+            ..LifeEstimate::default()
         }),
         n_body_1: Some(n_1),
         n_body_2: Some(n_2),

@@ -5,6 +5,14 @@
 //! σxy = E (i ny q̂ − nx ny A)    σxz = E (−q̂ + i nx kz D)    σyz = E i ny kz D
 //! ```
 //! For a mode −ky, `ny` changes sign: d1, d2, σxz keep their factors, those of σxy and σyz turn.
+//! Pressure and traction are formed apart: both bodies, with and without traction, are sums and differences
+//! of the two. Without pressure, with `B = 2ν + kz`:
+//! ```text
+//! q_x:  d1 = i nx E [2 − (nx² − ny²) B] q̂x      d2 = i nx E [2ν − kz − ny² B] q̂x
+//!       σxy = i ny E [1 − nx² B] q̂x    σxz = E [nx² kz − 1] q̂x    σyz = E nx ny kz q̂x
+//! q_y:  d1 = −i ny E [2 + (nx² − ny²) B] q̂y     d2 = i ny E [2 + 2ν − kz − ny² B] q̂y
+//!       σxy = i nx E [1 − ny² B] q̂y    σxz = E nx ny kz q̂y        σyz = E [ny² kz − 1] q̂y
+//! ```
 
 use super::fft::Lanes;
 use super::lanes::{LANES, V};
@@ -12,13 +20,16 @@ use super::layer::{Layer, LowRow, Waves};
 use super::load::{Half, Spectrum};
 use super::window::LOW;
 
-/// Which loads act.
+/// The part of the load whose stress is formed: the effective stress of several loadings is reduced from the
+/// fields of these two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Loads {
-    /// Pressure alone.
+pub(super) enum Part {
+    /// Pressure.
     Normal,
-    /// Pressure and traction.
-    Both,
+    /// Traction along x.
+    AlongX,
+    /// Traction along x and y.
+    AlongBoth,
 }
 
 /// One lane's complex number.
@@ -60,39 +71,88 @@ fn normal(m: Mode, s: Elastic, (re, im): Z) -> Five {
     ]
 }
 
+/// Times i.
 #[inline(always)]
-fn both(m: Mode, s: Elastic, p: Z, x: Z) -> Five {
+fn turned(factor: f32, (re, im): Z) -> Z {
+    (-factor * im, factor * re)
+}
+
+#[inline(always)]
+fn plus(a: Z, b: Z) -> Z {
+    (a.0 + b.0, a.1 + b.1)
+}
+
+#[inline(always)]
+fn along_x(m: Mode, s: Elastic, x: Z) -> Five {
     let Mode { e, kz, nx, ny } = m;
-    let q = (-nx * x.1, nx * x.0);
-    let d = (p.0 - q.0, p.1 - q.1);
-    let a0 = s.one_less_two_nu * p.0 + s.two_nu * q.0 - kz * d.0;
-    let a1 = s.one_less_two_nu * p.1 + s.two_nu * q.1 - kz * d.1;
-    let (f1, f2, fxy) = (ny * ny - nx * nx, kz - s.two_nu, nx * ny);
-    let (fxz, fyz) = (nx * kz, ny * kz);
+    let b = s.two_nu + kz;
+    let (e_x, e_y) = (e * nx, e * ny);
+    let (fxz, fyz) = (e * (nx * nx * kz - 1.0), e_x * ny * kz);
     [
-        (e * (2.0 * q.0 + f1 * a0), e * (2.0 * q.1 + f1 * a1)),
-        (
-            e * (p.0 + f2 * d.0 - ny * ny * a0),
-            e * (p.1 + f2 * d.1 - ny * ny * a1),
-        ),
-        (e * (-ny * x.1 - fxy * a0), e * (ny * x.0 - fxy * a1)),
-        (e * (-x.0 - fxz * d.1), e * (fxz * d.0 - x.1)),
-        (-e * fyz * d.1, e * fyz * d.0),
+        turned(e_x * (2.0 - (nx * nx - ny * ny) * b), x),
+        turned(e_x * (s.two_nu - kz - ny * ny * b), x),
+        turned(e_y * (1.0 - nx * nx * b), x),
+        (fxz * x.0, fxz * x.1),
+        (fyz * x.0, fyz * x.1),
     ]
 }
 
-/// A windowed mode; `ny` is the sign of ky. Without traction `x` is zero.
 #[inline(always)]
-fn low(row: &LowRow, l: usize, ny: f32, p: Z, x: Z) -> Five {
-    let t = |i: usize| row.p[i].0[l];
-    let u = |i: usize| row.q[i].0[l];
-    let (txy, tyz, uxy, uyz) = (ny * t(3), ny * t(5), ny * u(3), ny * u(5));
+fn along_both(m: Mode, s: Elastic, x: Z, y: Z) -> Five {
+    let Mode { e, kz, nx, ny } = m;
+    let b = s.two_nu + kz;
+    let (e_x, e_y) = (e * nx, e * ny);
+    let (fxz, fyz) = (e_x * ny * kz, e * (ny * ny * kz - 1.0));
+    let [d1, d2, xy, xz, yz] = along_x(m, s, x);
     [
-        (t(0) * p.0 - u(0) * x.1, t(0) * p.1 + u(0) * x.0),
-        (t(1) * p.0 - u(1) * x.1, t(1) * p.1 + u(1) * x.0),
-        (txy * p.0 - uxy * x.1, txy * p.1 + uxy * x.0),
-        (u(4) * x.0 - t(4) * p.1, u(4) * x.1 + t(4) * p.0),
-        (uyz * x.0 - tyz * p.1, uyz * x.1 + tyz * p.0),
+        plus(d1, turned(-e_y * (2.0 + (nx * nx - ny * ny) * b), y)),
+        plus(d2, turned(e_y * (2.0 + s.two_nu - kz - ny * ny * b), y)),
+        plus(xy, turned(e_x * (1.0 - ny * ny * b), y)),
+        plus(xz, (fxz * y.0, fxz * y.1)),
+        plus(yz, (fyz * y.0, fyz * y.1)),
+    ]
+}
+
+/// A windowed mode under pressure; `ny` is the sign of ky.
+#[inline(always)]
+fn low_normal(row: &LowRow, l: usize, ny: f32, p: Z) -> Five {
+    let t = |i: usize| row.p[i].0[l];
+    let xy = ny * t(3);
+    [
+        (t(0) * p.0, t(0) * p.1),
+        (t(1) * p.0, t(1) * p.1),
+        (xy * p.0, xy * p.1),
+        turned(t(4), p),
+        turned(ny * t(5), p),
+    ]
+}
+
+/// Same under traction along x.
+#[inline(always)]
+fn low_along_x(row: &LowRow, l: usize, ny: f32, x: Z) -> Five {
+    let t = |i: usize| row.x[i].0[l];
+    let yz = ny * t(5);
+    [
+        turned(t(0), x),
+        turned(t(1), x),
+        turned(ny * t(3), x),
+        (t(4) * x.0, t(4) * x.1),
+        (yz * x.0, yz * x.1),
+    ]
+}
+
+/// Same under traction along x and y.
+#[inline(always)]
+fn low_along_both(row: &LowRow, l: usize, ny: f32, x: Z, y: Z) -> Five {
+    let t = |i: usize| row.y[i].0[l];
+    let [d1, d2, xy, xz, yz] = low_along_x(row, l, ny, x);
+    let fxz = ny * t(4);
+    [
+        plus(d1, turned(ny * t(0), y)),
+        plus(d2, turned(ny * t(1), y)),
+        plus(xy, turned(t(3), y)),
+        plus(xz, (fxz * y.0, fxz * y.1)),
+        plus(yz, (t(5) * y.0, t(5) * y.1)),
     ]
 }
 
@@ -149,6 +209,7 @@ struct Row<'a> {
     ny: &'a V,
     p: (&'a V, &'a V),
     x: (&'a V, &'a V),
+    y: (&'a V, &'a V),
     z: f32,
     /// Sign of ky.
     sign: f32,
@@ -174,6 +235,11 @@ impl Row<'_> {
     fn x(&self, l: usize) -> Z {
         (self.x.0.0[l], self.x.1.0[l])
     }
+
+    #[inline(always)]
+    fn y(&self, l: usize) -> Z {
+        (self.y.0.0[l], self.y.1.0[l])
+    }
 }
 
 #[inline(always)]
@@ -191,13 +257,15 @@ fn row_of<'a>(
         nx: &waves.nx[i],
         ny: &waves.ny[i],
         p: (&half.p.re[i], &half.p.im[i]),
-        x: (&half.q.re[i], &half.q.im[i]),
+        x: (&half.x.re[i], &half.x.im[i]),
+        y: (&half.y.re[i], &half.y.im[i]),
         z: layer.z as f32,
         sign,
     }
 }
 
-/// Fills the inputs of the transforms along y of one block.
+/// Fills the inputs of the transforms along y of one block, for the material of table `material` with
+/// Poisson's ratio `nu`.
 ///
 /// Mirror: three buffers d1 + xy, d2 + yz, xz (an even and an odd one share a transform).
 /// General: five buffers, one each.
@@ -206,20 +274,21 @@ pub(super) fn block_inputs(
     block: usize,
     waves: &Waves,
     spectrum: &Spectrum,
-    nu: f64,
-    loads: Loads,
+    (material, nu): (usize, f64),
+    part: Part,
     out: &mut [Lanes],
 ) {
     let elastic = Elastic {
         two_nu: (2.0 * nu) as f32,
         one_less_two_nu: (1.0 - 2.0 * nu) as f32,
     };
+    let low = &layer.low[material];
     match &spectrum.minus {
-        None => mirror_inputs(layer, block, waves, &spectrum.plus, elastic, loads, out),
+        None => mirror_inputs(layer, low, block, waves, &spectrum.plus, elastic, part, out),
         Some(minus) => {
             let plus = &spectrum.plus;
-            general_inputs(layer, block, waves, plus, 1.0, elastic, loads, out);
-            general_inputs(layer, block, waves, minus, -1.0, elastic, loads, out);
+            general_inputs(layer, low, block, waves, plus, 1.0, elastic, part, out);
+            general_inputs(layer, low, block, waves, minus, -1.0, elastic, part, out);
         }
     }
     let (n, rows) = (layer.n_y, layer.rows);
@@ -235,26 +304,40 @@ fn tabulated_rows(block: usize) -> usize {
     if block == 0 { LOW } else { 0 }
 }
 
+/// Sixteen lanes of one row: windowed below [`tabulated_rows`], the kernel's own spectrum beyond.
+macro_rules! five_of {
+    ($shape:ident, $part:expr, $windowed:expr, $r:ident, $t:ident, $sign:expr, $s:ident) => {
+        match ($part, $windowed) {
+            (Part::Normal, false) => in_lanes!(l => $shape(normal($r.mode(l), $s, $r.p(l)))),
+            (Part::Normal, true) => in_lanes!(l => $shape(low_normal($t, l, $sign, $r.p(l)))),
+            (Part::AlongX, false) => in_lanes!(l => $shape(along_x($r.mode(l), $s, $r.x(l)))),
+            (Part::AlongX, true) => in_lanes!(l => $shape(low_along_x($t, l, $sign, $r.x(l)))),
+            (Part::AlongBoth, false) => {
+                in_lanes!(l => $shape(along_both($r.mode(l), $s, $r.x(l), $r.y(l))))
+            }
+            (Part::AlongBoth, true) => {
+                in_lanes!(l => $shape(low_along_both($t, l, $sign, $r.x(l), $r.y(l))))
+            }
+        }
+    };
+}
+
 dispatched! {
 fn mirror_inputs(
     layer: &Layer,
+    low: &[LowRow],
     block: usize,
     waves: &Waves,
     half: &Half,
     elastic: Elastic,
-    loads: Loads,
+    part: Part,
     out: &mut [Lanes],
 ) {
     let n = layer.n_y;
     for y in 0..layer.rows {
         let r = row_of(layer, waves, half, (block, y), 1.0);
-        let t = &layer.low[y.min(LOW - 1)];
-        let five = match (loads, y < tabulated_rows(block)) {
-            (Loads::Normal, false) => in_lanes!(l => folded(normal(r.mode(l), elastic, r.p(l)))),
-            (Loads::Both, false) => in_lanes!(l => folded(both(r.mode(l), elastic, r.p(l), r.x(l)))),
-            (Loads::Normal, true) => in_lanes!(l => folded(low(t, l, 1.0, r.p(l), (0.0, 0.0)))),
-            (Loads::Both, true) => in_lanes!(l => folded(low(t, l, 1.0, r.p(l), r.x(l)))),
-        };
+        let t = &low[y.min(LOW - 1)];
+        let five = five_of!(folded, part, y < tabulated_rows(block), r, t, 1.0, elastic);
         let minus = (n - y) % n;
         for (buffer, (plus, at_minus)) in out.iter_mut().zip([(0, 3), (1, 4), (2, 2)]) {
             (buffer.re[minus], buffer.im[minus]) = five[at_minus];
@@ -267,24 +350,20 @@ fn mirror_inputs(
 dispatched! {
 fn general_inputs(
     layer: &Layer,
+    low: &[LowRow],
     block: usize,
     waves: &Waves,
     half: &Half,
     sign: f32,
     elastic: Elastic,
-    loads: Loads,
+    part: Part,
     out: &mut [Lanes],
 ) {
     let n = layer.n_y;
     for y in 0..layer.rows {
         let r = row_of(layer, waves, half, (block, y), sign);
-        let t = &layer.low[y.min(LOW - 1)];
-        let five = match (loads, y < tabulated_rows(block)) {
-            (Loads::Normal, false) => in_lanes!(l => plain(normal(r.mode(l), elastic, r.p(l)))),
-            (Loads::Both, false) => in_lanes!(l => plain(both(r.mode(l), elastic, r.p(l), r.x(l)))),
-            (Loads::Normal, true) => in_lanes!(l => plain(low(t, l, sign, r.p(l), (0.0, 0.0)))),
-            (Loads::Both, true) => in_lanes!(l => plain(low(t, l, sign, r.p(l), r.x(l)))),
-        };
+        let t = &low[y.min(LOW - 1)];
+        let five = five_of!(plain, part, y < tabulated_rows(block), r, t, sign, elastic);
         let i = if sign > 0.0 { y } else { (n - y) % n };
         for (buffer, five) in out.iter_mut().zip(five) {
             (buffer.re[i], buffer.im[i]) = five;

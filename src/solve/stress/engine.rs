@@ -6,7 +6,9 @@ use super::lanes::LANES;
 use super::layer::{Layer, Waves, layers};
 use super::load::{LoadScratch, Spectrum};
 use super::slice::SliceScratch;
+use super::sums::VolumeSums;
 use super::volume::Worker;
+use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
 
 /// Which rows of the surface are given.
@@ -16,6 +18,59 @@ pub enum Symmetry {
     MirrorY,
     /// All rows; the middle one (`ny/2`, `ny` odd) is y = 0.
     General,
+}
+
+/// Which body is looked at, and what acts on it. Body 2 has its own inward z and the same x and y; the
+/// traction on it is opposite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Loading {
+    /// Pressure alone.
+    Normal(BodyId),
+    /// Pressure and traction.
+    Full(BodyId),
+}
+
+impl Loading {
+    /// Every loading, in the order in which results are kept.
+    pub const ALL: [Self; 4] = [
+        Self::Normal(BodyId::One),
+        Self::Full(BodyId::One),
+        Self::Normal(BodyId::Two),
+        Self::Full(BodyId::Two),
+    ];
+
+    /// Place in [`Self::ALL`].
+    pub fn index(self) -> usize {
+        match self {
+            Self::Normal(body) => 2 * body.index(),
+            Self::Full(body) => 2 * body.index() + 1,
+        }
+    }
+
+    /// The body that is looked at.
+    pub fn body(self) -> BodyId {
+        match self {
+            Self::Normal(body) | Self::Full(body) => body,
+        }
+    }
+
+    /// Factor of the loaded traction.
+    pub(super) fn traction_sign(self) -> f32 {
+        match self {
+            Self::Normal(_) => 0.0,
+            Self::Full(BodyId::One) => 1.0,
+            Self::Full(BodyId::Two) => -1.0,
+        }
+    }
+}
+
+/// What an engine is used for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Slices and planes: no memory for volumes is made.
+    Slices,
+    /// Volumes too.
+    Volumes,
 }
 
 /// What the engine is asked for. Lengths in a, stress in p_h.
@@ -31,14 +86,18 @@ pub struct StressSpec {
     pub dx: f64,
     /// Node spacing along y, a.
     pub dy: f64,
-    /// Poisson's ratio.
+    /// Poisson's ratio of body 1.
     pub nu: f64,
+    /// Poisson's ratio of body 2.
+    pub nu_2: f64,
     /// Depths, ascending, > 0, a.
     pub depths: Vec<f64>,
     /// Weights of the depths in an integral over z, a.
     pub weights: Vec<f64>,
     /// Which rows are given.
     pub symmetry: Symmetry,
+    /// What it is used for.
+    pub purpose: Purpose,
     /// Scalar measure of stress.
     pub measure: StressMeasure,
     /// Least period of the transform over the size of the domain.
@@ -73,9 +132,11 @@ impl StressSpec {
             dx,
             dy,
             nu,
+            nu_2: nu,
             depths,
             weights,
             symmetry,
+            purpose: Purpose::Volumes,
             measure: StressMeasure::VonMises,
             pad: Self::PAD,
             window: Self::WINDOW,
@@ -107,8 +168,10 @@ impl StressSpec {
         if !positive(self.dy) {
             return bad("dy", self.dy, "finite, above 0");
         }
-        if !(0.0..=0.5).contains(&self.nu) {
-            return bad("nu", self.nu, "0 to 0.5");
+        for (key, nu) in [("nu", self.nu), ("nu_2", self.nu_2)] {
+            if !(0.0..=0.5).contains(&nu) {
+                return bad(key, nu, "0 to 0.5");
+            }
         }
         if !(1.2..=4.0).contains(&self.pad) {
             return bad("pad", self.pad, "1.2 to 4");
@@ -143,8 +206,26 @@ impl StressSpec {
         }
     }
 
+    /// Poisson's ratio of a body.
+    pub fn poisson(&self, body: BodyId) -> f64 {
+        match body {
+            BodyId::One => self.nu,
+            BodyId::Two => self.nu_2,
+        }
+    }
+
+    /// Tables that are needed: one where both bodies have the same Poisson's ratio.
+    pub(super) fn materials(&self) -> usize {
+        if self.nu == self.nu_2 { 1 } else { 2 }
+    }
+
+    /// The table of a body.
+    pub(super) fn material(&self, body: BodyId) -> usize {
+        body.index().min(self.materials() - 1)
+    }
+
     /// Rows of the whole domain.
-    fn full_rows(&self) -> usize {
+    pub(super) fn full_rows(&self) -> usize {
         match self.symmetry {
             Symmetry::MirrorY => 2 * self.ny - 1,
             Symmetry::General => self.ny,
@@ -174,6 +255,7 @@ pub struct StressEngine {
     pub(super) load: LoadScratch,
     pub(super) slice: SliceScratch,
     pub(super) workers: Vec<Worker>,
+    pub(super) sums: VolumeSums,
 }
 
 impl StressEngine {
@@ -189,14 +271,18 @@ impl StressEngine {
         let waves = Waves::new(n_x, n_y, n_x as f64 * spec.dx, n_y as f64 * spec.dy);
         let mut plans = Vec::new();
         let layers = layers(spec, &waves, &mut plans);
-        let threads = rayon::current_num_threads().min(spec.depths.len());
+        let threads = match spec.purpose {
+            Purpose::Slices => 0,
+            Purpose::Volumes => rayon::current_num_threads().min(spec.depths.len()),
+        };
         Ok(Self {
             spectrum: Spectrum::new(spec.symmetry, &waves),
             load: LoadScratch::new(&waves, &mut plans),
             slice: SliceScratch::new(spec, &waves),
             workers: (0..threads)
-                .map(|_| Worker::new(spec.symmetry, &waves, 2 * layers.len()))
+                .map(|_| Worker::new(spec.symmetry, &waves, &layers))
                 .collect(),
+            sums: VolumeSums::new(spec, &layers),
             spec: spec.clone(),
             waves,
             layers,
@@ -215,7 +301,15 @@ impl StressEngine {
         let lanes = |l: &Lanes| 2 * v * l.re.len();
         let layers: usize = self.layers.iter().map(Layer::bytes).sum();
         let workers: usize = self.workers.iter().map(Worker::bytes).sum();
-        layers + workers + self.spectrum.lanes().map(lanes).sum::<usize>()
+        let spectra: usize = self.spectrum.lanes().map(lanes).sum();
+        let waves = 3 * v * self.waves.k.len();
+        layers
+            + workers
+            + spectra
+            + waves
+            + self.slice.bytes()
+            + self.load.bytes()
+            + self.sums.bytes()
     }
 }
 

@@ -65,12 +65,14 @@ impl Waves {
     }
 }
 
-/// Windowed responses of the sixteen modes of one ky row: `[σ]` of p and of q, in the order xx − yy,
-/// yy − zz, zz, xy, xz, yz. For p, xz and yz are to be taken times i; for q, all but those.
+/// Windowed responses of the sixteen modes of one ky row: `[σ]` of p, of q_x and of q_y, in the order
+/// xx − yy, yy − zz, zz, xy, xz, yz. For p, xz and yz are to be taken times i; for q, all but those. At −ky,
+/// xy and yz of p and q_x turn their sign, and all but those of q_y.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LowRow {
     pub(super) p: [V; 6],
-    pub(super) q: [V; 6],
+    pub(super) x: [V; 6],
+    pub(super) y: [V; 6],
 }
 
 /// One depth.
@@ -89,8 +91,8 @@ pub(super) struct Layer {
     pub(super) rows: usize,
     /// e^{−kz}, `[block · rows + ky]`; 0 beyond this grid's modes.
     pub(super) e: Vec<V>,
-    /// Windowed responses, one row per ky.
-    pub(super) low: Vec<LowRow>,
+    /// Windowed responses, one row per ky, for each Poisson's ratio.
+    pub(super) low: Vec<Vec<LowRow>>,
     /// Points of this grid that lie in the domain, along x.
     pub(super) inside_x: usize,
     /// Rows to sum: y index of the first (negative: below the axis) and how many.
@@ -98,11 +100,13 @@ pub(super) struct Layer {
     pub(super) inside_y: usize,
     /// Area per point, a².
     pub(super) area: f64,
+    /// Distance of the rows, a.
+    pub(super) row_step: f64,
 }
 
 impl Layer {
     pub(super) fn bytes(&self) -> usize {
-        LANES * 4 * (self.e.len() + 12 * self.low.len())
+        LANES * 4 * (self.e.len() + 18 * LOW * self.low.len())
     }
 
     /// Blocks of sixteen rows.
@@ -122,10 +126,21 @@ impl Layer {
 
 /// All layers of a specification.
 pub(super) fn layers(spec: &StressSpec, waves: &Waves, plans: &mut Vec<LaneFft>) -> Vec<Layer> {
-    let tables = low_modes((waves.period_x, waves.period_y), spec.window, &spec.depths);
-    let mut layers = Vec::with_capacity(spec.depths.len());
+    layers_at(spec, &spec.depths, &spec.weights, waves, plans)
+}
+
+/// Layers at `depths` with `weights`.
+pub(super) fn layers_at(
+    spec: &StressSpec,
+    depths: &[f64],
+    weights: &[f64],
+    waves: &Waves,
+    plans: &mut Vec<LaneFft>,
+) -> Vec<Layer> {
+    let tables = low_modes((waves.period_x, waves.period_y), spec.window, depths);
+    let mut layers = Vec::with_capacity(depths.len());
     for (k, table) in tables.iter().enumerate() {
-        let z = spec.depths[k];
+        let z = depths[k];
         let reach = (1.0 / spec.decay).ln() / z;
         let (n_x, kept_x) = grid(reach * waves.period_x / TAU, waves.n_x);
         let (n_y, rows) = grid(reach * waves.period_y / TAU, waves.n_y);
@@ -135,7 +150,7 @@ pub(super) fn layers(spec: &StressSpec, waves: &Waves, plans: &mut Vec<LaneFft>)
         let (first_row, inside_y) = rows_inside(spec, hy);
         layers.push(Layer {
             z,
-            weight: spec.weights[k],
+            weight: weights[k],
             n_x,
             n_y,
             fft_x: plan_of(plans, n_x),
@@ -143,11 +158,15 @@ pub(super) fn layers(spec: &StressSpec, waves: &Waves, plans: &mut Vec<LaneFft>)
             blocks,
             rows,
             e: decay_table(waves, z, n_x / 2, blocks, rows),
-            low: low_rows(table, spec.nu),
+            low: [spec.nu, spec.nu_2][..spec.materials()]
+                .iter()
+                .map(|nu| low_rows(table, *nu))
+                .collect(),
             inside_x: inside(width, hx) + 1,
             first_row,
             inside_y,
             area: hx * hy,
+            row_step: hy,
         });
     }
     layers
@@ -191,17 +210,22 @@ fn decay_table(waves: &Waves, z: f64, modes_x: usize, blocks: usize, rows: usize
 }
 
 fn low_rows(table: &LowModes, nu: f64) -> Vec<LowRow> {
-    let mut rows = vec![
-        LowRow {
-            p: [V::ZERO; 6],
-            q: [V::ZERO; 6],
-        };
-        LOW
-    ];
+    let zero = [V::ZERO; 6];
+    let row = LowRow {
+        p: zero,
+        x: zero,
+        y: zero,
+    };
+    let mut rows = vec![row; LOW];
     for (my, row) in rows.iter_mut().enumerate() {
         for mx in 0..LOW {
             let h = table.at(mx, my);
-            for (slot, s) in [(&mut row.p, h.normal(nu)), (&mut row.q, h.tangential_x(nu))] {
+            let states = [
+                (&mut row.p, h.normal(nu)),
+                (&mut row.x, h.tangential_x(nu)),
+                (&mut row.y, h.tangential_y(nu)),
+            ];
+            for (slot, s) in states {
                 for (v, number) in slot.iter_mut().zip(differences(s)) {
                     v.0[mx] = number as f32;
                 }

@@ -28,11 +28,13 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::depth::depth_rule;
-use super::engine::{StressSpec, Symmetry};
+use super::engine::{Loading, StressSpec, Symmetry};
 use super::peak::{self, Peak};
-use super::slice::SliceOut;
-use super::volume::{Integral, VolumeOut};
+use super::slice_out::SliceOut;
+use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
+use super::volume::VolumeOut;
 use crate::math::kernel_symbol::{even_kernel_symbol, odd_kernel_symbol};
+use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
 
 /// Stress below which a point adds nothing to a life integral, p_h.
@@ -59,6 +61,7 @@ pub struct LineStress {
     scratch: Vec<Complex<f32>>,
     /// xx, zz, xz of one depth.
     rows: [Vec<f32>; 3],
+    sums: VolumeSums,
 }
 
 /// What was loaded last.
@@ -74,12 +77,12 @@ impl LineStress {
     pub fn new(
         nx: usize,
         (x_first, dx): (f64, f64),
-        nu: f64,
+        nu: [f64; 2],
         depths: (usize, f64),
         measure: StressMeasure,
     ) -> Self {
-        let mut spec = StressSpec::new((nx, 1), (dx, 1.0), nu, depths, Symmetry::MirrorY);
-        (spec.x_first, spec.measure) = (x_first, measure);
+        let mut spec = StressSpec::new((nx, 1), (dx, 1.0), nu[0], depths, Symmetry::MirrorY);
+        (spec.nu_2, spec.x_first, spec.measure) = (nu[1], x_first, measure);
         (spec.depths, spec.weights) = depth_rule(depths.0, depths.1);
         let length = 2 * (nx - 1);
         let mut planner = RealFftPlanner::<f32>::new();
@@ -102,6 +105,7 @@ impl LineStress {
             product: vec![zero; modes],
             scratch: vec![zero; scratch],
             rows: [vec![0.0; nx], vec![0.0; nx], vec![0.0; nx]],
+            sums: VolumeSums::of_line(&spec.weights),
             spec,
             forward,
             inverse,
@@ -131,17 +135,22 @@ impl LineStress {
             .expect("buffer lengths were made for this plan");
     }
 
-    /// The stress in the plane x z of the surface loaded last.
+    /// The stress of body 1 in the plane x z under the surface loaded last.
     pub fn slice(&mut self, out: &mut SliceOut) {
+        self.slice_of(Loading::Full(BodyId::One), out);
+    }
+
+    /// The stress of a body in the plane x z under the surface loaded last.
+    pub fn slice_of(&mut self, loading: Loading, out: &mut SliceOut) {
         let nx = self.spec.nx;
+        let nu = self.spec.poisson(loading.body()) as f32;
         for k in 0..self.layers.len() {
-            self.layer(k, self.loaded);
+            self.layer(k, loading);
             let here = k * nx..(k + 1) * nx;
             let [xx, zz, xz] = &self.rows;
             out.sxx[here.clone()].copy_from_slice(xx);
             out.szz[here.clone()].copy_from_slice(zz);
             out.sxz[here.clone()].copy_from_slice(xz);
-            let nu = self.spec.nu as f32;
             for i in 0..nx {
                 let yy = nu * (xx[i] + zz[i]);
                 out.syy[here.start + i] = yy;
@@ -154,51 +163,88 @@ impl LineStress {
 
     /// ln ∫ s^m dx dz of the surface loaded last, without and with its traction.
     pub fn volume(&mut self, exponent: f64) -> VolumeOut {
-        let normal = self.integral(exponent, Loaded::Pressure);
-        let full = match self.loaded {
-            Loaded::Pressure => normal,
-            Loaded::PressureAndTraction => self.integral(exponent, self.loaded),
-        };
-        VolumeOut { normal, full }
+        self.volume_under(&[StressLaw::power(exponent)], &BodyId::BOTH);
+        let integral = |loading| self.sums.integral(loading, 0);
+        VolumeOut {
+            normal: integral(Loading::Normal(BodyId::One)),
+            full: integral(Loading::Full(BodyId::One)),
+            mate: integral(Loading::Full(BodyId::Two)),
+        }
     }
 
-    fn integral(&mut self, exponent: f64, loaded: Loaded) -> Integral {
-        let (nu, measure) = (self.spec.nu as f32, self.spec.measure);
-        let mut peak = Peak::default();
-        // Sum of (s/reference)^m, the reference moved up when a greater stress comes.
-        let (mut reference, mut sum) = (0.0_f64, 0.0_f64);
-        for k in 0..self.layers.len() {
-            self.layer(k, loaded);
-            let [xx, zz, xz] = &self.rows;
-            for i in 0..self.spec.nx {
-                let yy = nu * (xx[i] + zz[i]);
-                let s = effective(measure, [xx[i], yy, zz[i], xz[i]]);
-                if s < NEGLIGIBLE {
-                    continue;
+    /// Sums of the surface loaded last under one or two laws, for the bodies that are asked for.
+    ///
+    /// # Panics
+    /// Without a law, or with more than two.
+    pub fn volume_under(&mut self, laws: &[StressLaw], bodies: &[BodyId]) -> &VolumeSums {
+        assert!((1..=MAX_LAWS).contains(&laws.len()), "one or two laws");
+        self.sums.clear();
+        let alike = self.spec.materials() == 1;
+        for loading in Loading::ALL {
+            let same = match (loading, self.loaded) {
+                (Loading::Full(body), Loaded::Pressure) => Some(Loading::Normal(body)),
+                (Loading::Normal(BodyId::Two), _) if alike => Some(Loading::Normal(BodyId::One)),
+                _ if bodies.contains(&loading.body()) => None,
+                _ => Some(Loading::Normal(BodyId::One)),
+            };
+            match same {
+                Some(same) if same != loading => self.sums.copy(same, loading),
+                _ => {
+                    for k in 0..self.layers.len() {
+                        self.layer_sums(k, loading, laws);
+                    }
                 }
-                let s = f64::from(s);
-                if s > reference {
-                    sum *= (reference / s).powf(exponent);
-                    reference = s;
-                    peak = Peak {
-                        value: s,
-                        x: self.spec.x_first + self.spec.dx * i as f64,
-                        y: 0.0,
-                        z: self.spec.depths[k],
-                    };
-                }
-                sum += self.spec.weights[k] * (s / reference).powf(exponent);
             }
         }
-        Integral {
-            ln: exponent * reference.ln() + (sum * self.spec.dx).ln(),
-            peak,
+        &self.sums
+    }
+
+    /// Sums of the last call of [`Self::volume_under`].
+    pub fn sums(&self) -> &VolumeSums {
+        &self.sums
+    }
+
+    /// One depth under one loading.
+    fn layer_sums(&mut self, k: usize, loading: Loading, laws: &[StressLaw]) {
+        self.layer(k, loading);
+        let nu = self.spec.poisson(loading.body()) as f32;
+        let (mut top, mut at) = (0.0_f32, 0);
+        for i in 0..self.spec.nx {
+            let [xx, zz, xz] = [0, 1, 2].map(|c: usize| self.rows[c][i]);
+            let s = effective(self.spec.measure, [xx, nu * (xx + zz), zz, xz]);
+            // The first row is not needed any more.
+            self.rows[0][i] = s;
+            if s > top {
+                (top, at) = (s, i);
+            }
+        }
+        for (law, way) in laws.iter().enumerate() {
+            let greatest = f64::from(top) - way.limit;
+            let beyond = self.rows[0]
+                .iter()
+                .filter(|s| **s > NEGLIGIBLE)
+                .map(|s| (f64::from(*s) - way.limit) / greatest)
+                .filter(|part| *part > 0.0);
+            let ln = if greatest > 0.0 {
+                let sum: f64 = beyond.map(|part| part.powf(way.exponent)).sum();
+                (self.spec.weights[k] * self.spec.dx * sum).ln() + way.exponent * greatest.ln()
+            } else {
+                f64::NEG_INFINITY
+            };
+            let peak = Peak {
+                value: f64::from(top),
+                x: self.spec.x_first + self.spec.dx * at as f64,
+                y: 0.0,
+                z: self.spec.depths[k],
+            };
+            self.sums.set(loading, law, k, LayerSum { ln, peak });
         }
     }
 
     /// xx, zz, xz of depth `k` into `rows`.
-    fn layer(&mut self, k: usize, loaded: Loaded) {
+    fn layer(&mut self, k: usize, loading: Loading) {
         let [p, q] = &self.spectra;
+        let sign = loading.traction_sign();
         for (component, (row, [by_p, by_q])) in self
             .rows
             .iter_mut()
@@ -212,10 +258,10 @@ impl LineStress {
                 let v = if even_by_pressure { p } else { turned(p) };
                 *o = v * a;
             }
-            if loaded == Loaded::PressureAndTraction {
+            if self.loaded == Loaded::PressureAndTraction && sign != 0.0 {
                 for ((o, &q), &b) in self.product.iter_mut().zip(q).zip(by_q) {
                     let v = if even_by_pressure { turned(q) } else { q };
-                    *o += v * b;
+                    *o += v * (sign * b);
                 }
             }
             let last = self.product.len() - 1;
@@ -301,7 +347,8 @@ mod tests {
     #[test]
     fn transforms_are_the_direct_sum() {
         let (nx, dx) = (33, 0.1);
-        let mut engine = LineStress::new(nx, (-1.5, dx), 0.3, (8, 2.0), StressMeasure::VonMises);
+        let mut engine =
+            LineStress::new(nx, (-1.5, dx), [0.3; 2], (8, 2.0), StressMeasure::VonMises);
         let field = |phase: f64| -> Vec<f32> {
             (0..nx)
                 .map(|i| {

@@ -1,10 +1,11 @@
 //! From the surface to its spectrum: pressure and traction share one complex transform.
 //!
 //! ```text
-//! Z = FFT(p + i q);   P(k) = (Z(k) + conj Z(−k))/2,   Q(k) = (Z(k) − conj Z(−k))/2i
+//! Z = FFT(p + i q_x);   P(k) = (Z(k) + conj Z(−k))/2,   X(k) = (Z(k) − conj Z(−k))/2i
 //! ```
 //! First along y (x in the lanes: rows are read as they lie), then along x. A mirror surface is
-//! extended evenly, and its spectrum is even in ky, so one half serves.
+//! extended evenly, and its spectrum is even in ky, so one half serves. Traction along y has a transform
+//! of its own where there is any; across a mirror it is odd, and so is its spectrum.
 
 use super::engine::{StressEngine, StressSpec, Symmetry, plan_of};
 use super::fft::{LaneFft, Lanes};
@@ -14,7 +15,8 @@ use super::layer::Waves;
 /// Spectra of pressure and traction at ky ≥ 0 or at −ky, `[block · modes_y + ky]`, sixteen kx each.
 pub(super) struct Half {
     pub(super) p: Lanes,
-    pub(super) q: Lanes,
+    pub(super) x: Lanes,
+    pub(super) y: Lanes,
 }
 
 /// Spectrum of the surface loaded last.
@@ -30,14 +32,25 @@ pub(super) struct Spectrum {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sheared {
     No,
-    Yes,
+    /// Along x.
+    X,
+    /// Along x and y.
+    Xy,
+}
+
+/// How a field goes on across the mirror y = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Parity {
+    Even,
+    Odd,
 }
 
 impl Spectrum {
     pub(super) fn new(symmetry: Symmetry, waves: &Waves) -> Self {
         let half = || Half {
             p: Lanes::new(waves.blocks * waves.modes_y),
-            q: Lanes::new(waves.blocks * waves.modes_y),
+            x: Lanes::new(waves.blocks * waves.modes_y),
+            y: Lanes::new(waves.blocks * waves.modes_y),
         };
         Self {
             plus: half(),
@@ -49,7 +62,7 @@ impl Spectrum {
     pub(super) fn lanes(&self) -> impl Iterator<Item = &Lanes> {
         std::iter::once(&self.plus)
             .chain(&self.minus)
-            .flat_map(|half| [&half.p, &half.q])
+            .flat_map(|half| [&half.p, &half.x, &half.y])
     }
 }
 
@@ -77,6 +90,13 @@ impl LoadScratch {
         }
     }
 
+    /// Memory, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let buffers = self.along_y.iter().chain(self.along_x.iter().flatten());
+        let all = buffers.chain(&self.middle).map(|lanes| lanes.re.len());
+        8 * LANES * all.sum::<usize>()
+    }
+
     /// Plan of the whole period along x.
     pub(super) fn fft_x(&self) -> usize {
         self.fft_x
@@ -84,48 +104,95 @@ impl LoadScratch {
 }
 
 impl StressEngine {
-    /// Takes the surface: pressure `p` and, where there is friction, traction `qx` on the body
-    /// along +x, both in p_h, `[j·nx + i]`, `ny` rows (see [`Symmetry`]). The outermost nodes are
-    /// the domain's edge, where the pressure is zero.
+    /// Takes the surface: pressure `p` and, where there is friction, traction `qx` on body 1 along +x, both
+    /// in p_h, `[j·nx + i]`, `ny` rows (see [`Symmetry`]). The outermost nodes are the domain's edge, where
+    /// the pressure is zero.
     ///
     /// # Panics
     /// When a field has not `nx · ny` values.
     pub fn load(&mut self, p: &[f32], qx: Option<&[f32]>) {
+        self.transform((p, Parity::Even), qx);
+        self.spectrum.sheared = match qx {
+            Some(_) => Sheared::X,
+            None => Sheared::No,
+        };
+        let scale = 0.5 / (self.waves.n_x as f64 * self.waves.n_y as f64);
+        self.along_x(|z, mate, waves, ky_block, half| {
+            separate(z, mate, waves, ky_block, scale as f32, half);
+        });
+    }
+
+    /// Same with traction along y too. Across a mirror it is odd: `qy(x, −y) = −qy(x, y)`.
+    ///
+    /// # Panics
+    /// When a field has not `nx · ny` values.
+    pub fn load_both_ways(&mut self, p: &[f32], qx: &[f32], qy: &[f32]) {
+        self.load(p, Some(qx));
+        self.transform((qy, Parity::Odd), None);
+        self.spectrum.sheared = Sheared::Xy;
+        let scale = 1.0 / (self.waves.n_x as f64 * self.waves.n_y as f64);
+        self.along_x(|z, _, waves, ky_block, half| {
+            keep(z, waves, ky_block, scale as f32, &mut half.y);
+        });
+    }
+
+    /// The pass along y of `re + i im`.
+    fn transform(&mut self, (re, parity): (&[f32], Parity), im: Option<&[f32]>) {
         let nodes = self.spec.nx * self.spec.ny;
-        assert_eq!(p.len(), nodes, "pressure has nx · ny values");
-        if let Some(q) = qx {
-            assert_eq!(q.len(), nodes, "traction has nx · ny values");
+        for field in std::iter::once(re).chain(im) {
+            assert_eq!(field.len(), nodes, "a field has nx · ny values");
         }
         let (spec, waves, work) = (&self.spec, &self.waves, &mut self.load);
+        let signs = match spec.symmetry {
+            Symmetry::General => 2,
+            Symmetry::MirrorY => 1,
+        };
         for block in 0..spec.nx.div_ceil(LANES) {
             let [input, other] = &mut work.along_y;
-            read_rows(spec, block, p, &mut input.re);
-            match qx {
-                Some(q) => read_rows(spec, block, q, &mut input.im),
+            read_rows(spec, block, re, parity, &mut input.re);
+            match im {
+                Some(im) => read_rows(spec, block, im, Parity::Even, &mut input.im),
                 None => input.im.fill(V::ZERO),
             }
             self.plans[work.fft_y].forward(input, other);
-            let signs = if spec.symmetry == Symmetry::General {
-                2
-            } else {
-                1
-            };
             for (sign, middle) in work.middle.iter_mut().enumerate().take(signs) {
                 turn_to_ky(input, waves, block, sign, middle);
             }
         }
-        self.spectrum.sheared = match qx {
-            Some(_) => Sheared::Yes,
-            None => Sheared::No,
-        };
+    }
+
+    /// The pass along x; `store` takes the modes at one ky and, as its mate, at −ky.
+    fn along_x(&mut self, mut store: impl FnMut(&Lanes, &Lanes, &Waves, usize, &mut Half)) {
+        let (waves, work) = (&self.waves, &mut self.load);
+        let plan = &self.plans[work.fft_x];
+        let filled = self.spec.nx.div_ceil(LANES) * LANES;
         for ky_block in 0..waves.modes_y.div_ceil(LANES) {
-            load_along_x(spec, waves, &self.plans, work, &mut self.spectrum, ky_block);
+            let line = |middle: &Lanes, input: &mut Lanes| {
+                let o = ky_block * waves.n_x;
+                for (from, to) in [(&middle.re, &mut input.re), (&middle.im, &mut input.im)] {
+                    to[..filled].copy_from_slice(&from[o..o + filled]);
+                    to[filled..].fill(V::ZERO);
+                }
+            };
+            let [[in_plus, other_plus], [in_minus, other_minus]] = &mut work.along_x;
+            line(&work.middle[0], in_plus);
+            plan.forward(in_plus, other_plus);
+            let plus = &mut self.spectrum.plus;
+            match &mut self.spectrum.minus {
+                None => store(in_plus, in_plus, waves, ky_block, plus),
+                Some(minus) => {
+                    line(&work.middle[1], in_minus);
+                    plan.forward(in_minus, other_minus);
+                    store(in_plus, in_minus, waves, ky_block, plus);
+                    store(in_minus, in_plus, waves, ky_block, minus);
+                }
+            }
         }
     }
 }
 
 /// Sixteen columns of the surface, the axis at index 0 and y < 0 at the end of the period.
-fn read_rows(spec: &StressSpec, block: usize, field: &[f32], out: &mut [V]) {
+fn read_rows(spec: &StressSpec, block: usize, field: &[f32], parity: Parity, out: &mut [V]) {
     let n = out.len();
     let columns = block * LANES..spec.nx.min((block + 1) * LANES);
     let row = |j: usize| V::from_part(&field[j * spec.nx..][columns.clone()]);
@@ -133,8 +200,15 @@ fn read_rows(spec: &StressSpec, block: usize, field: &[f32], out: &mut [V]) {
     match spec.symmetry {
         Symmetry::MirrorY => {
             for j in 0..spec.ny {
-                out[j] = row(j);
-                out[(n - j) % n] = out[j];
+                let here = row(j);
+                out[(n - j) % n] = match parity {
+                    Parity::Even => here,
+                    Parity::Odd => -here,
+                };
+                out[j] = here;
+            }
+            if parity == Parity::Odd {
+                out[0] = V::ZERO;
             }
         }
         Symmetry::General => {
@@ -164,45 +238,6 @@ fn turn_to_ky(z: &Lanes, waves: &Waves, block: usize, sign: usize, middle: &mut 
 }
 }
 
-fn load_along_x(
-    spec: &StressSpec,
-    waves: &Waves,
-    plans: &[LaneFft],
-    work: &mut LoadScratch,
-    spectrum: &mut Spectrum,
-    ky_block: usize,
-) {
-    let filled = spec.nx.div_ceil(LANES) * LANES;
-    let plan = &plans[work.fft_x];
-    let scale = (0.5 / (waves.n_x as f64 * waves.n_y as f64)) as f32;
-    let line = |middle: &Lanes, input: &mut Lanes| {
-        let o = ky_block * waves.n_x;
-        for (from, to) in [(&middle.re, &mut input.re), (&middle.im, &mut input.im)] {
-            to[..filled].copy_from_slice(&from[o..o + filled]);
-            to[filled..].fill(V::ZERO);
-        }
-    };
-    let [[in_plus, other_plus], [in_minus, other_minus]] = &mut work.along_x;
-    line(&work.middle[0], in_plus);
-    plan.forward(in_plus, other_plus);
-    match &mut spectrum.minus {
-        None => separate(in_plus, in_plus, waves, ky_block, scale, &mut spectrum.plus),
-        Some(half) => {
-            line(&work.middle[1], in_minus);
-            plan.forward(in_minus, other_minus);
-            separate(
-                in_plus,
-                in_minus,
-                waves,
-                ky_block,
-                scale,
-                &mut spectrum.plus,
-            );
-            separate(in_minus, in_plus, waves, ky_block, scale, half);
-        }
-    }
-}
-
 dispatched! {
 /// Pressure and traction out of their common transform; `mate` holds the modes at −ky.
 fn separate(
@@ -230,9 +265,28 @@ fn separate(
         }
         let from = block * waves.modes_y + ky_block * LANES;
         let count = (waves.modes_y - ky_block * LANES).min(LANES);
-        let targets = [&mut half.p.re, &mut half.p.im, &mut half.q.re, &mut half.q.im];
+        let targets = [&mut half.p.re, &mut half.p.im, &mut half.x.re, &mut half.x.im];
         for (line, to) in [&p_re, &p_im, &q_re, &q_im].into_iter().zip(targets) {
             to[from..from + count].copy_from_slice(&transpose(line)[..count]);
+        }
+    }
+}
+}
+
+dispatched! {
+/// The spectrum of a field that was transformed alone.
+fn keep(z: &Lanes, waves: &Waves, ky_block: usize, scale: f32, out: &mut Lanes) {
+    let scale = V::splat(scale);
+    for block in 0..waves.blocks {
+        let first = block * LANES;
+        let from = block * waves.modes_y + ky_block * LANES;
+        let count = (waves.modes_y - ky_block * LANES).min(LANES);
+        for (line, to) in [(&z.re, &mut out.re), (&z.im, &mut out.im)] {
+            let mut rows = [V::ZERO; LANES];
+            for kx in first..waves.modes_x.min(first + LANES) {
+                rows[kx - first] = line[kx] * scale;
+            }
+            to[from..from + count].copy_from_slice(&transpose(&rows)[..count]);
         }
     }
 }

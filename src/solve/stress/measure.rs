@@ -97,6 +97,21 @@ fn cosine(x: f64) -> f64 {
     1.0 - x2 * (0.5 - x2 * (1.0 / 24.0 - x2 * (1.0 / 720.0 - x2 / 40320.0)))
 }
 
+dispatched! {
+/// `<√v − limit>²` of every square v, and the greatest; `top` is the greatest v.
+pub(super) fn excess(squares: &[V], top: f32, limit: f32, out: &mut [V]) -> f32 {
+    for (out, v) in out.iter_mut().zip(squares) {
+        for l in 0..LANES {
+            let beyond = v.0[l].sqrt() - limit;
+            let beyond = if beyond > 0.0 { beyond } else { 0.0 };
+            out.0[l] = beyond * beyond;
+        }
+    }
+    let beyond = (top.sqrt() - limit).max(0.0);
+    beyond * beyond
+}
+}
+
 /// `Σ (v²/top²)^{h}`, `top² > 0`, over the lanes' whole length, into one lane sum.
 #[inline(always)]
 pub(super) fn power_sum(squares: &[V], top: f32, h: f32) -> V {

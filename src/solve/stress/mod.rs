@@ -1,4 +1,4 @@
-//! Subsurface stress of body 1 by windowed frequency responses, truncated with depth.
+//! Subsurface stress of both bodies by windowed frequency responses, truncated with depth.
 //!
 //! ```text
 //! p̂, q̂ = FFT of pressure and traction (padded);  per depth z:
@@ -9,7 +9,7 @@
 //! | symbol | meaning | shape, unit |
 //! |---|---|---|
 //! | p | pressure, > 0 presses | `[j·nx + i]`, p_h |
-//! | q | traction on the body along +x | same |
+//! | q | traction on body 1 along +x (and, where given, +y); body 2 has −q | same |
 //! | σ | stress, tension positive | p_h |
 //! | x, y, z | along rolling, across, into the body | a |
 //! | k, (nx, ny) | wave number and direction of a mode | 1/a |
@@ -40,13 +40,19 @@ mod line;
 mod load;
 mod measure;
 mod peak;
+mod plane;
+mod rows;
 mod slice;
+mod slice_out;
+mod sums;
 mod volume;
 mod window;
 
 pub use depth::{DEPTH_SCALE_A, depth_rule, gauss_legendre};
-pub use engine::{StressEngine, StressError, StressSpec, Symmetry};
+pub use engine::{Loading, Purpose, StressEngine, StressError, StressSpec, Symmetry};
 pub use line::LineStress;
 pub use peak::Peak;
-pub use slice::SliceOut;
+pub use plane::{Cut, Plane};
+pub use slice_out::SliceOut;
+pub use sums::{StressLaw, VolumeSums};
 pub use volume::{Integral, VolumeOut};

@@ -7,7 +7,7 @@
 
 use super::depth::{stretched, unstretched};
 use super::engine::StressSpec;
-use super::slice::SliceOut;
+use super::slice_out::SliceOut;
 use crate::physics::invariants::Stress6;
 use crate::scene::StressMeasure;
 
@@ -85,7 +85,7 @@ fn column_maximum(spec: &StressSpec, out: &SliceOut, k: usize, i: usize) -> (f64
     let mut states = [Stress6::default(); POINTS];
     for j in 0..points {
         nodes[j] = stretched(spec.depths[first + j]);
-        states[j] = state(spec, out, first + j, i);
+        states[j] = out.state((first + j) * spec.nx + i);
     }
     let value = |t: f64| {
         let s = interpolated(&nodes[..points], &states[..points], t);
@@ -95,18 +95,6 @@ fn column_maximum(spec: &StressSpec, out: &SliceOut, k: usize, i: usize) -> (f64
     let high = stretched(spec.depths[(k + 1).min(count - 1)]);
     let t = golden(low, high, value);
     (unstretched(t), value(t))
-}
-
-fn state(spec: &StressSpec, out: &SliceOut, k: usize, i: usize) -> Stress6 {
-    let at = |field: &[f32]| field.get(k * spec.nx + i).map_or(0.0, |v| f64::from(*v));
-    Stress6 {
-        xx: at(&out.sxx),
-        yy: at(&out.syy),
-        zz: at(&out.szz),
-        xy: at(&out.sxy),
-        xz: at(&out.sxz),
-        yz: at(&out.syz),
-    }
 }
 
 /// Lagrange's polynomial.

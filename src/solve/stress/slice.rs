@@ -4,67 +4,28 @@
 //! S(c) = Σ_ky E c     σzz = −S(p̂) − z S(kD)          σxx = 2i kx S(q̂/k) − 2ν S(D) − kx² S(A0/k²) + kx² z S(D/k)
 //!                     σxz = −S(q̂) + i kx z S(D)      σyy = −2(1+ν) S(D) − σxx − σzz
 //! unsymmetric:        σxy = i S(ny q̂) − kx S(ny A0/k) + kx z S(ny D)      σyz = i z S(ny kD)
+//! traction along y:   σxy + i kx S(q̂y/k)      σyz − S(q̂y)      Q + i ny q̂y
 //! A0 = (1−2ν) p̂ + 2ν Q
 //! ```
 //! The columns c are formed once per surface and shared by all depths. Every depth is given at the full
 //! resolution along x.
 
-use super::engine::{StressEngine, StressSpec, Symmetry};
+use super::engine::{Loading, StressEngine, StressSpec, Symmetry};
 use super::fft::{Lanes, pack_pair};
-use super::lanes::{C, LANES, V, transpose};
+use super::lanes::{C, LANES, V};
 use super::layer::{Layer, LowRow, Waves};
 use super::load::{Half, Sheared, Spectrum};
-use super::measure::squared;
-use super::peak::{Peak, refine};
+use super::peak::refine;
+use super::slice_out::{SliceOut, turn_depths, write_rows};
 use super::window::LOW;
-use crate::scene::StressMeasure;
+use crate::physics::cycles::BodyId;
 
-/// Most columns: seven even, four odd.
-const COLUMNS: usize = 11;
+/// Most columns: seven even, four odd, two of the traction along y.
+const COLUMNS: usize = 13;
 /// First odd column.
 const ODD: usize = 7;
-
-/// Stress in the plane y = 0: `[k·nx + i]`, k over depths; in p_h, tension positive.
-#[derive(Debug, Clone, Default)]
-pub struct SliceOut {
-    /// σxx.
-    pub sxx: Vec<f32>,
-    /// σyy.
-    pub syy: Vec<f32>,
-    /// σzz.
-    pub szz: Vec<f32>,
-    /// σxz, the signed orthogonal shear.
-    pub sxz: Vec<f32>,
-    /// σxy; empty for a mirror surface, where it is zero.
-    pub sxy: Vec<f32>,
-    /// σyz; empty for a mirror surface, where it is zero.
-    pub syz: Vec<f32>,
-    /// Effective stress by the engine's measure.
-    pub effective: Vec<f32>,
-    /// Greatest effective stress of the plane, refined between nodes and depths.
-    pub peak: Peak,
-}
-
-impl SliceOut {
-    /// Memory for an engine's slices.
-    pub fn new(spec: &StressSpec) -> Self {
-        let n = spec.nx * spec.depths.len();
-        let odd = match spec.symmetry {
-            Symmetry::MirrorY => 0,
-            Symmetry::General => n,
-        };
-        Self {
-            sxx: vec![0.0; n],
-            syy: vec![0.0; n],
-            szz: vec![0.0; n],
-            sxz: vec![0.0; n],
-            sxy: vec![0.0; odd],
-            syz: vec![0.0; odd],
-            effective: vec![0.0; n],
-            peak: Peak::default(),
-        }
-    }
-}
+/// First column of the traction along y.
+const ALONG_Y: usize = 11;
 
 /// Columns and sums.
 pub(super) struct SliceScratch {
@@ -87,24 +48,56 @@ impl SliceScratch {
             other: Lanes::new(waves.n_x),
         }
     }
+
+    /// Memory, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let lanes = self.along_x.iter().map(|l| l.re.len()).sum::<usize>();
+        8 * LANES * (self.columns.len() + self.fields.re.len() + lanes + self.other.re.len())
+    }
+}
+
+/// What the columns are formed for.
+#[derive(Clone, Copy)]
+struct Case {
+    loading: Loading,
+    material: usize,
+    nu: f64,
+    sheared: Sheared,
 }
 
 /// Spectra of one depth and block: xx, yy, zz, xz, xy, yz.
 type Six = [C; 6];
 
 impl StressEngine {
-    /// Stress in the plane y = 0 under the surface loaded last.
+    /// Stress of body 1 in the plane y = 0 under the surface loaded last, traction included.
     ///
     /// # Panics
     /// When `out` was made for another specification.
     pub fn slice(&mut self, out: &mut SliceOut) {
+        self.slice_of(Loading::Full(BodyId::One), out);
+    }
+
+    /// Stress of a body in the plane y = 0 under the surface loaded last.
+    ///
+    /// # Panics
+    /// When `out` was made for another specification.
+    pub fn slice_of(&mut self, loading: Loading, out: &mut SliceOut) {
         let (spec, waves, work) = (&self.spec, &self.waves, &mut self.slice);
+        let case = Case {
+            loading,
+            material: spec.material(loading.body()),
+            nu: spec.poisson(loading.body()),
+            sheared: match loading {
+                Loading::Normal(_) => Sheared::No,
+                Loading::Full(_) => self.spectrum.sheared,
+            },
+        };
         assert_eq!(
             out.effective.len(),
             spec.nx * spec.depths.len(),
             "slice size"
         );
-        form_columns(waves, &self.spectrum, spec.nu, &mut work.columns);
+        form_columns(waves, &self.spectrum, case, &mut work.columns);
         let depth_blocks = spec.depths.len().div_ceil(LANES);
         for depth_block in 0..depth_blocks {
             let first = depth_block * LANES;
@@ -112,8 +105,7 @@ impl StressEngine {
             for block in 0..waves.blocks {
                 let mut sums = [[C::ZERO; LANES]; 6];
                 for (l, layer) in layers.iter().enumerate().filter(|(_, d)| block < d.blocks) {
-                    let six =
-                        sum_depth(layer, block, waves, &self.spectrum, spec.nu, &work.columns);
+                    let six = sum_depth(layer, block, waves, &self.spectrum, case, &work.columns);
                     for (sum, component) in sums.iter_mut().zip(six) {
                         sum[l] = component;
                     }
@@ -152,7 +144,8 @@ impl StressEngine {
 
 dispatched! {
 /// Columns of the surface loaded, with −ky folded onto ky.
-fn form_columns(waves: &Waves, spectrum: &Spectrum, nu: f64, columns: &mut [C]) {
+fn form_columns(waves: &Waves, spectrum: &Spectrum, case: Case, columns: &mut [C]) {
+    let nu = case.nu;
     let (two_nu, one_less) = (V::splat((2.0 * nu) as f32), V::splat((1.0 - 2.0 * nu) as f32));
     for block in 0..waves.blocks {
         for y in 0..waves.modes_y {
@@ -163,45 +156,72 @@ fn form_columns(waves: &Waves, spectrum: &Spectrum, nu: f64, columns: &mut [C]) 
                 by_k.0[l] = if k.0[l] > 0.0 { 1.0 / k.0[l] } else { 0.0 };
             }
             let c = &mut columns[i * COLUMNS..(i + 1) * COLUMNS];
-            let (p, x) = folded(spectrum, i, y, V::splat(1.0));
-            let q = x.scale_i(nx);
-            let d = p.minus(q);
-            let a0 = q.fma(two_nu, p.scale(one_less));
-            let six = [p, d.scale(k), d, a0.scale(by_k * by_k), d.scale(by_k), x];
+            let f = folded(spectrum, case, i, y, V::splat(1.0));
+            let q = f.x.scale_i(nx).plus(f.y_other.scale_i(ny));
+            let d = f.p.minus(q);
+            let a0 = q.fma(two_nu, f.p.scale(one_less));
+            let six = [f.p, d.scale(k), d, a0.scale(by_k * by_k), d.scale(by_k), f.x];
             c[..6].copy_from_slice(&six);
-            c[6] = x.scale(by_k);
+            c[6] = f.x.scale(by_k);
             if spectrum.minus.is_some() {
-                let (p, x) = folded(spectrum, i, y, V::splat(-1.0));
-                let q = x.scale_i(nx);
-                let d = p.minus(q);
-                let a0 = q.fma(two_nu, p.scale(one_less));
-                let odd = [x.scale(ny), a0.scale(ny * by_k), d.scale(ny), d.scale(ny * k)];
-                c[ODD..].copy_from_slice(&odd);
+                let f = folded(spectrum, case, i, y, V::splat(-1.0));
+                let q = f.x.scale_i(nx).plus(f.y_other.scale_i(ny));
+                let d = f.p.minus(q);
+                let a0 = q.fma(two_nu, f.p.scale(one_less));
+                let odd = [f.x.scale(ny), a0.scale(ny * by_k), d.scale(ny), d.scale(ny * k)];
+                c[ODD..ALONG_Y].copy_from_slice(&odd);
+                c[ALONG_Y..].copy_from_slice(&[f.y_other, f.y_other.scale(by_k)]);
             }
         }
     }
 }
 }
 
+/// Spectra at ky and −ky added or subtracted.
+struct Folded {
+    p: C,
+    x: C,
+    /// Of the traction along y, with the other sign: where p is added, it is subtracted.
+    y_other: C,
+}
+
 /// Spectrum at ky plus `sign` times that at −ky; ky = 0 counts once.
 #[inline(always)]
-fn folded(spectrum: &Spectrum, i: usize, y: usize, sign: V) -> (C, C) {
-    let at = |half: &Half| {
-        let c = |lanes: &Lanes| C {
-            re: lanes.re[i],
-            im: lanes.im[i],
-        };
-        match spectrum.sheared {
-            Sheared::Yes => (c(&half.p), c(&half.q)),
-            Sheared::No => (c(&half.p), C::ZERO),
-        }
+fn folded(spectrum: &Spectrum, case: Case, i: usize, y: usize, sign: V) -> Folded {
+    let factor = V::splat(case.loading.traction_sign());
+    let c = |lanes: &Lanes| C {
+        re: lanes.re[i],
+        im: lanes.im[i],
+    };
+    let at = |half: &Half| match case.sheared {
+        Sheared::No => (c(&half.p), C::ZERO, C::ZERO),
+        Sheared::X => (c(&half.p), c(&half.x).scale(factor), C::ZERO),
+        Sheared::Xy => (
+            c(&half.p),
+            c(&half.x).scale(factor),
+            c(&half.y).scale(factor),
+        ),
     };
     let plus = at(&spectrum.plus);
     if y == 0 {
-        return plus;
+        return Folded {
+            p: plus.0,
+            x: plus.1,
+            y_other: plus.2,
+        };
     }
-    let minus = at(spectrum.minus.as_ref().unwrap_or(&spectrum.plus));
-    (minus.0.fma(sign, plus.0), minus.1.fma(sign, plus.1))
+    let (p, x, along_y) = at(spectrum.minus.as_ref().unwrap_or(&spectrum.plus));
+    // Across a mirror the traction along y is odd: there the other half is its negative.
+    let y_sign = if spectrum.minus.is_some() {
+        -sign
+    } else {
+        sign
+    };
+    Folded {
+        p: p.fma(sign, plus.0),
+        x: x.fma(sign, plus.1),
+        y_other: along_y.fma(y_sign, plus.2),
+    }
 }
 
 dispatched! {
@@ -211,20 +231,20 @@ fn sum_depth(
     block: usize,
     waves: &Waves,
     spectrum: &Spectrum,
-    nu: f64,
+    case: Case,
     columns: &[C],
 ) -> Six {
     let first = if block == 0 { LOW } else { 0 };
     let e = &layer.e[block * layer.rows..(block + 1) * layer.rows];
     let columns = &columns[block * waves.modes_y * COLUMNS..];
     let (kx, z) = (waves.kx[block], V::splat(layer.z as f32));
-    let s = even_sums(&e[first..], &columns[first * COLUMNS..], spectrum.sheared);
+    let s = even_sums(&e[first..], &columns[first * COLUMNS..], case.sheared);
     let [p, kd, d, a0, d_by_k, x, x_by_k] = s;
     let kx2 = kx * kx;
     let zz = negative(kd.fma(z, p));
     let xz = d.scale_i(kx * z).minus(x);
     let elastic = d_by_k.scale(kx2 * z).minus(a0.scale(kx2));
-    let two_nu = V::splat((2.0 * nu) as f32);
+    let two_nu = V::splat((2.0 * case.nu) as f32);
     let xx = x_by_k.fma_i(kx + kx, d.fma(-two_nu, elastic));
     let yy = d.scale(-(two_nu + V::splat(2.0))).minus(xx).minus(zz);
     let mut six = [xx, yy, zz, xz, C::ZERO, C::ZERO];
@@ -232,9 +252,15 @@ fn sum_depth(
         let [x, a0, d, kd] = odd_sums(&e[first..], &columns[first * COLUMNS..]);
         six[4] = x.scale_i(V::splat(1.0)).plus(d.scale(kx * z)).minus(a0.scale(kx));
         six[5] = kd.scale_i(z);
+        if case.sheared == Sheared::Xy {
+            let which = [ALONG_Y, ALONG_Y + 1, ALONG_Y, ALONG_Y + 1];
+            let [along_y, by_k, ..] = four_sums(&e[first..], &columns[first * COLUMNS..], which);
+            six[4] = by_k.fma_i(kx, six[4]);
+            six[5] = six[5].minus(along_y);
+        }
     }
     if block == 0 {
-        add_low(layer, spectrum, columns, &mut six);
+        add_low(layer, spectrum, case, columns, &mut six);
     }
     six
 }
@@ -254,7 +280,7 @@ fn even_sums(e: &[V], columns: &[C], sheared: Sheared) -> [C; 7] {
     let [p, kd, a0, d_by_k] = four_sums(e, columns, [0, 1, 3, 4]);
     match sheared {
         Sheared::No => [p, kd, p, a0, d_by_k, C::ZERO, C::ZERO],
-        Sheared::Yes => {
+        Sheared::X | Sheared::Xy => {
             let [d, x, x_by_k, _] = four_sums(e, columns, [2, 5, 6, 6]);
             [p, kd, d, a0, d_by_k, x, x_by_k]
         }
@@ -295,10 +321,10 @@ fn four_sums(e: &[V], columns: &[C], which: [usize; 4]) -> [C; 4] {
 
 /// The windowed modes of block 0.
 #[inline(always)]
-fn add_low(layer: &Layer, spectrum: &Spectrum, columns: &[C], six: &mut Six) {
+fn add_low(layer: &Layer, spectrum: &Spectrum, case: Case, columns: &[C], six: &mut Six) {
     let [xx, yy, zz, xz, xy, yz] = six;
-    for (y, row) in layer.low.iter().enumerate() {
-        let LowRow { p: t, q: u } = row;
+    for (y, row) in layer.low[case.material].iter().enumerate() {
+        let LowRow { p: t, x: u, y: w } = row;
         let c = &columns[y * COLUMNS..(y + 1) * COLUMNS];
         let (p, x) = (c[0], c[5]);
         let (t_yy, u_yy) = (t[1] + t[2], u[1] + u[2]);
@@ -306,90 +332,20 @@ fn add_low(layer: &Layer, spectrum: &Spectrum, columns: &[C], six: &mut Six) {
         *yy = x.fma_i(u_yy, p.fma(t_yy, *yy));
         *zz = x.fma_i(u[2], p.fma(t[2], *zz));
         *xz = x.fma(u[4], p.fma_i(t[4], *xz));
+        if case.sheared == Sheared::Xy {
+            let along_y = folded(spectrum, case, y, y, V::splat(1.0)).y_other;
+            let w_yy = w[1] + w[2];
+            *xx = along_y.fma_i(w[0] + w_yy, *xx);
+            *yy = along_y.fma_i(w_yy, *yy);
+            *zz = along_y.fma_i(w[2], *zz);
+            *xz = along_y.fma(w[4], *xz);
+        }
         if spectrum.minus.is_some() {
-            let (p, x) = folded(spectrum, y, y, V::splat(-1.0));
-            *xy = x.fma_i(u[3], p.fma(t[3], *xy));
-            *yz = x.fma(u[5], p.fma_i(t[5], *yz));
+            let f = folded(spectrum, case, y, y, V::splat(-1.0));
+            *xy = f.x.fma_i(u[3], f.p.fma(t[3], *xy));
+            *yz = f.x.fma(u[5], f.p.fma_i(t[5], *yz));
+            *xy = f.y_other.fma_i(w[3], *xy);
+            *yz = f.y_other.fma(w[5], *yz);
         }
-    }
-}
-
-dispatched! {
-/// Depths into the lanes.
-fn turn_depths(sums: &[[C; LANES]; 6], o: usize, stride: usize, fields: &mut Lanes) {
-    for (component, rows) in sums.iter().enumerate() {
-        let (mut re, mut im) = ([V::ZERO; LANES], [V::ZERO; LANES]);
-        for (l, c) in rows.iter().enumerate() {
-            re[l] = c.re;
-            im[l] = c.im;
-        }
-        let o = o + component * stride;
-        fields.re[o..o + LANES].copy_from_slice(&transpose(&re));
-        fields.im[o..o + LANES].copy_from_slice(&transpose(&im));
-    }
-}
-}
-
-dispatched! {
-/// Components and effective stress of sixteen depths from `first` on.
-fn write_rows(spec: &StressSpec, first: usize, along_x: &mut [Lanes; 3], out: &mut SliceOut) {
-    let [a, b, c] = along_x;
-    if spec.symmetry == Symmetry::MirrorY {
-        c.re.fill(V::ZERO);
-        c.im.fill(V::ZERO);
-    }
-    let depths = (spec.depths.len() - first).min(LANES);
-    let mut i = 0;
-    while i < spec.nx {
-        let count = LANES.min(spec.nx - i);
-        let mut tile = [V::ZERO; LANES];
-        for (l, slot) in tile.iter_mut().enumerate().take(count) {
-            let j = i + l;
-            *slot = effective(spec.measure, [a.re[j], a.im[j], b.re[j], b.im[j], c.re[j], c.im[j]]);
-        }
-        let part = |lanes: &[V]| {
-            let mut tile = [V::ZERO; LANES];
-            tile[..count].copy_from_slice(&lanes[i..i + count]);
-            tile
-        };
-        let place = (first, depths, i, count, spec.nx);
-        write_tile(&tile, place, &mut out.effective);
-        write_tile(&part(&a.re), place, &mut out.sxx);
-        write_tile(&part(&a.im), place, &mut out.syy);
-        write_tile(&part(&b.re), place, &mut out.szz);
-        write_tile(&part(&b.im), place, &mut out.sxz);
-        if spec.symmetry == Symmetry::General {
-            write_tile(&part(&c.re), place, &mut out.sxy);
-            write_tile(&part(&c.im), place, &mut out.syz);
-        }
-        i += LANES;
-    }
-}
-}
-
-/// Effective stress of xx, yy, zz, xz, xy, yz.
-#[inline(always)]
-fn effective(measure: StressMeasure, [xx, yy, zz, xz, xy, yz]: [V; 6]) -> V {
-    let (mut square, mut top) = (V::ZERO, [0.0; LANES]);
-    squared(
-        measure,
-        [xx - yy, yy - zz, xy, xz, yz],
-        &[1.0; LANES],
-        &mut square,
-        &mut top,
-    );
-    V(square.0.map(f32::sqrt))
-}
-
-#[inline(always)]
-fn write_tile(
-    tile: &[V; LANES],
-    (first, depths, i, count, nx): (usize, usize, usize, usize, usize),
-    out: &mut [f32],
-) {
-    let rows = transpose(tile);
-    for (l, row) in rows.iter().enumerate().take(depths) {
-        let o = (first + l) * nx + i;
-        out[o..o + count].copy_from_slice(&row.0[..count]);
     }
 }

@@ -1,26 +1,31 @@
-//! Life integral over the stressed volume, and the greatest stress in it.
+//! Life integrals over the stressed volume of both bodies, and the greatest stress in it.
 //!
 //! ```text
-//! I = ∫ s^m dV,   s = effective stress/p_h, V in a³ (both halves of a mirror surface)
-//! ln I = ln Σ_k w_k Σ_ij A_k s_ijk^m        each sum relative to its own greatest term
+//! I = ∫ <s − u>^m dV,   s = effective stress/p_h, V in a³ (both halves of a mirror surface)
+//! ln I = ln Σ_k w_k Σ_ij A_k <s_ijk − u>^m        each sum relative to its own greatest term
+//! swept:  ∫ max_x <s − u>^m dy dz                 from the greatest s of every row along x
 //! ```
 //! Every depth is summed on its own grid: as many points as its waves need are enough, to 3e-6
-//! (Hertz, m up to 13.5). Depths run in parallel; the sum over depths is taken in order, so the result is
-//! the same on any number of threads.
+//! (Hertz, m up to 13.5). The stresses of pressure and of traction are formed once; what acts on body 1, on
+//! body 2 (opposite traction) and without traction are their sum, difference and first term, so a second
+//! body costs no transform unless its Poisson's ratio differs. Depths run in parallel; the sum over depths is
+//! taken in order, so the result is the same on any number of threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::assemble::{Loads, block_inputs};
-use super::engine::{StressEngine, StressSpec, Symmetry};
+use super::assemble::{Part, block_inputs};
+use super::engine::{Loading, StressEngine, StressSpec, Symmetry};
 use super::fft::{LaneFft, Lanes, pack_pair};
-use super::lanes::{LANES, TILE, V, transpose_tile};
+use super::lanes::{LANES, V};
 use super::layer::{Layer, Waves};
 use super::load::{Sheared, Spectrum};
-use super::measure::{power_sum, squared};
+use super::measure::excess;
 use super::peak::Peak;
-use crate::scene::StressMeasure;
+use super::rows::{squares_of, turn_rows, unfold_rows, weighted_sum};
+use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
+use crate::physics::cycles::BodyId;
 
 /// Life integral of one loading.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,24 +36,15 @@ pub struct Integral {
     pub peak: Peak,
 }
 
-/// Integrals of one surface.
+/// Integrals of one surface under one law, both bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VolumeOut {
-    /// Pressure alone.
+    /// Body 1, pressure alone.
     pub normal: Integral,
-    /// Pressure and traction; equal to `normal` where no traction was loaded.
+    /// Body 1, pressure and traction; equal to `normal` where no traction was loaded.
     pub full: Integral,
-}
-
-/// Sum of one layer under one loading.
-#[derive(Debug, Clone, Copy)]
-struct LayerSum {
-    /// ln of the layer's share of the integral.
-    ln: f64,
-    /// Greatest square, and where.
-    top: f32,
-    x: f64,
-    y: f64,
+    /// Body 2, pressure and traction.
+    pub mate: Integral,
 }
 
 /// One thread's buffers and results.
@@ -56,15 +52,22 @@ pub(super) struct Worker {
     /// Inputs of the y pass.
     along_y: Vec<Lanes>,
     other: Lanes,
-    along_x: [Lanes; 3],
-    /// Five fields after the y pass, `[(field · row blocks + row block) · kx + i]`, sixteen rows each.
-    fields: Lanes,
+    /// Of pressure and of traction.
+    along_x: [[Lanes; 3]; 2],
+    /// Five fields after the y pass, `[(field · row blocks + row block) · kx + i]`, sixteen rows each; of
+    /// pressure and of traction.
+    fields: [Lanes; 2],
     squares: Vec<V>,
-    done: Vec<(usize, LayerSum)>,
+    beyond: Vec<V>,
+    pub(super) row_tops: [Vec<f32>; 4],
+    pub(super) done: Vec<(usize, LayerResult)>,
 }
 
+/// Sums of one layer, `[loading][law]`.
+pub(super) type LayerResult = [[LayerSum; MAX_LAWS]; 4];
+
 impl Worker {
-    pub(super) fn new(symmetry: Symmetry, waves: &Waves, tasks: usize) -> Self {
+    pub(super) fn new(symmetry: Symmetry, waves: &Waves, layers: &[Layer]) -> Self {
         // Buffers trade places in the transforms: all have the longer of the two lengths.
         let longest = waves.n_x.max(waves.n_y);
         let (buffers, rows) = match symmetry {
@@ -72,20 +75,24 @@ impl Worker {
             Symmetry::General => (5, waves.n_y),
         };
         let fields = 5 * rows.div_ceil(LANES) * waves.blocks * LANES;
+        let all_rows = layers.iter().map(|layer| layer.inside_y).sum();
         Self {
             along_y: (0..buffers).map(|_| Lanes::new(longest)).collect(),
             other: Lanes::new(longest),
-            along_x: [0, 1, 2].map(|_| Lanes::new(longest)),
-            fields: Lanes::new(fields),
+            along_x: [0, 1].map(|_| [0, 1, 2].map(|_| Lanes::new(longest))),
+            fields: [Lanes::new(fields), Lanes::new(fields)],
             squares: vec![V::ZERO; waves.n_x],
-            done: Vec::with_capacity(tasks),
+            beyond: vec![V::ZERO; waves.n_x],
+            row_tops: [0, 1, 2, 3].map(|_| vec![0.0; all_rows]),
+            done: Vec::with_capacity(layers.len()),
         }
     }
 
     pub(super) fn bytes(&self) -> usize {
-        let buffers = self.along_y.iter().chain(&self.along_x);
-        let lanes: usize = buffers.map(|l| l.re.len()).sum();
-        8 * LANES * (lanes + self.other.re.len() + self.fields.re.len())
+        let buffers = self.along_y.iter().chain(self.along_x.iter().flatten());
+        let lanes: usize = buffers.chain(&self.fields).map(|l| l.re.len()).sum();
+        let tops: usize = self.row_tops.iter().map(Vec::len).sum();
+        8 * LANES * (lanes + self.other.re.len() + self.squares.len()) + 4 * tops
     }
 }
 
@@ -94,28 +101,46 @@ struct Job<'a> {
     spec: &'a StressSpec,
     waves: &'a Waves,
     layers: &'a [Layer],
+    first_row: &'a [usize],
     plans: &'a [LaneFft],
     spectrum: &'a Spectrum,
-    half_exponent: f32,
+    laws: &'a [StressLaw],
+    wanted: &'a [Loading],
 }
 
 impl StressEngine {
     /// Integrals `∫ s^m dV` of the surface loaded last, without and with its traction, in parallel
     /// on the current rayon pool.
     pub fn volume(&mut self, exponent: f64) -> VolumeOut {
+        self.volume_under(&[StressLaw::power(exponent)], &BodyId::BOTH);
+        let integral = |loading| self.sums.integral(loading, 0);
+        VolumeOut {
+            normal: integral(Loading::Normal(BodyId::One)),
+            full: integral(Loading::Full(BodyId::One)),
+            mate: integral(Loading::Full(BodyId::Two)),
+        }
+    }
+
+    /// Sums of the surface loaded last under one or two laws, for the bodies that are asked for, in
+    /// parallel on the current rayon pool. Allocates nothing.
+    ///
+    /// # Panics
+    /// Without a law, or with more than two; for an engine that was made for slices.
+    pub fn volume_under(&mut self, laws: &[StressLaw], bodies: &[BodyId]) -> &VolumeSums {
+        assert!((1..=MAX_LAWS).contains(&laws.len()), "one or two laws");
+        assert!(!self.workers.is_empty(), "made for volumes");
+        let (wanted, count) = self.wanted(bodies);
         let job = Job {
             spec: &self.spec,
             waves: &self.waves,
             layers: &self.layers,
+            first_row: &self.sums.first_row,
             plans: &self.plans,
             spectrum: &self.spectrum,
-            half_exponent: (0.5 * exponent) as f32,
+            laws,
+            wanted: &wanted[..count],
         };
         let depths = self.layers.len();
-        let loadings = match self.spectrum.sheared {
-            Sheared::No => 1,
-            Sheared::Yes => 2,
-        };
         let next = AtomicUsize::new(0);
         self.workers
             .par_iter_mut()
@@ -124,66 +149,100 @@ impl StressEngine {
                 worker.done.clear();
                 loop {
                     // Shallow layers are the largest and come first.
-                    let task = next.fetch_add(1, Ordering::Relaxed);
-                    if task >= loadings * depths {
+                    let k = next.fetch_add(1, Ordering::Relaxed);
+                    if k >= depths {
                         break;
                     }
-                    let loads = if task.is_multiple_of(loadings) {
-                        Loads::Normal
-                    } else {
-                        Loads::Both
-                    };
-                    let sum = job.layer_sum(worker, &job.layers[task / loadings], loads);
-                    worker.done.push((task, sum));
+                    let result = job.layer(worker, k);
+                    worker.done.push((k, result));
                 }
             });
-        let normal = self.gather(0, loadings);
-        let full = if loadings == 2 {
-            self.gather(1, 2)
-        } else {
-            normal
-        };
-        VolumeOut { normal, full }
+        self.sums.gather(&self.workers, laws.len());
+        for loading in Loading::ALL {
+            if !wanted[..count].contains(&loading) {
+                let same = stands_for(loading, &wanted[..count]);
+                self.sums.copy(same, loading);
+            }
+        }
+        &self.sums
     }
 
-    /// Adds the layers of one loading in order of depth.
-    fn gather(&self, loading: usize, loadings: usize) -> Integral {
-        let find = |task: usize| {
-            let mut all = self.workers.iter().flat_map(|w| &w.done);
-            all.find(|(t, _)| *t == task).map(|(_, sum)| *sum)
-        };
-        let sums =
-            || (0..self.layers.len()).filter_map(|k| Some((k, find(k * loadings + loading)?)));
-        let top_ln = sums().fold(f64::NEG_INFINITY, |top, (_, s)| top.max(s.ln));
-        let mut peak = Peak::default();
-        let mut sum = 0.0;
-        for (k, s) in sums() {
-            let value = f64::from(s.top).sqrt();
-            if value > peak.value {
-                peak = Peak {
-                    value,
-                    x: self.spec.x_first + s.x,
-                    y: s.y,
-                    z: self.layers[k].z,
-                };
+    /// Sums of the last call of [`Self::volume_under`].
+    pub fn sums(&self) -> &VolumeSums {
+        &self.sums
+    }
+
+    /// The loadings that differ, and how many: both bodies are alike without traction.
+    fn wanted(&self, bodies: &[BodyId]) -> ([Loading; 4], usize) {
+        let (mut list, mut count) = (Loading::ALL, 0);
+        let sheared = self.spectrum.sheared != Sheared::No;
+        for body in BodyId::BOTH {
+            let own = self.spec.materials() == 2 && bodies.contains(&body);
+            let first = body == BodyId::One && self.spec.materials() == 1;
+            if own || first {
+                list[count] = Loading::Normal(body);
+                count += 1;
             }
-            if s.ln > f64::NEG_INFINITY {
-                sum += (s.ln - top_ln).exp();
+            if sheared && bodies.contains(&body) {
+                list[count] = Loading::Full(body);
+                count += 1;
             }
         }
-        Integral {
-            ln: if sum > 0.0 {
-                top_ln + sum.ln()
-            } else {
-                f64::NEG_INFINITY
-            },
-            peak,
-        }
+        (list, count)
+    }
+}
+
+/// The computed loading that equals one that was left out.
+fn stands_for(loading: Loading, wanted: &[Loading]) -> Loading {
+    let normal = Loading::Normal(loading.body());
+    if wanted.contains(&normal) {
+        normal
+    } else {
+        wanted[0]
     }
 }
 
 impl Job<'_> {
-    fn layer_sum(&self, worker: &mut Worker, layer: &Layer, loads: Loads) -> LayerSum {
+    fn layer(&self, worker: &mut Worker, k: usize) -> LayerResult {
+        let layer = &self.layers[k];
+        let mut running = [[RowSums::default(); MAX_LAWS]; 4];
+        for material in 0..self.spec.materials() {
+            let mine = |loading: &Loading| self.spec.material(loading.body()) == material;
+            if !self.wanted.iter().any(mine) {
+                continue;
+            }
+            self.pass_along_y(worker, layer, Part::Normal, material);
+            let part = match self.spectrum.sheared {
+                Sheared::No => None,
+                Sheared::X => Some(Part::AlongX),
+                Sheared::Xy => Some(Part::AlongBoth),
+            };
+            if let Some(part) = part {
+                self.pass_along_y(worker, layer, part, material);
+            }
+            for row_block in 0..layer.row_blocks() {
+                self.pass_along_x(worker, layer, row_block, 0);
+                if part.is_some() {
+                    self.pass_along_x(worker, layer, row_block, 1);
+                }
+                for loading in self.wanted.iter().filter(|l| mine(l)) {
+                    let sums = &mut running[loading.index()];
+                    self.reduce(worker, k, row_block, *loading, sums);
+                }
+            }
+        }
+        running.map(|laws| {
+            let mut out = [LayerSum::NONE; MAX_LAWS];
+            for ((out, sums), law) in out.iter_mut().zip(&laws).zip(self.laws) {
+                *out = sums.finish(self, layer, law.exponent);
+            }
+            out
+        })
+    }
+
+    fn pass_along_y(&self, worker: &mut Worker, layer: &Layer, part: Part, material: usize) {
+        let slot = usize::from(part != Part::Normal);
+        let nu = [self.spec.nu, self.spec.nu_2][material];
         for block in 0..layer.blocks {
             let inputs = &mut worker.along_y;
             block_inputs(
@@ -191,63 +250,76 @@ impl Job<'_> {
                 block,
                 self.waves,
                 self.spectrum,
-                self.spec.nu,
-                loads,
+                (material, nu),
+                part,
                 inputs,
             );
             for (which, input) in worker.along_y.iter_mut().enumerate() {
                 self.plans[layer.fft_y].inverse(input, &mut worker.other);
-                let fields = &mut worker.fields;
+                let fields = &mut worker.fields[slot];
                 match self.spec.symmetry {
                     Symmetry::MirrorY => unfold_rows(layer, block, which, input, fields),
                     Symmetry::General => turn_rows(layer, block, which, input, fields),
                 }
             }
         }
-        let mut sums = RowSums::default();
-        for row_block in 0..layer.row_blocks() {
-            self.rows_sum(worker, layer, row_block, &mut sums);
-        }
-        sums.finish(self, layer)
     }
 
-    fn rows_sum(&self, worker: &mut Worker, layer: &Layer, row_block: usize, sums: &mut RowSums) {
+    fn pass_along_x(&self, worker: &mut Worker, layer: &Layer, row_block: usize, slot: usize) {
         let plan = &self.plans[layer.fft_x];
-        let Worker {
-            along_x,
-            other,
-            fields,
-            squares,
-            ..
-        } = worker;
+        let fields = &worker.fields[slot];
         // Two real fields share a transform: d1 with d2, xy with xz; yz is alone.
-        for (input, (u, v)) in along_x
-            .iter_mut()
-            .zip([(0, Some(1)), (2, Some(3)), (4, None)])
+        for (input, (u, v)) in
+            worker.along_x[slot]
+                .iter_mut()
+                .zip([(0, Some(1)), (2, Some(3)), (4, None)])
         {
             let width = layer.blocks * LANES;
             let line = |field: usize| (field * layer.row_blocks() + row_block) * width;
             pack_pair(layer.n_x, width, (line(u), v.map(line)), fields, input);
-            plan.inverse(input, other);
+            plan.inverse(input, &mut worker.other);
         }
-        let squares = &mut squares[..layer.inside_x];
+    }
+
+    fn reduce(
+        &self,
+        worker: &mut Worker,
+        k: usize,
+        row_block: usize,
+        loading: Loading,
+        sums: &mut [RowSums; MAX_LAWS],
+    ) {
+        let layer = &self.layers[k];
         let mut weights = V::ZERO;
         for (l, w) in weights.0.iter_mut().enumerate() {
             *w = layer.row_weight(row_block * LANES + l, self.spec.symmetry);
         }
-        let (top, sum) = reduce(
-            self.spec.measure,
-            along_x,
-            squares,
-            weights,
-            self.half_exponent,
-        );
-        sums.add(self.half_exponent, row_block, top, sum, squares);
+        let squares = &mut worker.squares[..layer.inside_x];
+        let [normal, tangential] = &worker.along_x;
+        let tangential = match loading {
+            Loading::Normal(_) => None,
+            Loading::Full(_) => Some((tangential, loading.traction_sign())),
+        };
+        let tops = squares_of(self.spec.measure, normal, tangential, weights, squares);
+        let row = self.first_row[k] + row_block * LANES;
+        let rows = (layer.inside_y - row_block * LANES).min(LANES);
+        worker.row_tops[loading.index()][row..row + rows].copy_from_slice(&tops.0[..rows]);
+        let top = tops.0.into_iter().fold(0.0, f32::max);
+        for (law, sums) in self.laws.iter().zip(sums) {
+            let half = (0.5 * law.exponent) as f32;
+            if law.limit > 0.0 {
+                let beyond = &mut worker.beyond[..layer.inside_x];
+                let top = excess(squares, top, law.limit as f32, beyond);
+                sums.add(half, row_block, top, beyond, weights);
+            } else {
+                sums.add(half, row_block, top, squares, weights);
+            }
+        }
     }
 }
 
 /// Running sum over blocks of rows, relative to the greatest square so far.
-#[derive(Default)]
+#[derive(Debug, Clone, Copy, Default)]
 struct RowSums {
     top: f32,
     sum: f64,
@@ -256,10 +328,11 @@ struct RowSums {
 }
 
 impl RowSums {
-    fn add(&mut self, half_exponent: f32, row_block: usize, top: f32, sum: f64, squares: &[V]) {
+    fn add(&mut self, half_exponent: f32, row_block: usize, top: f32, squares: &[V], weights: V) {
         if top <= 0.0 {
             return;
         }
+        let sum = weighted_sum(squares, top, half_exponent, weights);
         let ratio = |a: f32, b: f32| f64::from(a / b).powf(f64::from(half_exponent));
         if top <= self.top {
             self.sum += sum * ratio(top, self.top);
@@ -276,8 +349,7 @@ impl RowSums {
         }
     }
 
-    fn finish(&self, job: &Job, layer: &Layer) -> LayerSum {
-        let exponent = 2.0 * f64::from(job.half_exponent);
+    fn finish(&self, job: &Job, layer: &Layer, exponent: f64) -> LayerSum {
         let ln = if self.top > 0.0 {
             (layer.weight * layer.area * self.sum).ln() + 0.5 * exponent * f64::from(self.top).ln()
         } else {
@@ -286,98 +358,12 @@ impl RowSums {
         let row = layer.first_row + self.at.1 as isize;
         LayerSum {
             ln,
-            top: self.top,
-            x: self.at.0 as f64 * job.waves.period_x / layer.n_x as f64,
-            y: row as f64 * job.waves.period_y / layer.n_y as f64,
+            peak: Peak {
+                value: f64::from(self.top).sqrt(),
+                x: job.spec.x_first + self.at.0 as f64 * job.waves.period_x / layer.n_x as f64,
+                y: row as f64 * layer.row_step,
+                z: layer.z,
+            },
         }
     }
-}
-
-/// Index of a layer's row (may be below the axis) in its period.
-#[inline(always)]
-fn wrapped(layer: &Layer, row: usize) -> usize {
-    (layer.first_row + row as isize).rem_euclid(layer.n_y as isize) as usize
-}
-
-#[inline(always)]
-fn store(fields: &mut [V], layer: &Layer, block: usize, slot: usize, tile: &mut [f32; TILE]) {
-    transpose_tile(tile);
-    let o = slot * layer.blocks * LANES + block * LANES;
-    for (v, row) in fields[o..o + LANES]
-        .iter_mut()
-        .zip(tile.chunks_exact(LANES))
-    {
-        v.0.copy_from_slice(row);
-    }
-}
-
-dispatched! {
-/// Even and odd field of buffer `which` at y ≥ 0 apart, rows into the lanes.
-fn unfold_rows(layer: &Layer, block: usize, which: usize, z: &Lanes, fields: &mut Lanes) {
-    let n = layer.n_y;
-    // Buffers hold d1 + xy, d2 + yz, xz; fields are d1, d2, xy, xz, yz.
-    let (even_field, odd_field) = [(0, Some(2)), (1, Some(4)), (3, None)][which];
-    let blocks = layer.row_blocks();
-    for row_block in 0..blocks {
-        for (from, to) in [(&z.re, &mut fields.re), (&z.im, &mut fields.im)] {
-            let (mut even, mut odd) = ([0.0; TILE], [0.0; TILE]);
-            for l in 0..LANES {
-                let y = (row_block * LANES + l) % n;
-                let o = l * LANES;
-                even[o..o + LANES].copy_from_slice(&from[y].0);
-                odd[o..o + LANES].copy_from_slice(&from[(n - y) % n].0);
-            }
-            for i in 0..TILE {
-                let (a, b) = (even[i], odd[i]);
-                even[i] = 0.5 * (a + b);
-                odd[i] = 0.5 * (a - b);
-            }
-            store(to, layer, block, even_field * blocks + row_block, &mut even);
-            if let Some(field) = odd_field {
-                store(to, layer, block, field * blocks + row_block, &mut odd);
-            }
-        }
-    }
-}
-}
-
-dispatched! {
-/// Field `which`, rows into the lanes.
-fn turn_rows(layer: &Layer, block: usize, which: usize, z: &Lanes, fields: &mut Lanes) {
-    let blocks = layer.row_blocks();
-    for row_block in 0..blocks {
-        for (from, to) in [(&z.re, &mut fields.re), (&z.im, &mut fields.im)] {
-            let mut rows = [0.0; TILE];
-            for (l, row) in rows.chunks_exact_mut(LANES).enumerate() {
-                row.copy_from_slice(&from[wrapped(layer, row_block * LANES + l)].0);
-            }
-            store(to, layer, block, which * blocks + row_block, &mut rows);
-        }
-    }
-}
-}
-
-dispatched! {
-/// Squares of the measure, their greatest, and `Σ weight (square/greatest)^half_exponent`.
-fn reduce(
-    measure: StressMeasure,
-    fields: &[Lanes; 3],
-    squares: &mut [V],
-    weights: V,
-    half_exponent: f32,
-) -> (f32, f64) {
-    let [a, b, c] = fields;
-    let inside = weights.0.map(|w| if w > 0.0 { 1.0 } else { 0.0 });
-    let mut top = [0.0_f32; LANES];
-    for (i, square) in squares.iter_mut().enumerate() {
-        squared(measure, [a.re[i], a.im[i], b.re[i], b.im[i], c.re[i]], &inside, square, &mut top);
-    }
-    let top = top.into_iter().fold(0.0, f32::max);
-    if top <= 0.0 {
-        return (0.0, 0.0);
-    }
-    let lanes = power_sum(squares, top, half_exponent);
-    let sum = lanes.0.iter().zip(weights.0).map(|(s, w)| f64::from(*s) * f64::from(w)).sum();
-    (top, sum)
-}
 }

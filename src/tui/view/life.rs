@@ -46,7 +46,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     figure(app, &mut rows, buffer);
     scale(app, &mut rows, buffer);
     if roomy {
-        rows.skip();
+        model(app, rows.take(1), buffer);
     }
     mechanisms::mechanisms(app, &mut rows, buffer);
     if roomy {
@@ -122,6 +122,27 @@ fn figure(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
     said(app, area, digits::width(&text), buffer);
     let below = rows.take(1);
     put(below, 0, &provenance(app, below.width), buffer);
+}
+
+/// Which model and effective stress, and how far other choices would move the number.
+fn model(app: &App, row: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let scene = &app.setup.scene;
+    let (Some(life), Some(stress)) = (&scene.life, &scene.stress) else {
+        return;
+    };
+    let mut text = format!("{}, {}", life.model.name(), stress.measure.name());
+    if let Some(detail) = app.life().map(|life| life.detail)
+        && detail.variants > 1
+    {
+        let (low, high) = (sig(detail.spread_low, 2), sig(detail.spread_high, 2));
+        let spread = format!("; models {low}–{high}");
+        if text.chars().count() + spread.chars().count() <= usize::from(row.width) {
+            text.push_str(&spread);
+        }
+    }
+    let line = Line::styled(ascii_text(theme, &text), theme.style(Role::Dim));
+    put(row, 0, &line, buffer);
 }
 
 /// Beside the large figure: where the number comes from.

@@ -1,0 +1,27 @@
+//! The keys of `[life]`.
+
+use super::keys::Kind::{Choice, Number};
+use super::keys::Need::{Defaulted, Optional};
+use super::keys::{Key, key};
+
+/// Keys of `[life]` in printed order.
+#[rustfmt::skip] // one line a key
+pub(super) const LIFE: &[Key] = &[
+    key("model", "", Choice(&["zaretsky", "lundberg_palmgren", "ioannides_harris", "dang_van", "findley"]), Defaulted, "life model"),
+    key("stress_exponent", "", Number(1.0, 40.0), Defaulted, "c: assumption, not from the paper"),
+    key("weibull_slope", "", Number(0.3, 10.0), Defaulted, "e: assumption, not from the paper"),
+    key("survival", "", Number(0.001, 0.999), Defaulted, "probability of survival Ps; drops out of relative lives"),
+    key("cycles", "", Choice(&["global", "depth", "peaks", "ranges"]), Defaulted, "how cycles enter: one n for the volume (an upper bound on damage), n by depth, or counted by peak or range"),
+    key("volume", "", Choice(&["snapshot", "swept"]), Defaulted, "which integral: mean over the phases of a passage, or the greatest stress of every track (the bound)"),
+    key("body", "", Choice(&["weaker", "body_1", "body_2"]), Defaulted, "whose life it is, in that body's own loading cycles"),
+    key("depth_exponent", "", Number(0.0, 4.0), Defaulted, "h of Lundberg-Palmgren and Ioannides-Harris"),
+    key("cut_off_a", "a", Number(1e-3, 1.0), Defaulted, "depth above which z^-h no longer grows; at a rough surface it would diverge"),
+    key("limit_pa", "Pa", Number(0.0, 1e10), Defaulted, "fatigue limit of the effective stress (Ioannides-Harris); 0: none; ISO 281 takes 9e8 of von Mises"),
+    key("normal_weight", "", Number(0.0, 2.0), Defaulted, "weight of the hydrostatic (Dang Van) or normal (Findley) stress: assumption"),
+    key("spread", "", Choice(&["off", "cycles", "models"]), Defaulted, "spread of the life over cycle bases and integrals, or over all models too"),
+    key("damage_map", "", Choice(&["off", "body_1", "body_2", "both"]), Defaulted, "bodies for which damage is mapped over depth and along the surface"),
+    key("calibration_cycles", "cycles", Number(1.0, 1e15), Optional("lives stay relative"), "loading cycles that the smooth, frictionless contact lives at calibration_pressure_pa"),
+    key("calibration_pressure_pa", "Pa", Number(1e6, 1e10), Optional("lives stay relative"), "Hertz pressure of the calibration point, same radii and materials"),
+    key("calibration_survival", "", Number(0.001, 0.999), Defaulted, "probability of survival of the calibration point"),
+    key("iso_load_ratio", "", Number(0.0, 5.0), Optional("no a_ISO beside the result"), "e_C C_u/P of ISO 281:2007, contamination times load limit over load"),
+];

@@ -1,0 +1,237 @@
+//! Material points of both bodies on the line y = 0 that count cycles and collect damage.
+
+use serde::{Deserialize, Serialize};
+
+use super::stress_stage::StressStage;
+use crate::math::grid::Grid;
+use crate::physics::cycles::{BodyId, Kinematics};
+use crate::physics::life_models::CycleProfile;
+use crate::plan::Plan;
+use crate::scene::CycleBasis;
+use crate::solve::damage::{BlockSpec, DamageMap, Pit};
+use crate::solve::material::{DamageBasis, Line, MaterialTracker, Sample, TrackerSpec};
+
+/// Depth, in a, at which the shown material point lies: shallow enough to feel single asperities.
+const SHOWN_DEPTH: f64 = 0.1;
+/// Columns of a damage map.
+const MAP_COLUMNS: usize = 24;
+
+/// Counts of both bodies, and the point that is shown.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Counting {
+    trackers: [MaterialTracker; 2],
+    row: Vec<f32>,
+    shown_depth: usize,
+    /// The shown point of body 1.
+    pub(super) shown: Option<Sample>,
+    profiles: [[Profile; 2]; 2],
+    /// Greatest damage of one passage of the smooth contact, by ranges and by peaks.
+    reference: [f64; 2],
+    basis: DamageBasis,
+}
+
+/// Counted and equivalent cycles of a body by depth, on one basis.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+struct Profile {
+    known: Option<()>,
+    counted: Vec<f64>,
+    equivalent: Vec<f64>,
+}
+
+/// What is counted.
+pub(super) struct CountingSpec {
+    /// Depths of the slice; 0: pressure alone.
+    pub(super) depths: usize,
+    /// c.
+    pub(super) exponent: f64,
+    /// What damage is taken from.
+    pub(super) basis: DamageBasis,
+    /// Blocks of both bodies for which damage is mapped: length and way from a crest, a.
+    pub(super) blocks: [Option<(f64, f64)>; 2],
+}
+
+impl Counting {
+    /// Trackers across the whole domain of `grid`, with the slice's `depths` (in a).
+    pub(super) fn new(grid: &Grid, depths: &[f64], spec: &CountingSpec) -> Self {
+        let x_last = grid.x_min + (grid.nx - 1) as f64 * grid.dx;
+        let shown_depth = depths.iter().take_while(|&&z| z < SHOWN_DEPTH).count();
+        let shown_depth = shown_depth.min(depths.len().saturating_sub(1));
+        let tracker = |body: usize| {
+            let track = (grid.x_min, x_last);
+            let mut tracker = TrackerSpec::new(track, spec.depths, spec.exponent);
+            tracker.shown_depth = shown_depth;
+            if let Some((length, offset)) = spec.blocks[body] {
+                let block = BlockSpec {
+                    columns: MAP_COLUMNS,
+                    depths: spec.depths,
+                    length,
+                    offset,
+                };
+                tracker.map = Some((block, spec.basis));
+                tracker.points = TrackerSpec::MAP_POINTS;
+            }
+            MaterialTracker::new(tracker)
+        };
+        let profile = Profile {
+            known: None,
+            counted: vec![1.0; spec.depths],
+            equivalent: vec![1.0; spec.depths],
+        };
+        Self {
+            trackers: [tracker(0), tracker(1)],
+            row: vec![0.0; grid.nx],
+            shown_depth,
+            shown: None,
+            profiles: [0, 1].map(|_| [profile.clone(), profile.clone()]),
+            reference: [1.0; 2],
+            basis: spec.basis,
+        }
+    }
+
+    /// Takes the smooth contact: its worst point is the unit of damage.
+    pub(super) fn set_reference(&mut self, stress: &StressStage, exponent: f64) {
+        let slice = stress.slice_in(BodyId::One);
+        let nx = self.row.len().max(1);
+        let range = |row: &[f32]| {
+            let low = row.iter().fold(0.0_f32, |low, v| low.min(*v));
+            row.iter().fold(0.0_f32, |high, v| high.max(*v)) - low
+        };
+        let ranges = slice.sxz.chunks_exact(nx).map(range).fold(0.0, f32::max);
+        let peak = slice.effective.iter().fold(0.0, |a: f32, b| a.max(*b));
+        self.reference = [ranges, peak].map(|s| f64::from(s).powf(exponent));
+    }
+
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        for tracker in &mut self.trackers {
+            tracker.make_room();
+        }
+    }
+
+    /// Whether the counts were made on `grid` with so many depths, and nothing in them points astray.
+    pub(super) fn fits(&self, grid: &Grid, depths: usize) -> bool {
+        let whole = |profile: &Profile| {
+            profile.counted.len() == depths && profile.equivalent.len() == depths
+        };
+        self.row.len() == grid.nx
+            && self.shown_depth < depths.max(1)
+            && self.profiles.iter().flatten().all(whole)
+            && self.trackers.iter().all(MaterialTracker::is_sound)
+    }
+
+    /// Forgets all counts; the bodies have moved by `travelled` (in a).
+    pub(super) fn restart(&mut self, travelled: [f64; 2]) {
+        for (tracker, way) in self.trackers.iter_mut().zip(travelled) {
+            tracker.restart(way);
+        }
+        for profile in self.profiles.iter_mut().flatten() {
+            profile.known = None;
+        }
+    }
+
+    /// Moves the points by `travel` (in a) and samples the line y = 0.
+    pub(super) fn step(
+        &mut self,
+        grid: &Grid,
+        travel: [f64; 2],
+        pressure: &[f64],
+        stress: Option<&StressStage>,
+    ) {
+        let axis = grid.axis_row() * grid.nx;
+        for (to, &from) in self.row.iter_mut().zip(&pressure[axis..axis + grid.nx]) {
+            *to = from as f32;
+        }
+        let row = &self.row;
+        let line = |body: BodyId| {
+            let slice = stress.map(|stress| stress.slice_in(body));
+            Line {
+                x_first: grid.x_min,
+                dx: grid.dx,
+                pressure: row,
+                tau_xz: slice.map(|slice| &slice.sxz[..]),
+                effective: slice.map(|slice| &slice.effective[..]),
+            }
+        };
+        for body in BodyId::BOTH {
+            let i = body.index();
+            let before = self.trackers[i].crossings();
+            self.trackers[i].step(travel[i], &line(body));
+            if self.trackers[i].crossings() == before {
+                continue;
+            }
+            for basis in [DamageBasis::Ranges, DamageBasis::Peaks] {
+                let profile = &mut self.profiles[i][basis_index(basis)];
+                let (counted, equivalent) = (&mut profile.counted, &mut profile.equivalent);
+                let known = self.trackers[i].cycles_by_depth(basis, counted, equivalent);
+                profile.known = known.then_some(());
+            }
+        }
+        self.shown = Some(self.trackers[0].shown(&line(BodyId::One)));
+    }
+
+    /// Index of the depth at which the shown point lies.
+    pub(super) fn shown_depth(&self) -> usize {
+        self.shown_depth
+    }
+
+    /// Mean counted cycles of a crossing, both bodies.
+    pub(super) fn counted(&self) -> [Option<f64>; 2] {
+        [0, 1].map(|body: usize| {
+            self.trackers[body]
+                .pressure_cycles()
+                .map(|tally| tally.count)
+        })
+    }
+
+    /// Cycles by depth on a counted basis; `None` for the others and until a crossing has been counted.
+    pub(super) fn profile(&self, body: BodyId, basis: CycleBasis) -> Option<CycleProfile<'_>> {
+        let basis = match basis {
+            CycleBasis::Ranges => DamageBasis::Ranges,
+            CycleBasis::Peaks => DamageBasis::Peaks,
+            CycleBasis::Global | CycleBasis::Depth => return None,
+        };
+        let profile = &self.profiles[body.index()][basis_index(basis)];
+        profile.known?;
+        Some(CycleProfile::Counted(&profile.equivalent))
+    }
+
+    /// Counts of signed shear by depth; `None` until a crossing has been counted.
+    pub(super) fn shear_counts(&self, body: BodyId) -> Option<&[f64]> {
+        let profile = &self.profiles[body.index()][basis_index(DamageBasis::Ranges)];
+        profile.known.map(|()| &profile.counted[..])
+    }
+
+    /// Damage map of a body, and the damage of the smooth contact's worst point.
+    pub(super) fn map(&self, body: BodyId) -> Option<(&DamageMap, f64)> {
+        let unit = self.reference[basis_index(self.basis)];
+        let map = self.trackers[body.index()].map()?;
+        (unit > 0.0).then_some((map, unit))
+    }
+
+    /// Where the pit of a body starts, with its damage over that of the smooth contact.
+    pub(super) fn pit(&self, body: BodyId) -> Option<Pit> {
+        let (map, unit) = self.map(body)?;
+        let pit = map.pit()?;
+        Some(Pit {
+            damage: pit.damage / unit,
+            ..pit
+        })
+    }
+}
+
+fn basis_index(basis: DamageBasis) -> usize {
+    match basis {
+        DamageBasis::Ranges => 0,
+        DamageBasis::Peaks => 1,
+    }
+}
+
+/// n of both bodies by formula; `None` where a body stands.
+pub(super) fn contacts(plan: &Plan, u_m_s: f64, s: f64) -> [Option<f64>; 2] {
+    let kinematics = Kinematics::from_slide_roll(u_m_s, s, 2.0 * plan.hertz.a_m);
+    BodyId::BOTH.map(|body| {
+        let mate = body.mate().index();
+        let crests = plan.waves[mate].map_or(0.0, |wave| wave.crests_per_m);
+        kinematics.contacts(body, crests).per_cycle()
+    })
+}

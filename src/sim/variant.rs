@@ -1,0 +1,203 @@
+//! One life model under way: its mean over the phases, its greatest over the track, its reference.
+
+use serde::{Deserialize, Serialize};
+
+use super::stress_stage::StressStage;
+use crate::math::ln_sum::ln_list;
+use crate::physics::cycles::BodyId;
+use crate::physics::fatigue::LifeLaw;
+use crate::physics::life_models::LifeModel;
+use crate::scene::{Life, Spread, VolumeIntegral};
+use crate::solve::critical::shares_of_slice;
+use crate::solve::life::{LifeMeter, Shares, Sweep};
+use crate::solve::stress::{Loading, StressLaw};
+
+/// A model with its accumulators: plain data, all of it state.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Variant {
+    pub(super) model: LifeModel,
+    /// Place of its stress law in the volume pass; `None`: it reads slices.
+    pub(super) law: Option<usize>,
+    meter: LifeMeter,
+    /// Greatest shares over all samples (models of one depth), or the swept integral.
+    swept: Shares,
+    /// ln J of the reference, `[2 · body + form]`.
+    #[serde(with = "ln_list")]
+    reference: Vec<f64>,
+    /// Half range of shear, or risk, by depth of each body in the last sample, p_h (models of one depth).
+    by_depth: [Vec<f32>; 2],
+}
+
+/// What every variant is computed with.
+pub(super) struct Shared<'a> {
+    pub(super) law: LifeLaw,
+    pub(super) laws: &'a [StressLaw],
+    pub(super) sweep: &'a Sweep,
+    pub(super) scratch: &'a mut Shares,
+}
+
+impl Variant {
+    pub(super) fn new(
+        model: LifeModel,
+        law: Option<usize>,
+        depths: usize,
+        (period, capacity): (f64, usize),
+    ) -> Self {
+        Self {
+            model,
+            law,
+            meter: LifeMeter::new(depths, period, capacity),
+            swept: Shares::new(depths),
+            reference: vec![f64::NEG_INFINITY; 4],
+            by_depth: [vec![0.0; depths], vec![0.0; depths]],
+        }
+    }
+
+    /// Takes the smooth, frictionless contact as the reference.
+    pub(super) fn set_reference(&mut self, stress: &mut StressStage, shared: &mut Shared) {
+        self.take(stress, shared);
+        for body in BodyId::BOTH {
+            let at = 2 * body.index();
+            self.reference[at] = shared.scratch.ln(Loading::Normal(body));
+            self.reference[at + 1] = self.swept.ln(Loading::Normal(body));
+        }
+        self.restart();
+    }
+
+    /// ln J of the reference.
+    pub(super) fn ln_reference(&self, body: BodyId, form: VolumeIntegral) -> f64 {
+        self.reference[2 * body.index() + form_index(form)]
+    }
+
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        self.meter.make_room();
+    }
+
+    /// Takes the mean over a way of `period` (in a) from now on.
+    pub(super) fn set_period(&mut self, period: f64) {
+        self.meter.set_period(period);
+    }
+
+    /// Whether a variant that was saved is of the same make as this one.
+    pub(super) fn fits(&self, saved: &Self) -> bool {
+        let depths = self.by_depth[0].len();
+        self.model == saved.model
+            && self.law == saved.law
+            && saved.meter.is_sound(depths)
+            && saved.swept.is_sound(depths)
+            && saved.reference.len() == 4
+            && saved.by_depth.iter().all(|list| list.len() == depths)
+    }
+
+    /// Forgets all samples.
+    pub(super) fn restart(&mut self) {
+        self.meter.restart();
+        self.swept.clear();
+    }
+
+    /// Takes the surface loaded last; the volume pass has been made.
+    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, shared: &mut Shared) {
+        self.take(stress, shared);
+        self.meter.push(way, shared.scratch);
+    }
+
+    /// Shares of the surface loaded last into the scratch, and what has been swept.
+    fn take(&mut self, stress: &mut StressStage, shared: &mut Shared) {
+        let depths = stress.depth_count();
+        for loading in Loading::ALL {
+            if let Some(law) = self.law {
+                let target = shared.scratch.of_mut(loading);
+                let sums = stress.sums();
+                target.copy_from_slice(sums.layers(loading, law));
+                let swept = self.swept.of_mut(loading);
+                sums.swept_into(shared.sweep.of(loading), shared.laws[law], swept);
+                for (k, (share, swept)) in target.iter_mut().zip(swept).enumerate() {
+                    let weight = self.model.ln_depth_weight(stress.depths()[k]);
+                    *share += weight;
+                    *swept += weight;
+                }
+            } else if let Some(same) = stress.equal_loading(loading) {
+                for k in 0..depths {
+                    shared.scratch.of_mut(loading)[k] = shared.scratch.of(same)[k];
+                    self.swept.of_mut(loading)[k] = self.swept.of(same)[k];
+                }
+                if loading.body() != same.body() {
+                    let [one, two] = &mut self.by_depth;
+                    two.copy_from_slice(one);
+                }
+            } else {
+                stress.criterion_slice(loading);
+                let (nx, depths, slice) = stress.criterion();
+                let target = shared.scratch.of_mut(loading);
+                // Full load comes after the pressure alone and stays.
+                let by_depth = &mut self.by_depth[loading.body().index()];
+                shares_of_slice(
+                    self.model,
+                    shared.law,
+                    (nx, depths),
+                    slice,
+                    by_depth,
+                    target,
+                );
+                for (most, share) in self.swept.of_mut(loading).iter_mut().zip(target) {
+                    *most = most.max(*share);
+                }
+            }
+        }
+    }
+
+    /// Mean or swept shares; `None` before the first sample.
+    pub(super) fn shares(&self, form: VolumeIntegral) -> Option<&Shares> {
+        let mean = self.meter.mean()?;
+        Some(match form {
+            VolumeIntegral::Snapshot => mean,
+            VolumeIntegral::Swept => &self.swept,
+        })
+    }
+
+    /// Risk by depth of a body in the last sample, p_h; `None` for models that integrate.
+    pub(super) fn risk(&self, body: BodyId) -> Option<&[f32]> {
+        self.law.is_none().then(|| &self.by_depth[body.index()][..])
+    }
+
+    pub(super) fn meter(&self) -> &LifeMeter {
+        &self.meter
+    }
+}
+
+fn form_index(form: VolumeIntegral) -> usize {
+    match form {
+        VolumeIntegral::Snapshot => 0,
+        VolumeIntegral::Swept => 1,
+    }
+}
+
+/// The models that are computed: the scene's, and those of the spread.
+pub(super) fn models(asked: &Life, p_hertz_pa: f64) -> Vec<LifeModel> {
+    use crate::scene::LifeModel as Asked;
+    let make = |model: Asked| match model {
+        Asked::Zaretsky => LifeModel::Zaretsky,
+        Asked::LundbergPalmgren => LifeModel::LundbergPalmgren {
+            depth_exponent: asked.depth_exponent,
+            cut_off: asked.cut_off_a,
+        },
+        Asked::IoannidesHarris => LifeModel::IoannidesHarris {
+            depth_exponent: asked.depth_exponent,
+            cut_off: asked.cut_off_a,
+            limit: asked.limit_pa / p_hertz_pa,
+        },
+        Asked::DangVan => LifeModel::DangVan {
+            hydrostatic: asked.normal_weight,
+        },
+        Asked::Findley => LifeModel::Findley {
+            normal: asked.normal_weight,
+        },
+    };
+    let mut list = vec![make(asked.model)];
+    if asked.spread == Spread::Models {
+        let others = Asked::ALL.into_iter().filter(|model| *model != asked.model);
+        list.extend(others.map(make));
+    }
+    list
+}

@@ -1,0 +1,134 @@
+//! Cycles of one history under way, and the damage they do by Miner's rule.
+//!
+//! ```text
+//! D = Σ count · s^m         s: range of the cycle, or its peak (mean + range/2), in p_h
+//! ```
+
+use serde::{Deserialize, Serialize};
+
+use crate::physics::rainflow::{Cycle, Ends, Rainflow};
+
+/// What a cycle's damage is taken from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DamageBasis {
+    /// Ranges of the signed orthogonal shear.
+    Ranges,
+    /// Peaks of the effective stress.
+    Peaks,
+}
+
+/// Cycles of one history.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Tally {
+    /// Cycles with a range above the gate.
+    pub count: f64,
+    /// Σ count · s^m, s the range (or, of effective stress, the peak) in p_h: damage by Miner's rule.
+    pub damage: f64,
+    /// Greatest range (peak).
+    pub range: f64,
+    /// `Σ count · (s/greatest)^m`: as many cycles of the greatest do the same damage.
+    pub equivalent: f64,
+}
+
+impl Tally {
+    fn add(&mut self, cycle: Cycle, basis: DamageBasis, exponent: f64) {
+        let size = match basis {
+            DamageBasis::Ranges => cycle.range,
+            DamageBasis::Peaks => cycle.mean + 0.5 * cycle.range,
+        };
+        self.count += cycle.count;
+        self.damage += cycle.count * size.powf(exponent);
+        self.range = self.range.max(size);
+        self.equivalent = self.damage / self.range.powf(exponent);
+    }
+}
+
+/// One history: its counter and tally.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct History {
+    flow: Rainflow,
+    basis: DamageBasis,
+    pub(super) tally: Tally,
+    /// Tally of the last whole crossing.
+    pub(super) last: Option<Tally>,
+}
+
+impl History {
+    /// Open reversals of a crossing's pressure: far more than the crests of any contact that a grid resolves.
+    pub(super) const OPEN: usize = 512;
+    /// Same at a depth, where there are many histories: twice the crests on the rising side of a contact
+    /// with 100 of them.
+    pub(super) const OPEN_BELOW: usize = 100;
+
+    pub(super) fn new(gate: f64, basis: DamageBasis, open: usize) -> Self {
+        Self {
+            flow: Rainflow::new(Ends::Repeating, gate, open),
+            basis,
+            tally: Tally::default(),
+            last: None,
+        }
+    }
+
+    /// Makes the room again that a copy or a file does not keep.
+    pub(super) fn make_room(&mut self) {
+        self.flow.make_room();
+    }
+
+    pub(super) fn push(&mut self, value: f64, exponent: f64) {
+        let Self {
+            flow, tally, basis, ..
+        } = self;
+        flow.push(value, &mut |cycle| tally.add(cycle, *basis, exponent));
+    }
+
+    /// Starts a crossing at zero stress.
+    pub(super) fn start(&mut self, exponent: f64) {
+        self.flow.reset();
+        self.tally = Tally::default();
+        self.push(0.0, exponent);
+    }
+
+    /// Ends it at zero stress.
+    pub(super) fn end(&mut self, exponent: f64, crossing: Crossing) {
+        self.push(0.0, exponent);
+        let Self {
+            flow,
+            basis,
+            tally,
+            last,
+        } = self;
+        flow.finish(&mut |cycle| tally.add(cycle, *basis, exponent));
+        if crossing == Crossing::Whole {
+            *last = Some(*tally);
+        }
+    }
+}
+
+/// Whether a point's crossing has been followed from its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Crossing {
+    /// Not sampled yet.
+    New,
+    /// From before the contact.
+    Whole,
+    /// From inside or behind the contact: not counted.
+    Part,
+}
+
+/// Mean of several crossings; `None` for none.
+pub(super) fn mean(tallies: impl Iterator<Item = Tally>) -> Option<Tally> {
+    let (mut sum, mut count) = (Tally::default(), 0.0);
+    for tally in tallies {
+        sum.count += tally.count;
+        sum.damage += tally.damage;
+        sum.equivalent += tally.equivalent;
+        sum.range = sum.range.max(tally.range);
+        count += 1.0;
+    }
+    (count > 0.0).then(|| Tally {
+        count: sum.count / count,
+        damage: sum.damage / count,
+        equivalent: sum.equivalent / count,
+        range: sum.range,
+    })
+}
