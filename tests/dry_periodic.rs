@@ -34,6 +34,7 @@ fn solved(nodes: usize, mean: f64) -> Solved {
                 pressure: 1e-8,
                 film: f64::INFINITY,
                 mass: f64::INFINITY,
+                least_film: 0.0,
                 load: 1e-8,
                 max_iterations: 20,
             },

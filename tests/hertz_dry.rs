@@ -24,6 +24,7 @@ fn tolerance(pressure: f64) -> Tolerance {
         pressure,
         film: f64::INFINITY,
         mass: f64::INFINITY,
+        least_film: 0.0,
         load: 1e-8,
         max_iterations: 40,
     }

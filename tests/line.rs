@@ -44,6 +44,7 @@ fn dry_hertz() {
         pressure: 1e-8,
         film: f64::INFINITY,
         mass: f64::INFINITY,
+        least_film: 0.0,
         load: 1e-8,
         max_iterations: 40,
     };
@@ -92,6 +93,7 @@ const TOLERANCE: Tolerance = Tolerance {
     pressure: 1e-4,
     film: 1e-4,
     mass: 1e-4,
+    least_film: 0.0,
     load: 1e-6,
     max_iterations: 20,
 };

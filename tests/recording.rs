@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use asperity::observe::rerun::Recorder;
 use asperity::observe::{
-    Observer, ObserverReport, Overwrite, Queue, RunEvent, RunEventKind, WhenFull,
+    Observer, ObserverReport, Overwrite, Queue, RunEvent, RunEventKind, SetBy, WhenFull,
 };
 use asperity::scene::Record;
 use asperity::sim::{Frame, Stage};
@@ -122,6 +122,8 @@ fn record(path: &Path, record: &Record, frames: &[Arc<Frame>]) -> ObserverReport
                 RunEventKind::Set {
                     key: "motion.slide_roll".into(),
                     value: 0.75,
+                    by: SetBy::Hand,
+                    steps_made: 104,
                 },
                 RunEventKind::NotConverged { residual: 0.25 },
             ] {
@@ -272,6 +274,7 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
     let known = [
         "__properties",
         "centre_line_y0",
+        "commands",
         "contact_3d",
         "convergence",
         "kymograph",

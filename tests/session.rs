@@ -116,7 +116,7 @@ impl Observer for Probe {
     }
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
         let what = match &event.kind {
-            RunEventKind::Set { key, value } => format!("{key}={value}"),
+            RunEventKind::Set { key, value, .. } => format!("{key}={value}"),
             RunEventKind::Caption(text) => text.clone(),
             RunEventKind::NotConverged { residual } => format!("residual {residual}"),
         };

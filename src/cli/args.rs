@@ -63,7 +63,8 @@ Examples:
   asperity run --set load.hertz_pressure_pa=1.2e9 --set body_1.surface.kind=smooth
   asperity run --set lubricant=none --passages 1 --no-record --summary dry.json
   asperity run --passages 1 --save-state half.state
-  asperity run --passages 2 --from-state half.state        goes on as if it had never stopped")]
+  asperity run --passages 2 --from-state half.state        goes on as if it had never stopped
+  asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit")]
     Run(HeadlessArgs),
     /// Print the plan: what is computed, what is left out and why, memory, estimated time
     Check(SceneArgs),
@@ -157,6 +158,9 @@ pub(crate) struct HeadlessArgs {
     /// State to go on from, saved by a run of the same scene; the result is that of one run, bit for bit
     #[arg(long, value_name = "FILE")]
     pub(crate) from_state: Option<PathBuf>,
+    /// Recording to repeat: its scene, and every knob that was turned by hand at the same step
+    #[arg(long, value_name = "FILE.rrd", conflicts_with_all = ["scene", "settings", "passages", "from_state"])]
+    pub(crate) from: Option<PathBuf>,
 }
 
 impl HeadlessArgs {
@@ -166,6 +170,7 @@ impl HeadlessArgs {
             run,
             save_state: None,
             from_state: None,
+            from: None,
         }
     }
 }

@@ -6,6 +6,7 @@ mod args;
 mod explore;
 mod failure;
 mod outputs;
+mod repeat;
 mod report;
 mod run;
 mod scenes;

@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::args::{HeadlessArgs, RunArgs};
 use super::failure::Failure;
 use super::outputs::{Outputs, Pace};
+use super::repeat::{self, Repetition};
 use super::{report, scenes};
 
 /// Estimated time from which a progress bar is worth its line, s.
@@ -26,7 +27,16 @@ const LOOK: Duration = Duration::from_millis(50);
 pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     let args = &headless.run;
     refuse_recording_without_recorder(args)?;
-    let prepared = scenes::prepare(args)?;
+    let repetition = headless
+        .from
+        .as_deref()
+        .map(|path| repeat::read(path, args))
+        .transpose()?;
+    let is_plain = repetition.as_ref().is_none_or(Repetition::is_plain);
+    let (prepared, turns, last_step) = match repetition {
+        None => (scenes::prepare(args)?, Vec::new(), 0),
+        Some(repeated) => (repeated.prepared, repeated.turns, repeated.last_step),
+    };
     let path = args
         .out
         .clone()
@@ -54,22 +64,26 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         plan: plan.clone(),
         threads: args.threads(),
         watchers: outputs.take_watchers(),
-        ending: Ending::Passages,
+        ending: if is_plain {
+            Ending::Passages
+        } else {
+            Ending::Steps(last_step)
+        },
     };
     let session = match saved {
-        None => Session::start(request),
+        None if is_plain => Session::start(request),
+        None => Session::repeat(request, turns),
         Some(saved) => Session::resume(request, saved),
     }?;
     let interrupt = stop_on_signals()?;
     wait(&session, estimate_s, &interrupt, "");
     let mut outcome = session.join()?;
-    let errors = estimate_errors(
-        &prepared.scene,
-        &plan,
-        args.threads(),
-        &mut outcome,
-        &interrupt,
-    );
+    let errors = if is_plain {
+        let (scene, threads) = (&prepared.scene, args.threads());
+        estimate_errors(scene, &plan, threads, &mut outcome, &interrupt)
+    } else {
+        "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
+    };
     if matches!(outcome.end, End::Stopped) {
         let note = "stopped by the user; what was recorded is complete";
         let _ = writeln!(std::io::stderr(), "{note}");

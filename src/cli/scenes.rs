@@ -32,19 +32,24 @@ fn load(args: &SceneArgs) -> Result<Scene, SceneError> {
 
 /// The scene to run, with a recording only if there will be one, and its plan.
 pub(crate) fn prepare(args: &RunArgs) -> Result<Prepared, Failure> {
-    let mut scene = load(&args.scene)?;
-    if args.no_record || !cfg!(feature = "rerun") {
-        scene.record = None;
-    } else if args.out.is_some() && scene.record.is_none() {
-        scene.record = Some(Record::default());
-    }
-    let plan = Plan::new(&scene)?;
+    let scene = load(&args.scene)?;
     let name = std::path::Path::new(&args.scene.scene)
         .file_stem()
         .map_or_else(
             || "scene".to_owned(),
             |stem| stem.to_string_lossy().into_owned(),
         );
+    finish(args, scene, name)
+}
+
+/// Same for a scene that is there already.
+pub(crate) fn finish(args: &RunArgs, mut scene: Scene, name: String) -> Result<Prepared, Failure> {
+    if args.no_record || !cfg!(feature = "rerun") {
+        scene.record = None;
+    } else if args.out.is_some() && scene.record.is_none() {
+        scene.record = Some(Record::default());
+    }
+    let plan = Plan::new(&scene)?;
     Ok(Prepared {
         name,
         scene: Arc::new(scene),

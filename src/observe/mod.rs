@@ -17,6 +17,7 @@ mod table;
 use std::path::Path;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use latest::Latest;
@@ -38,6 +39,29 @@ pub struct RunContext {
     pub plan_text: String,
     /// Program name and version.
     pub program: String,
+    /// What the first step goes on from.
+    pub began: Began,
+}
+
+/// What a run begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Began {
+    /// The scene alone.
+    #[default]
+    FromScene,
+    /// The saved state of another run, which the scene alone does not give back.
+    FromState,
+}
+
+/// Who turned a knob.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SetBy {
+    /// A command from outside.
+    Hand,
+    /// The scene's own script.
+    Script,
 }
 
 /// Something that happened between frames.
@@ -60,6 +84,10 @@ pub enum RunEventKind {
         key: String,
         /// SI value.
         value: f64,
+        /// By whom.
+        by: SetBy,
+        /// Steps that the run had made, those of the start-up too: with them the run can be repeated.
+        steps_made: u64,
     },
     /// A caption of a scripted scene.
     Caption(String),

@@ -8,11 +8,12 @@ use std::time::Instant;
 use super::Command;
 use super::checkpoint::Checkpoint;
 use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
+use super::replay::Turn;
 use super::session::{Ending, SessionEvent, Shared, lock};
 use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{
-    FramePool, Latest, ObserveError, ObserverReport, RunContext, RunEvent, RunEventKind,
+    FramePool, Latest, ObserveError, ObserverReport, RunContext, RunEvent, RunEventKind, SetBy,
 };
 use crate::scene::{Event, Scene};
 use crate::sim::{Frame, Knob, SimError, Stage, State};
@@ -34,6 +35,10 @@ pub(super) struct Driver {
     ending: Ending,
     watchers: Vec<Watcher>,
     script: VecDeque<Event>,
+    /// Knobs turned by hand in the run that is repeated, in order.
+    turns: VecDeque<Turn>,
+    /// Steps made, those of the start-up too.
+    made: u64,
     inbox: Receiver<Command>,
     latest: Latest,
     shared: Arc<Mutex<Shared>>,
@@ -63,6 +68,8 @@ impl Driver {
             ending,
             watchers,
             script: script.into(),
+            turns: VecDeque::new(),
+            made: 0,
             inbox,
             latest,
             shared,
@@ -82,6 +89,12 @@ impl Driver {
         self.script.drain(..n_events_played.min(self.script.len()));
         self.n_events_played = n_events_played;
         self.n_unconverged = n_unconverged;
+        self
+    }
+
+    /// Turns the knobs again that were turned by hand in another run.
+    pub(super) fn repeating(mut self, turns: Vec<Turn>) -> Self {
+        self.turns = turns.into();
         self
     }
 
@@ -158,11 +171,12 @@ impl Driver {
 
     /// Steps until something ends the run.
     fn drive<S: Stepper>(&mut self, sim: &mut S) -> End {
-        if self.ending == Ending::Passages && sim.is_done() {
+        if self.has_ended(sim) {
             // Taken up where all that is asked for had been done.
             return End::Done;
         }
         loop {
+            self.repeat_turns(sim);
             if let Some(end) = self.obey(sim) {
                 return end;
             }
@@ -170,6 +184,7 @@ impl Driver {
             if let Err(error) = sim.step() {
                 return End::Stalled(error);
             }
+            self.made += 1;
             if self.pace == Pace::OneStep {
                 self.pace = Pace::Paused;
             }
@@ -179,9 +194,28 @@ impl Driver {
             if self.must_end_for_outputs() {
                 return End::OutputFailed;
             }
-            if self.ending == Ending::Passages && sim.is_done() {
+            if self.has_ended(sim) {
                 return End::Done;
             }
+        }
+    }
+
+    fn has_ended<S: Stepper>(&self, sim: &S) -> bool {
+        match self.ending {
+            Ending::Passages => sim.is_done(),
+            Ending::Steps(steps) => sim.passage_steps() >= steps,
+            Ending::OnStop => false,
+        }
+    }
+
+    /// Turns what was turned at this place in the run that is repeated.
+    fn repeat_turns<S: Stepper>(&mut self, sim: &mut S) {
+        while let Some(turn) = self.turns.front()
+            && turn.steps_made <= self.made
+        {
+            let Turn { knob, value, .. } = *turn;
+            self.turns.pop_front();
+            self.set(sim, knob, value, SetBy::Hand);
         }
     }
 
@@ -217,7 +251,7 @@ impl Driver {
                         return None;
                     }
                 }
-                Command::Set(knob, value) => self.set(sim, knob, value),
+                Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
             }
         }
     }
@@ -230,13 +264,15 @@ impl Driver {
         });
     }
 
-    fn set<S: Stepper>(&mut self, sim: &mut S, knob: Knob, value: f64) {
+    fn set<S: Stepper>(&mut self, sim: &mut S, knob: Knob, value: f64, by: SetBy) {
         match sim.set(knob, value) {
             Ok(()) => {
                 self.log(sim, Command::Set(knob, value));
                 let kind = RunEventKind::Set {
                     key: knob.key().to_owned(),
                     value,
+                    by,
+                    steps_made: self.made,
                 };
                 self.announce(sim, kind);
             }
@@ -258,7 +294,7 @@ impl Driver {
             self.n_events_played += 1;
             for (key, value) in &event.set {
                 if let Some(knob) = Knob::from_key(key) {
-                    self.set(sim, knob, *value);
+                    self.set(sim, knob, *value, SetBy::Script);
                 }
             }
             if !event.caption.is_empty() {
@@ -323,7 +359,7 @@ impl Driver {
     }
 
     fn must_end_for_outputs(&self) -> bool {
-        self.ending == Ending::Passages && !self.output_errors.is_empty()
+        self.ending != Ending::OnStop && !self.output_errors.is_empty()
     }
 
     fn tell_status<S: Stepper>(&self, sim: &S) {

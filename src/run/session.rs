@@ -11,9 +11,10 @@ use super::Command;
 use super::checkpoint::Checkpoint;
 use super::driver::Driver;
 use super::outcome::Outcome;
+use super::replay::Turn;
 use super::stepper::Stepper;
 use super::watcher::{Watcher, WatcherStatus};
-use crate::observe::{Latest, ObserveError, RunContext, RunEvent};
+use crate::observe::{Began, Latest, ObserveError, RunContext, RunEvent};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::sim::{SimError, Simulation, Stage};
@@ -23,6 +24,8 @@ use crate::sim::{SimError, Simulation, Stage};
 pub enum Ending {
     /// After the passages that the scene asks for, or when an output fails.
     Passages,
+    /// After so many steps of the passage, or when an output fails.
+    Steps(u64),
     /// Never: only when told to stop (the explorer). An output that fails is reported and left out.
     OnStop,
 }
@@ -109,6 +112,15 @@ pub(super) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// What a run begins with.
+#[derive(Debug, Default)]
+struct Start {
+    /// Scripted events played and steps unconverged before.
+    played: (usize, u64),
+    began: Began,
+    turns: Vec<Turn>,
+}
+
 /// A running session.
 #[derive(Debug)]
 pub struct Session {
@@ -138,7 +150,12 @@ impl Session {
         let threads = request.threads;
         let plan = request.plan.clone();
         let played = (checkpoint.n_events_played, checkpoint.n_unconverged);
-        Self::spawn(request, played, move |scene| {
+        let start = Start {
+            played,
+            began: Began::FromState,
+            turns: Vec::new(),
+        };
+        Self::spawn(request, start, move |scene| {
             checkpoint
                 .fits(scene)
                 .map_err(|error| SimError::State(error.to_string()))?;
@@ -156,12 +173,28 @@ impl Session {
         request: Request,
         make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
     ) -> Result<Self, RunError> {
-        Self::spawn(request, (0, 0), make)
+        Self::spawn(request, Start::default(), make)
+    }
+
+    /// Same as [`Session::start`], turning the knobs as they were turned in another run of the same scene.
+    ///
+    /// # Errors
+    /// [`RunError::NoThread`] when the system gives no thread.
+    pub fn repeat(request: Request, turns: Vec<Turn>) -> Result<Self, RunError> {
+        let threads = request.threads;
+        let plan = request.plan.clone();
+        let start = Start {
+            turns,
+            ..Start::default()
+        };
+        Self::spawn(request, start, move |scene| {
+            Simulation::new(scene, plan, threads)
+        })
     }
 
     fn spawn<S: Stepper>(
         request: Request,
-        (n_events_played, n_unconverged): (usize, u64),
+        start: Start,
         make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
     ) -> Result<Self, RunError> {
         let (commands, inbox) = channel();
@@ -175,11 +208,13 @@ impl Session {
             latest.clone(),
             Arc::clone(&shared),
         )
-        .after(n_events_played, n_unconverged);
+        .after(start.played.0, start.played.1)
+        .repeating(start.turns);
         let context = RunContext {
             scene_toml: request.scene.to_toml(),
             plan_text: request.plan.to_string(),
             program: concat!("asperity ", env!("CARGO_PKG_VERSION")).to_owned(),
+            began: start.began,
             scene: Arc::clone(&request.scene),
         };
         let name = request.name;

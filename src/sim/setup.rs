@@ -62,7 +62,7 @@ impl Simulation {
         for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
             drive.jump(knob, 0.0);
         }
-        let tolerance = tolerance_of(scene, flow);
+        let tolerance = tolerance_of(scene, flow, &door);
         let terrain = Terrain::new(&fine, scene.surfaces(), door.a_m, door.heading);
         let law = traction_law(scene, &door);
         let mut motion = Motion::new(nodes);
@@ -144,7 +144,10 @@ fn flow_of(scene: &Scene) -> Flow {
     })
 }
 
-fn tolerance_of(scene: &Scene, flow: Flow) -> Tolerance {
+/// Film, m, below which oil is no continuum: errors are judged against this film, not a thinner one.
+const LEAST_FILM_M: f64 = 1e-9;
+
+fn tolerance_of(scene: &Scene, flow: Flow, door: &Door) -> Tolerance {
     let wet = |share: f64| {
         if flow == Flow::Dry {
             f64::INFINITY
@@ -164,6 +167,7 @@ fn tolerance_of(scene: &Scene, flow: Flow) -> Tolerance {
         // the pressure's tolerance: at 5e-3 films are within 6e-4, pressure within 1e-5 of the limit.
         film: wet(5.0),
         mass: wet(0.1),
+        least_film: door.h_from_m(LEAST_FILM_M),
         load: 1e-5,
         max_iterations: scene.numerics.max_iterations,
     }

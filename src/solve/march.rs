@@ -63,9 +63,13 @@ pub struct March {
     pub newton: Newton,
     /// Solver of dry contacts; `None`: there is a film.
     pub dry: Option<Dry>,
+    /// Gap less the oil in it.
+    filled: Vec<f64>,
     c_star: Vec<f64>,
     s: Vec<f64>,
     mass: Vec<f64>,
+    /// Film against which the last attempt judged its errors where there is less.
+    least_film: f64,
     flow: Flow,
     kappa: f64,
     /// The step that the preconditioner is made for.
@@ -167,7 +171,7 @@ impl March {
         let mut macroscopic = vec![0.0; n];
         macroscopic_gap(&grid, shape.curvature_y, &mut macroscopic);
         let zero = vec![0.0; n];
-        let dry = (flow == Flow::Dry).then(|| Dry::new(&grid, &newton.elastic));
+        let dry = Some(Dry::new(&grid, &newton.elastic));
         Self {
             dry,
             state: State {
@@ -179,9 +183,11 @@ impl March {
             gap: macroscopic.clone(),
             macroscopic,
             newton,
+            filled: zero.clone(),
             c_star: zero.clone(),
             s: zero.clone(),
             mass: zero,
+            least_film: 0.0,
             flow,
             kappa: shape.kappa,
             usual_nodes: nodes,
@@ -199,6 +205,9 @@ impl March {
             Guess::Extrapolated => {
                 history.predict(&self.grid, nodes, &mut self.state.pressure);
                 self.state.h0 = history.h0[0];
+                if self.flow != Flow::Dry && self.is_nearly_closed(conditions) {
+                    self.guess_without_flow(conditions);
+                }
             }
             Guess::Last => {
                 self.state.pressure.copy_from_slice(&history.pressure_1);
@@ -208,6 +217,7 @@ impl March {
         if self.flow == Flow::Dry {
             return self.attempt_dry(conditions);
         }
+        self.least_film = conditions.tolerance.least_film;
         let problem = Problem {
             grid: &self.grid,
             medium: conditions.medium,
@@ -264,6 +274,62 @@ impl March {
             pressure, history, ..
         } = &self.state;
         history.path_error(&self.grid, (&self.mass, pressure), nodes)
+    }
+
+    /// Whether films of some times the least one carry most of the load.
+    fn is_nearly_closed(&self, conditions: &Conditions) -> bool {
+        /// In least films.
+        const THIN: f64 = 10.0;
+        let history = &self.state.history;
+        let thin = THIN * conditions.tolerance.least_film;
+        let (p, mass) = (&history.pressure_1, &history.mass_1);
+        let load = self.grid.integrate(|n| p[n]);
+        let carried = self
+            .grid
+            .integrate(|n| if mass[n] < thin { p[n] } else { 0.0 });
+        carried > 0.5 * load
+    }
+
+    /// The step without flow, `ρ̄H − C* ≥ 0, P ≥ 0`: a dry contact whose gap is filled by the oil that is
+    /// there. Where films all but close flow is slight, and this finds which nodes touch; Newton, which
+    /// would close a film by a third at a time (a conductance like H³ has a triple root), adds the flow.
+    fn guess_without_flow(&mut self, conditions: &Conditions) {
+        /// A guess needs no more: Newton's own tolerance.
+        const ROUGHLY: f64 = 1e-3;
+        /// Least films below which a node takes this guess: where there is more oil it flows, and the guess
+        /// of pressures that travel is the better one.
+        const CLOSED: f64 = 30.0;
+        let gap = &mut self.filled;
+        for (n, gap) in gap.iter_mut().enumerate() {
+            let (rho, _) = conditions.medium.density.rho(self.state.pressure[n]);
+            *gap = self.gap[n] - self.c_star[n] / rho;
+        }
+        self.mass.copy_from_slice(&self.state.pressure);
+        let tolerance = Tolerance {
+            pressure: ROUGHLY,
+            ..conditions.tolerance
+        };
+        let Some(dry) = &mut self.dry else { return };
+        dry.solve(
+            &mut self.newton.elastic,
+            &DryProblem {
+                grid: &self.grid,
+                gap,
+                load: conditions.load,
+                tolerance,
+            },
+            &mut Iterate {
+                p: &mut self.state.pressure,
+                h: &mut self.state.film,
+                h0: &mut self.state.h0,
+            },
+        );
+        let thin = CLOSED * conditions.tolerance.least_film;
+        for n in 0..self.grid.len() {
+            if self.state.history.mass_1[n] >= thin {
+                self.state.pressure[n] = self.mass[n];
+            }
+        }
     }
 
     /// A dry step. Deflection by traction (unlike bodies) is at most βμ, some per cent, of that by
@@ -333,7 +399,8 @@ impl March {
             let left = self.newton.reynolds.residual[n];
             let missing = if self.state.pressure[n] > 0.0 {
                 // The unbalanced rest of a converged step is mass that the next one must find again.
-                left.clamp(-CARRIED * full.abs(), CARRIED * full.abs())
+                let most = CARRIED * full.max(self.least_film);
+                left.clamp(-most, most)
             } else if self.flow == Flow::MassConserving {
                 left.max(0.0)
             } else {

@@ -1,6 +1,7 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
 
 mod axis;
+mod converge;
 pub mod critical;
 pub mod damage;
 pub mod dry;
@@ -16,6 +17,7 @@ pub mod material;
 pub mod newton;
 pub mod precondition;
 pub mod reynolds;
+mod reynolds_rows;
 pub mod stress;
 mod tally;
 pub mod tangential;

@@ -12,6 +12,8 @@
 //! [`CARRIED`] of the film is not lost: the next step takes it over (`march.rs`), so the mass error counts
 //! only what lies beyond. Not converging is a verdict, never a panic; nothing is committed by this file.
 
+pub use super::converge::{CARRIED, NewtonReport, Tolerance, Verdict};
+use super::converge::{Sums, sum_row};
 use super::film::Elastic;
 use super::jacobian::Jacobian;
 use super::krylov::Krylov;
@@ -27,59 +29,6 @@ const STEP_LIMIT: f64 = 2.0;
 const FORCING: f64 = 0.1;
 /// Most halvings of the line search.
 const MAX_HALVINGS: u32 = 4;
-
-/// Part of a node's film that a step may leave unbalanced and hand on to the next one. Steps that leave
-/// more are not trusted with their own residual: a loose step that hands on all of it blows up near dry.
-pub const CARRIED: f64 = 0.1;
-
-/// When to stop.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerance {
-    /// Σ|dP|/ΣP of the last iteration.
-    pub pressure: f64,
-    /// Film error.
-    pub film: f64,
-    /// Mass error.
-    pub mass: f64,
-    /// Load error.
-    pub load: f64,
-    /// Most Newton iterations.
-    pub max_iterations: usize,
-}
-
-/// How the iteration ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// All tolerances hold.
-    Converged,
-    /// The iterations ran out.
-    Stalled,
-    /// A value was not finite.
-    NotFinite,
-}
-
-/// What one step took and reached.
-#[derive(Debug, Clone, Copy)]
-pub struct NewtonReport {
-    /// How it ended.
-    pub verdict: Verdict,
-    /// Newton iterations.
-    pub iterations: u32,
-    /// Krylov iterations.
-    pub linear_iterations: u32,
-    /// Residual evaluations (one deflection in double precision each).
-    pub evaluations: u32,
-    /// Last Σ|dP|/ΣP.
-    pub change: f64,
-    /// Σ|F| over Σ ρ̄H, pressurised nodes.
-    pub film_error: f64,
-    /// The part of it that the next step does not take over.
-    pub mass_error: f64,
-    /// |ΣP − load|/load.
-    pub load_error: f64,
-    /// Node of the largest |φ|.
-    pub worst_node: usize,
-}
 
 /// What a step is solved against.
 pub struct Problem<'a> {
@@ -141,33 +90,6 @@ struct Evaluation {
     load: f64,
     worst_row: usize,
     finite: bool,
-}
-
-/// Sums over the nodes of a row, or of the grid by area.
-#[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    /// φ².
-    merit: f64,
-    /// |F|, pressurised nodes.
-    film: f64,
-    /// |F| beyond what is carried, pressurised nodes.
-    lost: f64,
-    /// ρ̄H, pressurised nodes.
-    mass: f64,
-    /// P.
-    load: f64,
-    /// Largest |φ|.
-    largest: f64,
-}
-
-impl Sums {
-    fn add(&mut self, row: &Self, weight: f64) {
-        self.merit += weight * row.merit;
-        self.film += weight * row.film;
-        self.lost += weight * row.lost;
-        self.mass += weight * row.mass;
-        self.load += weight * row.load;
-    }
 }
 
 impl Newton {
@@ -284,6 +206,7 @@ impl Newton {
                 &self.reference[here.clone()],
                 &self.reynolds.densities()[here.clone()],
                 &iterate.h[here],
+                problem.tolerance.least_film,
             );
             if row.largest > largest {
                 (worst_row, largest) = (j, row.largest);
@@ -441,45 +364,4 @@ impl Newton {
         }
         unreachable!("the last halving returns")
     }
-}
-
-/// Values side by side in the sums of a row.
-const LANES: usize = 8;
-
-dispatched! {
-/// Sums over one row; the boundary adds nothing, because F and P are zero there.
-fn sum_row(f: &[f64], p: &[f64], reference: &[f64], rho: &[f64], h: &[f64]) -> Sums {
-    let mut lanes = [[0.0_f64; LANES]; 6];
-    let n = f.len();
-    let (p, reference, rho, h) = (&p[..n], &reference[..n], &rho[..n], &h[..n]);
-    let mut take = |i: usize, k: usize| {
-        let phi = p[i].min(f[i] / reference[i]);
-        let pressed = if p[i] > 0.0 { 1.0 } else { 0.0 };
-        let (left, full) = (f[i].abs(), (rho[i] * h[i]).abs());
-        lanes[0][k] += phi * phi;
-        lanes[1][k] += pressed * left;
-        lanes[2][k] += pressed * (left - CARRIED * full).max(0.0);
-        lanes[3][k] += pressed * full;
-        lanes[4][k] += p[i];
-        lanes[5][k] = if phi.abs() > lanes[5][k] { phi.abs() } else { lanes[5][k] };
-    };
-    let blocks = n / LANES;
-    for b in 0..blocks {
-        for k in 0..LANES {
-            take(b * LANES + k, k);
-        }
-    }
-    for i in blocks * LANES..n {
-        take(i, 0);
-    }
-    let sum = |lane: &[f64; LANES]| lane.iter().sum::<f64>();
-    Sums {
-        merit: sum(&lanes[0]),
-        film: sum(&lanes[1]),
-        lost: sum(&lanes[2]),
-        mass: sum(&lanes[3]),
-        load: sum(&lanes[4]),
-        largest: lanes[5].iter().copied().fold(0.0, f64::max),
-    }
-}
 }

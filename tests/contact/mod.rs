@@ -39,6 +39,7 @@ pub(crate) const TOLERANCE: Tolerance = Tolerance {
     pressure: 1e-4,
     film: 1e-4,
     mass: 1e-4,
+    least_film: 0.0,
     load: 1e-5,
     max_iterations: 20,
 };

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use asperity::observe::RunContext;
+use asperity::observe::{Began, RunContext};
 use asperity::scene::{
     Body, Contact, ContactKind, Event, Friction, Grid, Load, Motion, Numerics, Record, Scene,
     Surface, Time,
@@ -62,6 +62,7 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
         time: Time {
             step_nodes: 1.0,
             passages,
+            tolerance: None,
         },
         numerics: Numerics::default(),
         stress: None,
@@ -78,6 +79,7 @@ pub(crate) fn context(scene: Scene) -> RunContext {
         plan_text: "film: synthetic\nstress: synthetic\n".into(),
         program: format!("asperity {}", env!("CARGO_PKG_VERSION")),
         scene: Arc::new(scene),
+        began: Began::FromScene,
     }
 }
 
@@ -138,6 +140,7 @@ pub(crate) fn frame(n: usize, step: u64) -> Arc<Frame> {
         step,
         time_s: t,
         stage: Stage::Passage,
+        kind: ContactKind::Point,
         passages: t * ENTRAINMENT / (4.0 * A),
         nx: n,
         ny: n,
@@ -274,5 +277,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         n_body_2: Some(2.5),
         n_counted_body_1: (step > 60).then_some(4.0),
         n_counted_body_2: (step > 60).then_some(2.4),
+        repeat: None,
+        errors: None,
     }
 }

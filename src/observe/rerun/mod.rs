@@ -21,6 +21,7 @@ mod mesh;
 mod plot;
 mod raster;
 mod recorder;
+mod reread;
 mod series;
 mod slice;
 mod space;
@@ -29,3 +30,4 @@ mod text;
 mod trace;
 
 pub use recorder::Recorder;
+pub use reread::{Recorded, RecordedTurn, RereadError};

@@ -30,6 +30,8 @@ pub struct Recorder {
     views: Option<Views>,
     caption: String,
     frames: u64,
+    /// Where the last frame was: events come between frames.
+    passages: f64,
 }
 
 /// What is set up by the first frame.
@@ -61,6 +63,7 @@ impl Recorder {
             views: None,
             caption: String::new(),
             frames: 0,
+            passages: 0.0,
         })
     }
 
@@ -201,6 +204,7 @@ impl Observer for Recorder {
         if frame.stage == Stage::StartUp {
             return Ok(());
         }
+        self.passages = frame.passages;
         self.log_frame(frame)?;
         self.stream.check()?;
         self.frames += 1;
@@ -216,8 +220,8 @@ impl Observer for Recorder {
     }
 
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
-        let passages = 0.0;
-        self.stream.set_time(event.step, event.time_s, passages);
+        self.stream
+            .set_time(event.step, event.time_s, self.passages);
         if let RunEventKind::Caption(caption) = &event.kind {
             self.caption.clone_from(caption);
         }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use rerun::{TextDocument, TextLog, TextLogLevel};
 
 use super::raster::Scale;
+use super::reread::{CommandLine, Origin};
 use super::stream::Stream;
 use crate::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
 use crate::scene::ContactKind;
@@ -16,12 +17,18 @@ pub(super) const PLAN: &str = "text/plan";
 pub(super) const NOTES: &str = "text/notes_on_the_data";
 pub(super) const NOW: &str = "text/now";
 pub(super) const LOG: &str = "log";
+/// What the run began with, for programs.
+pub(super) const ORIGIN: &str = "text/origin";
+/// Knobs that were turned, for programs.
+pub(super) const COMMANDS: &str = "commands";
 
 /// What is known before the first frame.
 pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), ObserveError> {
     let scene = &context.scene;
     let about = format!(
-        "# {title}\n\n{about}\n\nRecorded by {program}.\n\n## To repeat it\n\nSave the text under \
+        "# {title}\n\n{about}\n\nRecorded by {program}.\n\n## To repeat it\n\n```\nasperity run --from \
+         THIS_FILE.rrd --out again.rrd\n```\n\nturns the same knobs at the same steps and gives the same \
+         numbers, bit for bit (same version of the program). Without the knobs: save the text under \
          *Scene* as `scene.toml`, then\n\n```\nasperity run scene.toml --out again.rrd\n```\n\n\
          The run is deterministic: no seed. Commands given while it ran are in the log, each with \
          its step.\n\n## Signs\n\nx is the rolling direction, z points into body 1 (the body \
@@ -39,6 +46,11 @@ pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), O
     stream.log_static(ABOUT, &TextDocument::from_markdown(about))?;
     let toml = TextDocument::new(context.scene_toml.as_str());
     stream.log_static(SCENE_TOML, &toml)?;
+    let origin = Origin {
+        program: context.program.clone(),
+        began: context.began,
+    };
+    stream.log_static(ORIGIN, &TextDocument::new(origin.to_text()))?;
     let plan = TextDocument::new(context.plan_text.as_str());
     stream.log_static(PLAN, &plan)
 }
@@ -153,7 +165,7 @@ fn now(frame: &Frame, caption: &str) -> String {
 /// Something that happened.
 pub(super) fn log_event(stream: &Stream, event: &RunEvent) -> Result<(), ObserveError> {
     let (text, level) = match &event.kind {
-        RunEventKind::Set { key, value } => (
+        RunEventKind::Set { key, value, .. } => (
             format!("step {}: {key} set to {value}", event.step),
             TextLogLevel::INFO,
         ),
@@ -166,6 +178,21 @@ pub(super) fn log_event(stream: &Stream, event: &RunEvent) -> Result<(), Observe
             TextLogLevel::WARN,
         ),
     };
+    if let RunEventKind::Set {
+        key,
+        value,
+        by,
+        steps_made,
+    } = &event.kind
+    {
+        let line = CommandLine {
+            steps_made: *steps_made,
+            key: key.clone(),
+            value: *value,
+            by: *by,
+        };
+        stream.log(COMMANDS, &TextLog::new(line.to_text()))?;
+    }
     log_line(stream, &text, level)
 }
 

@@ -1,0 +1,85 @@
+//! `asperity run --from FILE.rrd`: the run that a recording shows, once more.
+
+use std::path::Path;
+
+use asperity::run::Turn;
+
+use super::args::RunArgs;
+use super::failure::Failure;
+use super::scenes::Prepared;
+
+/// How a recorded run went.
+pub(crate) struct Repetition {
+    /// The scene of the recording.
+    pub(crate) prepared: Prepared,
+    /// Knobs turned by hand.
+    pub(crate) turns: Vec<Turn>,
+    /// The last step that was recorded.
+    pub(crate) last_step: u64,
+}
+
+impl Repetition {
+    /// Whether it is a run of the scene and nothing else, from beginning to end.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.turns.is_empty() && self.last_step == self.prepared.plan.steps
+    }
+}
+
+/// Reads the recording.
+#[cfg(feature = "rerun")]
+pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
+    use std::io::Write as _;
+
+    use asperity::observe::rerun::Recorded;
+    use asperity::scene::Scene;
+    use asperity::sim::Knob;
+    use miette::miette;
+
+    let recorded = Recorded::read(path).map_err(|error| {
+        Failure::input(miette!(
+            help = "a recording that asperity run or asperity explore has written can be repeated",
+            "{error}"
+        ))
+    })?;
+    let program = concat!("asperity ", env!("CARGO_PKG_VERSION"));
+    if recorded.program != program {
+        let _ = writeln!(
+            std::io::stderr(),
+            "recorded by {}; this is {program}, so numbers may differ",
+            recorded.program
+        );
+    }
+    let scene = Scene::from_toml(&recorded.scene_toml)?;
+    let mut turns = Vec::with_capacity(recorded.turns.len());
+    for turn in recorded.turns {
+        let knob = Knob::from_key(&turn.key).ok_or_else(|| {
+            Failure::input(miette!(
+                "{}: turns {}, which this version cannot turn",
+                path.display(),
+                turn.key
+            ))
+        })?;
+        turns.push(Turn {
+            steps_made: turn.steps_made,
+            knob,
+            value: turn.value,
+        });
+    }
+    let stem = path
+        .file_stem()
+        .map_or("scene".into(), |stem| stem.to_string_lossy());
+    Ok(Repetition {
+        prepared: super::scenes::finish(args, scene, format!("{stem}-again"))?,
+        turns,
+        last_step: recorded.last_step,
+    })
+}
+
+/// Without the recorder nothing can be read.
+#[cfg(not(feature = "rerun"))]
+pub(crate) fn read(_path: &Path, _args: &RunArgs) -> Result<Repetition, Failure> {
+    Err(Failure::input(miette::miette!(
+        help = "take a build with the default features",
+        "this program was built without the feature rerun, so it reads no recordings"
+    )))
+}

@@ -1,0 +1,139 @@
+//! When a step is solved, and what is left of its equations.
+//!
+//! ```text
+//! natural residual  φ = min(P, F/D)          merit = Σ φ² dA
+//! film error        Σ|F| / Σ max(ρ̄H, h_least)         over pressurised nodes
+//! mass error        Σ (|F| − carried·max(ρ̄H, h_least))⁺ / Σ max(ρ̄H, h_least)
+//! ```
+//! `h_least` is the film below which oil is no continuum: thinner films are not resolved to a share of
+//! themselves. Sums run by rows in fixed order.
+
+/// Part of a node's film that a step may leave unbalanced and hand on to the next one. Steps that leave
+/// more are not trusted with their own residual: a loose step that hands on all of it blows up near dry.
+pub const CARRIED: f64 = 0.1;
+
+/// When to stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Σ|dP|/ΣP of the last iteration.
+    pub pressure: f64,
+    /// Film error.
+    pub film: f64,
+    /// Mass error.
+    pub mass: f64,
+    /// Film below which both errors are taken of it, not of the film that is there.
+    pub least_film: f64,
+    /// Load error.
+    pub load: f64,
+    /// Most Newton iterations.
+    pub max_iterations: usize,
+}
+
+/// How the iteration ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// All tolerances hold.
+    Converged,
+    /// The iterations ran out.
+    Stalled,
+    /// A value was not finite.
+    NotFinite,
+}
+
+/// What one step took and reached.
+#[derive(Debug, Clone, Copy)]
+pub struct NewtonReport {
+    /// How it ended.
+    pub verdict: Verdict,
+    /// Newton iterations.
+    pub iterations: u32,
+    /// Krylov iterations.
+    pub linear_iterations: u32,
+    /// Residual evaluations (one deflection in double precision each).
+    pub evaluations: u32,
+    /// Last Σ|dP|/ΣP.
+    pub change: f64,
+    /// Σ|F| over Σ ρ̄H, pressurised nodes.
+    pub film_error: f64,
+    /// The part of it that the next step does not take over.
+    pub mass_error: f64,
+    /// |ΣP − load|/load.
+    pub load_error: f64,
+    /// Node of the largest |φ|.
+    pub worst_node: usize,
+}
+
+/// Sums over the nodes of a row, or of the grid by area.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sums {
+    /// φ².
+    pub(super) merit: f64,
+    /// |F|, pressurised nodes.
+    pub(super) film: f64,
+    /// |F| beyond what is carried, pressurised nodes.
+    pub(super) lost: f64,
+    /// ρ̄H, pressurised nodes.
+    pub(super) mass: f64,
+    /// P.
+    pub(super) load: f64,
+    /// Largest |φ|.
+    pub(super) largest: f64,
+}
+
+impl Sums {
+    pub(super) fn add(&mut self, row: &Self, weight: f64) {
+        self.merit += weight * row.merit;
+        self.film += weight * row.film;
+        self.lost += weight * row.lost;
+        self.mass += weight * row.mass;
+        self.load += weight * row.load;
+    }
+}
+
+/// Values side by side in the sums of a row.
+const LANES: usize = 8;
+
+dispatched! {
+/// Sums over one row; the boundary adds nothing, because F and P are zero there.
+pub(super) fn sum_row(
+    f: &[f64],
+    p: &[f64],
+    reference: &[f64],
+    rho: &[f64],
+    h: &[f64],
+    least_film: f64,
+) -> Sums {
+    let mut lanes = [[0.0_f64; LANES]; 6];
+    let n = f.len();
+    let (p, reference, rho, h) = (&p[..n], &reference[..n], &rho[..n], &h[..n]);
+    let mut take = |i: usize, k: usize| {
+        let phi = p[i].min(f[i] / reference[i]);
+        let pressed = if p[i] > 0.0 { 1.0 } else { 0.0 };
+        let (left, full) = (f[i].abs(), (rho[i] * h[i]).max(least_film));
+        lanes[0][k] += phi * phi;
+        lanes[1][k] += pressed * left;
+        lanes[2][k] += pressed * (left - CARRIED * full).max(0.0);
+        lanes[3][k] += pressed * full;
+        lanes[4][k] += p[i];
+        lanes[5][k] = if phi.abs() > lanes[5][k] { phi.abs() } else { lanes[5][k] };
+    };
+    let blocks = n / LANES;
+    for b in 0..blocks {
+        for k in 0..LANES {
+            take(b * LANES + k, k);
+        }
+    }
+    for i in blocks * LANES..n {
+        take(i, 0);
+    }
+    let sum = |lane: &[f64; LANES]| lane.iter().sum::<f64>();
+    Sums {
+        merit: sum(&lanes[0]),
+        film: sum(&lanes[1]),
+        lost: sum(&lanes[2]),
+        mass: sum(&lanes[3]),
+        load: sum(&lanes[4]),
+        largest: lanes[5].iter().copied().fold(0.0, f64::max),
+    }
+}
+}

@@ -1,0 +1,161 @@
+//! A recording repeats its run bit for bit: the scene, and the knobs that were turned by hand while it ran.
+#![cfg(feature = "rerun")]
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use asperity::observe::rerun::{Recorded, Recorder};
+use asperity::observe::{
+    ObserveError, Observer, ObserverReport, Overwrite, Queue, RunContext, RunEvent, WhenFull,
+};
+use asperity::plan::Plan;
+use asperity::run::{Command, Ending, Request, Session, Turn, Watcher};
+use asperity::scene::{Override, Record, Scene};
+use asperity::sim::{Frame, Knob};
+
+/// Keeps every bit of every frame, and every event.
+struct Keeper(Arc<Mutex<Vec<String>>>);
+
+impl Observer for Keeper {
+    fn begin(&mut self, _context: &RunContext) -> Result<(), ObserveError> {
+        Ok(())
+    }
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+        // Debug prints floats with as many digits as tell them apart.
+        self.0.lock().unwrap().push(format!("{frame:?}"));
+        Ok(())
+    }
+    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        self.0.lock().unwrap().push(format!("{event:?}"));
+        Ok(())
+    }
+    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        Ok(ObserverReport::default())
+    }
+}
+
+type Kept = Arc<Mutex<Vec<String>>>;
+
+fn request(scene: &Scene, record: Option<&Path>, ending: Ending) -> (Request, Kept) {
+    let kept = Kept::default();
+    let mut watchers = vec![Watcher::new("keeper", Box::new(Keeper(kept.clone())), 1)];
+    if let Some(path) = record {
+        let recorder = Recorder::create(path, Overwrite::Refuse, &Record::default()).unwrap();
+        let queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
+        watchers.push(Watcher::new("recording", Box::new(queue), 1));
+    }
+    let request = Request {
+        name: "test".to_owned(),
+        scene: Arc::new(scene.clone()),
+        plan: Plan::new(scene).unwrap(),
+        threads: 2,
+        watchers,
+        ending,
+    };
+    (request, kept)
+}
+
+fn wait_for_steps(session: &Session, steps: u64) {
+    while session.status().steps < steps {
+        assert!(!session.is_finished(), "ended before step {steps}");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn small(sets: &[&str]) -> Scene {
+    let all = ["grid.nodes=65", "stress.depths=8"];
+    let sets: Vec<Override> = all.iter().chain(sets).map(|s| s.parse().unwrap()).collect();
+    Scene::load_with("demonstration", &sets).unwrap()
+}
+
+#[test]
+fn a_session_with_turned_knobs_repeats_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lecture.rrd");
+    let mut scene = small(&[]);
+    // A script of its own is played again by the scene and must not be played twice.
+    scene.events.push(
+        toml::from_str("at_s = 1e-5\ncaption = 'up'\nset = { 'motion.slide_roll' = 0.7 }").unwrap(),
+    );
+    let (request, kept) = self::request(&scene, Some(&path), Ending::OnStop);
+    let session = Session::start(request).unwrap();
+    // Whenever these arrive, in the start-up and in the passage: the recording knows when it was.
+    session.send(Command::Set(Knob::ForceN, 700.0));
+    std::thread::sleep(Duration::from_millis(150));
+    session.send(Command::Set(Knob::Amplitude2M, 1.25e-7));
+    wait_for_steps(&session, 4);
+    session.send(Command::Set(Knob::SlideRoll, 1.0 / 3.0));
+    wait_for_steps(&session, 20);
+    session.send(Command::Set(Knob::EntrainmentMS, 0.9));
+    wait_for_steps(&session, 40);
+    session.send(Command::Stop);
+    let outcome = session.join().unwrap();
+    assert!(outcome.output_errors.is_empty());
+
+    let recorded = Recorded::read(&path).unwrap();
+    assert_eq!(recorded.last_step, outcome.steps);
+    assert_eq!(recorded.turns.len(), 4, "{:?}", recorded.turns);
+    assert_eq!(recorded.turns[2].value, 1.0 / 3.0);
+    assert_eq!(recorded.turns[0].steps_made, 0);
+    let again = Scene::from_toml(&recorded.scene_toml).unwrap();
+    assert_eq!(again, scene);
+    let turns = recorded.turns.iter().map(|turn| Turn {
+        steps_made: turn.steps_made,
+        knob: Knob::from_key(&turn.key).unwrap(),
+        value: turn.value,
+    });
+    let ending = Ending::Steps(recorded.last_step);
+    let (request, kept_again) = self::request(&again, None, ending);
+    let outcome = Session::repeat(request, turns.collect())
+        .unwrap()
+        .join()
+        .unwrap();
+    assert_eq!(outcome.steps, recorded.last_step);
+    let (one, two) = (kept.lock().unwrap(), kept_again.lock().unwrap());
+    assert_eq!(one.len(), two.len());
+    assert!(one.len() > 40);
+    let differs = one.iter().zip(two.iter()).position(|(one, two)| one != two);
+    assert_eq!(differs, None, "entry that differs");
+}
+
+#[test]
+fn what_cannot_be_repeated_is_refused_in_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        Recorded::read(&path).unwrap_err().reason
+    };
+    assert!(refused("empty.rrd", b"").contains("recording"));
+    assert!(refused("text.rrd", b"not a recording at all").contains("recording"));
+    let missing = Recorded::read(&folder.path().join("nowhere.rrd")).unwrap_err();
+    assert!(missing.reason.contains("cannot be read"), "{missing}");
+    // A recording that holds a scene and no step.
+    let path = folder.path().join("start-up.rrd");
+    let mut recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
+    let scene = small(&[]);
+    let context = RunContext {
+        scene_toml: scene.to_toml(),
+        plan_text: String::new(),
+        program: "asperity".to_owned(),
+        began: asperity::observe::Began::FromScene,
+        scene: Arc::new(scene),
+    };
+    recorder.begin(&context).unwrap();
+    recorder.finish().unwrap();
+    let reason = Recorded::read(&path).unwrap_err().reason;
+    assert!(reason.contains("no step"), "{reason}");
+    // One that went on from a state.
+    let path = folder.path().join("state.rrd");
+    let mut recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
+    let context = RunContext {
+        began: asperity::observe::Began::FromState,
+        ..context
+    };
+    recorder.begin(&context).unwrap();
+    recorder.finish().unwrap();
+    let reason = Recorded::read(&path).unwrap_err().reason;
+    assert!(reason.contains("--from-state"), "{reason}");
+}
