@@ -213,7 +213,7 @@ fn waviness_at_257_for_m_200() {
 }
 
 /// Barus: 0.5544 (129²), 0.5705 (257²), extrapolated 0.5759 where the file has 0.605 ± 3 % (-4.8 %).
-/// Roelands: 0.4520 (129²), 0.4694 (257²), extrapolated 0.4752 where the file has 0.500 ± 3 %: 5 % low, *outside* its
+/// Roelands: 0.4520 (129²), 0.4694 (257²), extrapolated 0.4752 where the file has 0.500 ± 3 %: 5 % low. Both are *outside* its
 /// tolerance. The shortfall grows with the flattening (0 at 0.95, 1.5 % at 0.815, 3.5 % at 0.535 and M = 200); its
 /// cause is not known. The bound is 6 %, so that a change shows.
 #[test]
