@@ -14,7 +14,7 @@ use asperity::observe::{
     Observer, ObserverReport, Overwrite, Queue, RunEvent, RunEventKind, SetBy, WhenFull,
 };
 use asperity::scene::Record;
-use asperity::sim::{Frame, Stage};
+use asperity::sim::{DamageBlock, Frame, Stage};
 use re_chunk::Chunk;
 use re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
@@ -419,6 +419,49 @@ fn behind_a_queue_nothing_is_lost() {
     assert_eq!((report.frames, report.skipped), (STEPS, 0));
     let contents = Contents::read(&path);
     assert_eq!(contents.rows("maps/film_um/image", false), STEPS as usize);
+}
+
+/// A block comes when material has crossed, and is logged when it changes.
+#[test]
+fn damage_maps_come_when_they_are_there_and_change() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let block = |filled: usize| DamageBlock {
+        length_m: 1e-4,
+        columns: 4,
+        depths_m: [0.0, 1e-5, 4e-5].into(),
+        damage: (0..12)
+            .map(|at| if at / 3 < filled { 0.5 } else { 0.0 })
+            .collect(),
+        filled,
+        pit_place_m: -2.5e-5,
+        pit_depth_m: 1e-5,
+        pit_damage: 0.5,
+    };
+    let frames: Vec<_> = frames(8)
+        .into_iter()
+        .map(|frame| {
+            let mut frame = Frame::clone(&frame);
+            frame.damage[1] = match frame.step {
+                1..=2 => None,
+                3..=5 => Some(block(1)),
+                _ => Some(block(4)),
+            };
+            Arc::new(frame)
+        })
+        .collect();
+    record(&path, &Record::default(), &frames);
+    let contents = Contents::read(&path);
+    let entity = "damage/body_2_log10_relative";
+    assert_eq!(contents.rows(&format!("{entity}/image"), false), 2);
+    assert_eq!(contents.rows(&format!("{entity}/worst_point"), false), 2);
+    assert_eq!(contents.rows(&format!("{entity}/axes/frame"), true), 1);
+    assert!(
+        contents
+            .entities()
+            .iter()
+            .all(|path| !path.contains("damage/body_1"))
+    );
 }
 
 /// A disk without room for the first bytes is known before the run starts.

@@ -64,6 +64,8 @@ Examples:
   asperity run --set lubricant=none --passages 1 --no-record --summary dry.json
   asperity run --passages 1 --save-state half.state
   asperity run --passages 2 --from-state half.state        goes on as if it had never stopped
+  asperity run --export fields --export-every 32           pressure, film, stress for numpy
+  asperity run --no-record --spawn                         shows it live in a viewer that it starts
   asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit")]
     Run(HeadlessArgs),
     /// Print the plan: what is computed, what is left out and why, memory, estimated time
@@ -133,12 +135,30 @@ pub(crate) struct RunArgs {
     /// Table to write: every scalar of every step, as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) table: Option<PathBuf>,
+    /// Folder for fields of chosen steps as numpy archives (step_000016.npz, ...), with the scene beside them
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) export: Option<PathBuf>,
+    /// Steps between two exported ones
+    #[arg(long, value_name = "N", default_value_t = 16, requires = "export",
+        value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) export_every: u64,
     /// Summary to write as JSON; - writes it to stdout in place of the text
     #[arg(long, value_name = "FILE.json|-")]
     pub(crate) summary: Option<PathBuf>,
     /// Worker threads [default: all cores]; results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
+    /// Show it in a running Rerun viewer, too [default address: 127.0.0.1:9876]
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true,
+        default_missing_value = "127.0.0.1:9876")]
+    pub(crate) connect: Option<String>,
+    /// Start a Rerun viewer and show it there, too
+    #[arg(long)]
+    pub(crate) spawn: bool,
+    /// Let viewers of this machine connect, such as one in a browser [default port: 9876]
+    #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true,
+        default_missing_value = "9876")]
+    pub(crate) serve: Option<u16>,
     /// Write no recording
     #[arg(long)]
     pub(crate) no_record: bool,
@@ -186,8 +206,13 @@ impl RunArgs {
             },
             out: None,
             table: None,
+            export: None,
+            export_every: 16,
             summary: None,
             threads: None,
+            connect: None,
+            spawn: false,
+            serve: None,
             no_record: false,
             force: false,
         }

@@ -5,6 +5,7 @@ mod args;
 #[cfg(feature = "tui")]
 mod explore;
 mod failure;
+mod live;
 mod outputs;
 mod repeat;
 mod report;

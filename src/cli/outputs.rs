@@ -4,11 +4,14 @@ use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use asperity::observe::{ObserveError, Overwrite, Table};
+use asperity::observe::{Export, ObserveError, Overwrite, Queue, Table, WhenFull};
 use asperity::run::{Switch, Watcher};
 use asperity::sim::Summary;
 
 use super::args::RunArgs;
+use super::failure::Failure;
+#[cfg(feature = "rerun")]
+use super::live;
 use super::scenes::{Prepared, print};
 
 /// Who waits when the recorder is slower than the run.
@@ -20,6 +23,18 @@ pub(crate) enum Pace {
     #[cfg_attr(not(feature = "tui"), expect(dead_code, reason = "the explorer's"))]
     Live,
 }
+
+impl Pace {
+    fn when_full(self) -> WhenFull {
+        match self {
+            Self::Headless => WhenFull::Wait,
+            Self::Live => WhenFull::Skip,
+        }
+    }
+}
+
+/// Frames that may wait for a file: some MB, a few hundredths of a second.
+const FILES_WAITING: usize = 8;
 
 /// The outputs of one run.
 pub(crate) struct Outputs {
@@ -44,7 +59,7 @@ impl Outputs {
         prepared: &Prepared,
         recording: &Path,
         pace: Pace,
-    ) -> Result<Self, ObserveError> {
+    ) -> Result<Self, Failure> {
         let overwrite = Overwrite::from_force(args.force);
         let mut outputs = Self {
             watchers: Vec::new(),
@@ -52,12 +67,22 @@ impl Outputs {
             summary: SummaryTo::open(args.summary.as_deref(), overwrite)?,
         };
         outputs.open_recording(prepared, recording, overwrite, pace)?;
+        outputs.open_live(args, prepared)?;
         if let Some(path) = &args.table {
             let table = Table::create(path, overwrite)?;
             let name = path.display().to_string();
             outputs
                 .watchers
                 .push(Watcher::new(name, Box::new(table), 1));
+        }
+        if let Some(folder) = &args.export {
+            let export = Export::create(folder, overwrite)?;
+            let name = folder.display().to_string();
+            let queue = Queue::spawn("export", FILES_WAITING, pace.when_full(), Box::new(export))?;
+            let every = args.export_every;
+            outputs
+                .watchers
+                .push(Watcher::new(name, Box::new(queue), every));
         }
         Ok(outputs)
     }
@@ -71,23 +96,64 @@ impl Outputs {
         pace: Pace,
     ) -> Result<(), ObserveError> {
         use asperity::observe::rerun::Recorder;
-        use asperity::observe::{Queue, WhenFull};
-        /// Frames that may wait: some MB, a few hundredths of a second.
-        const WAITING: usize = 8;
         let Some(record) = &prepared.scene.record else {
             return Ok(());
         };
         let recorder = Recorder::create(path, overwrite, record)?;
-        let when_full = match pace {
-            Pace::Headless => WhenFull::Wait,
-            Pace::Live => WhenFull::Skip,
-        };
-        let queue = Queue::spawn("record", WAITING, when_full, Box::new(recorder))?;
+        let queue = Queue::spawn(
+            "record",
+            FILES_WAITING,
+            pace.when_full(),
+            Box::new(recorder),
+        )?;
         let name = path.display().to_string();
         // Every step goes to it: it thins fields itself, by what the file has grown to.
         let watcher = Watcher::new(name, Box::new(queue), 1);
         self.recording = Some((path.to_owned(), watcher.switch()));
         self.watchers.push(watcher);
+        Ok(())
+    }
+
+    /// One stream, one thread and one queue for each viewer: a slow one delays nobody.
+    #[cfg(feature = "rerun")]
+    fn open_live(&mut self, args: &RunArgs, prepared: &Prepared) -> Result<(), Failure> {
+        use asperity::observe::rerun::{Live, Recorder};
+        use asperity::scene::Record;
+        /// Frames that may wait: about half a second of the screen's pace.
+        const WAITING: usize = 16;
+        let mut viewers = Vec::new();
+        if let Some(address) = &args.connect {
+            viewers.push(Live::Connect(live::address(address)?));
+        }
+        if args.spawn {
+            viewers.push(Live::Connect(live::spawn()?));
+        }
+        if let Some(port) = args.serve {
+            viewers.push(Live::Serve(port));
+        }
+        let record = prepared.scene.record.clone();
+        let record = record.unwrap_or_else(Record::default);
+        for viewer in viewers {
+            let recorder = Recorder::live(viewer, &record)?;
+            if let Live::Serve(port) = viewer {
+                live::announce(port);
+            }
+            let name = viewer.to_string();
+            let queue = Queue::spawn_live(&name, WAITING, Box::new(recorder))?;
+            self.watchers.push(Watcher::new(name, Box::new(queue), 1));
+        }
+        Ok(())
+    }
+
+    #[cfg(not(feature = "rerun"))]
+    #[expect(clippy::unused_self, reason = "same form as with the feature rerun")]
+    fn open_live(&mut self, args: &RunArgs, _prepared: &Prepared) -> Result<(), Failure> {
+        if args.connect.is_some() || args.spawn || args.serve.is_some() {
+            return Err(Failure::input(miette::miette!(
+                help = "take a build with the default features",
+                "this program was built without the feature rerun, so it shows nothing to viewers"
+            )));
+        }
         Ok(())
     }
 

@@ -31,8 +31,13 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
         } else {
             String::new()
         };
+        let note = if report.note.is_empty() {
+            String::new()
+        } else {
+            format!("; {}", report.note)
+        };
         let what = format!(
-            "{} ({} frames{skipped}{size})",
+            "{} ({} frames{skipped}{size}{note})",
             report.output, report.frames
         );
         line(&mut text, "written", &what);

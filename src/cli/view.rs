@@ -12,7 +12,7 @@ use super::failure::Failure;
 const HOW_TO_GET_IT: &str = "the viewer is a program of its own; get it by one of\n  \
     pip install rerun-sdk==0.36.3\n  \
     cargo install rerun-cli --locked --version 0.36.3\n\
-    and see that `rerun` is on the PATH. The recording can also be opened at https://app.rerun.io";
+    and see that `rerun` is on the PATH. A recording can also be opened at https://app.rerun.io";
 
 /// Opens `file` in the viewer and waits until it is closed.
 pub(crate) fn view(file: &Path) -> Result<u8, Failure> {
@@ -39,16 +39,21 @@ pub(crate) fn view(file: &Path) -> Result<u8, Failure> {
 
 /// The viewer on `file`, with its output kept off the terminal, or how to get it.
 pub(crate) fn command(file: &Path) -> Result<Command, Failure> {
+    let mut command = quiet_viewer(&file.display().to_string())?;
+    command.arg(file);
+    Ok(command)
+}
+
+/// The viewer with its output kept off the terminal, or how to get it. `what`: what it should show.
+pub(crate) fn quiet_viewer(what: &str) -> Result<Command, Failure> {
     let Some(viewer) = find("rerun", std::env::var_os("PATH").as_deref()) else {
         return Err(Failure::input(miette!(
             help = HOW_TO_GET_IT,
-            "no Rerun viewer (`rerun`) on the PATH to show {}",
-            file.display()
+            "no Rerun viewer (`rerun`) on the PATH to show {what}"
         )));
     };
     let mut command = Command::new(viewer);
     command
-        .arg(file)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null());

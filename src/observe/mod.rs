@@ -5,8 +5,10 @@
 //! * [`FramePool`]: frames that are filled, shared and filled again without allocating.
 //! * [`Queue`]: runs an observer that may block on a thread of its own.
 //! * [`Table`]: every scalar of every step as CSV.
+//! * [`Export`]: fields of chosen steps as numpy archives.
 //! * `rerun::Recorder` (feature `rerun`): the recording. No other folder names that crate.
 
+mod export;
 mod latest;
 mod pool;
 mod queue;
@@ -20,6 +22,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+pub use export::Export;
 pub use latest::Latest;
 pub use pool::FramePool;
 pub use queue::{Queue, QueueStats, WhenFull};
@@ -172,6 +175,8 @@ pub struct ObserverReport {
     pub skipped: u64,
     /// Bytes written, where known.
     pub bytes: u64,
+    /// What else is to be said, such as that a viewer was closed.
+    pub note: String,
 }
 
 /// Watches a run. Called on the simulation's thread (wrap in a queue what may block).

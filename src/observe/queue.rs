@@ -10,12 +10,16 @@ use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 use super::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
 use crate::sim::Frame;
 
 /// Events that may wait besides the frames before they are treated like frames.
 const EVENT_CAPACITY: usize = 1024;
+
+/// How long the end of a run waits for an observer that may stall.
+const LAST_WAIT: Duration = Duration::from_secs(5);
 
 /// What to do with a frame when the queue is full.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,6 +83,8 @@ pub struct Queue {
     name: String,
     capacity: usize,
     when_full: WhenFull,
+    /// How long the end waits for the observer; `None`: for ever.
+    patience: Option<Duration>,
 }
 
 impl Queue {
@@ -108,7 +114,23 @@ impl Queue {
             name: name.to_owned(),
             capacity: capacity.max(1),
             when_full,
+            patience: None,
         })
+    }
+
+    /// Same for an observer that may stall for as long as somebody else likes (a viewer): frames are skipped
+    /// and counted when the queue is full, and at the end it is left alone after a few seconds.
+    ///
+    /// # Errors
+    /// When the thread cannot be started.
+    pub fn spawn_live(
+        name: &str,
+        capacity: usize,
+        observer: Box<dyn Observer>,
+    ) -> Result<Self, ObserveError> {
+        let mut queue = Self::spawn(name, capacity, WhenFull::Skip, observer)?;
+        queue.patience = Some(LAST_WAIT);
+        Ok(queue)
     }
 
     /// How the queue was used so far.
@@ -152,9 +174,38 @@ impl Queue {
         Ok(())
     }
 
+    /// Waits for an observer that may stall; a report in its place when it does not come to an end.
+    fn give_up(&self) -> Option<ObserverReport> {
+        let patience = self.patience?;
+        let state = self.shared.lock();
+        let (state, _) = self
+            .shared
+            .emptied
+            .wait_timeout_while(state, patience, |state| !state.closed)
+            .unwrap_or_else(PoisonError::into_inner);
+        (!state.closed).then(|| {
+            let waiting = state
+                .waiting
+                .iter()
+                .filter(|message| matches!(message, Message::Frame(_)));
+            let waiting = waiting.count() as u64;
+            ObserverReport {
+                output: self.name.clone(),
+                frames: state.stats.frames - waiting,
+                skipped: state.stats.skipped + waiting,
+                bytes: 0,
+                note: "it no longer took anything and was left alone".to_owned(),
+            }
+        })
+    }
+
     /// Waits until the thread has ended.
     fn join(&mut self) {
         if let Some(thread) = self.thread.take() {
+            if self.patience.is_some() {
+                // It may stall even while it drops its connection; it ends with the program.
+                return;
+            }
             // A panic of the observer was caught on the thread and is in `error`.
             drop(thread.join());
         }
@@ -197,6 +248,9 @@ impl Observer for Queue {
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
         let asked = self.put(Message::Finish, usize::MAX, WhenFull::Wait);
+        if let Some(report) = self.give_up() {
+            return Ok(report);
+        }
         self.join();
         let state = self.shared.lock();
         let mut report = state.report.clone().ok_or_else(|| {
@@ -216,6 +270,7 @@ impl Drop for Queue {
     fn drop(&mut self) {
         if self.thread.is_some() {
             drop(self.put(Message::Finish, usize::MAX, WhenFull::Wait));
+            drop(self.give_up());
             self.join();
         }
     }

@@ -145,6 +145,7 @@ impl Observer for Table {
             frames: self.rows,
             skipped: 0,
             bytes,
+            note: String::new(),
         })
     }
 }

@@ -1,5 +1,6 @@
-//! The kymograph: pressure along y = 0 from left to right, time downwards. Roughness of body 1 and
-//! of body 2 draw stripes of different slopes (their speeds); where they cross, peaks flash.
+//! Kymographs: pressure and film along y = 0 from left to right, time downwards. Roughness of body 1 and
+//! of body 2 draw stripes of different slopes (their speeds); where they cross, peaks flash
+//! and the film has its narrowest places.
 //!
 //! The picture grows with the run and is written anew a few times while it does (its last state at
 //! the end), so its cost stays a small part of the file.
@@ -8,7 +9,7 @@ use rerun::components::Colormap;
 
 use super::colour::WHITE;
 use super::geometry::{Geometry, number, ticks};
-use super::maps::GPA;
+use super::maps::{GPA, UM};
 use super::plot::{PlotBox, ticks_at};
 use super::raster::{Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
@@ -16,11 +17,59 @@ use crate::observe::ObserveError;
 use crate::sim::Frame;
 
 pub(super) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
+pub(super) const FILM: &str = "kymograph/film_y0_um";
 /// Most rows of the picture; longer runs keep every 2nd, 3rd, … step.
 const ROWS: usize = 512;
 
-/// The kymograph of the pressure.
+/// What a kymograph shows.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Shown {
+    /// Pressure up to a top, Pa.
+    Pressure { top_pa: f64 },
+    /// Film up to a top, m.
+    Film { top_m: f64 },
+}
+
+impl Shown {
+    fn entity(self) -> &'static str {
+        match self {
+            Self::Pressure { .. } => PRESSURE,
+            Self::Film { .. } => FILM,
+        }
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Pressure { .. } => "p, GPa",
+            Self::Film { .. } => "h, µm",
+        }
+    }
+
+    /// The same tops and colours as the maps.
+    fn scale(self) -> Scale {
+        match self {
+            Self::Pressure { top_pa } => {
+                let top = top_pa * 0.999;
+                Scale::up_to(top, GPA, Sign::Positive, Colormap::Inferno, 8.0)
+            }
+            Self::Film { top_m } => {
+                let top = top_m * 0.999;
+                Scale::up_to(top, UM, Sign::Positive, Colormap::Viridis, 16.0)
+            }
+        }
+    }
+
+    fn field(self, frame: &Frame) -> &[f32] {
+        match self {
+            Self::Pressure { .. } => &frame.pressure_pa,
+            Self::Film { .. } => &frame.film_m,
+        }
+    }
+}
+
+/// One kymograph.
 pub(super) struct Kymograph {
+    shown: Shown,
     geometry: Geometry,
     raster: Raster,
     plot: PlotBox,
@@ -37,20 +86,13 @@ impl Kymograph {
     pub(super) fn new(
         stream: &Stream,
         geometry: Geometry,
-        pressure_top_pa: f64,
+        shown: Shown,
         expected_steps: f64,
         step_s: f64,
     ) -> Result<Self, ObserveError> {
         let steps = expected_steps.clamp(1.0, 1e6).ceil() as usize;
         let every = steps.div_ceil(ROWS).max(1);
         let rows = steps.div_ceil(every).max(2);
-        let scale = Scale::up_to(
-            pressure_top_pa * 0.999,
-            GPA,
-            Sign::Positive,
-            Colormap::Inferno,
-            8.0,
-        );
         let x = [geometry.x_min, geometry.x_max()];
         let height = 0.9 * (x[1] - x[0]);
         let row_height = height / rows as f64;
@@ -73,9 +115,11 @@ impl Kymograph {
             first: [geometry.x_min, 0.5 * row_height],
             size: [geometry.dx, row_height],
         };
+        let (entity, title) = (shown.entity(), shown.title());
         Ok(Self {
+            shown,
             geometry,
-            raster: Raster::new(stream, PRESSURE, scale, pixels, &plot, "p, GPa")?,
+            raster: Raster::new(stream, entity, shown.scale(), pixels, &plot, title)?,
             plot,
             values: vec![0.0; geometry.nx * rows],
             rows: 0,
@@ -101,9 +145,9 @@ impl Kymograph {
         }
         let nx = self.geometry.nx;
         let from = self.geometry.centre_row() * nx;
-        let pressures = &frame.pressure_pa[from..from + nx];
+        let values = &self.shown.field(frame)[from..from + nx];
         for row in self.values[self.rows * nx..rows * nx].chunks_exact_mut(nx) {
-            row.copy_from_slice(pressures);
+            row.copy_from_slice(values);
         }
         self.rows = rows;
     }

@@ -18,6 +18,7 @@ use rerun::{RecordingStream, RecordingStreamBuilder};
 
 use self::views::{Property, Views};
 use super::centre_line::CENTRE_LINE;
+use super::damage;
 use super::interferogram::INTERFEROGRAM;
 use super::kymograph;
 use super::maps;
@@ -39,6 +40,8 @@ pub(super) struct Shown {
     /// Target and position of the camera.
     pub(super) camera: Option<[[f64; 3]; 2]>,
     pub(super) rough: [bool; 2],
+    /// Bodies whose damage is mapped.
+    pub(super) damaged: [bool; 2],
     pub(super) life: bool,
 }
 
@@ -72,7 +75,7 @@ fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
         tabs.push(point_tab(views, shown));
     }
     if shown.life {
-        tabs.push(life_tab(views));
+        tabs.push(life_tab(views, shown));
     }
     tabs.push(convergence_tab(views));
     tabs.push(scene_tab(views));
@@ -170,7 +173,13 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         &shown.kymograph,
         Margin::Legend,
     ));
-    Grid::new(all).with_grid_columns(3).with_name("Maps").into()
+    all.push(views.plot(
+        "Film along y = 0 against time",
+        &[kymograph::FILM],
+        &shown.kymograph,
+        Margin::Legend,
+    ));
+    Grid::new(all).with_grid_columns(4).with_name("Maps").into()
 }
 
 fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
@@ -209,7 +218,7 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     .into()
 }
 
-fn life_tab(views: &mut Views) -> ContainerLike {
+fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let left = Vertical::new([
         views.series(
             "Relative life, log10 (grey: band)",
@@ -224,12 +233,31 @@ fn life_tab(views: &mut Views) -> ContainerLike {
         ),
         views.series("Greatest effective stress, GPa", &["series/stress_GPa"]),
     ]);
+    let maps: Vec<ContainerLike> = (0..2)
+        .filter(|&body| shown.damaged[body])
+        .map(|body| {
+            views.plot(
+                &format!("Damage of body {}, smooth worst = 0", body + 1),
+                &[damage::DAMAGE[body]],
+                &damage::plot_box(),
+                Margin::Legend,
+            )
+        })
+        .collect();
     let right = Vertical::new([
         views.document("Now", text::NOW),
         views.series("Slide-to-roll ratio and speed", &["series/motion"]),
     ]);
-    Horizontal::new([left.into(), middle.into(), right.into()])
-        .with_column_shares(vec![1.2, 1.0, 0.8])
+    let mut columns = vec![left.into(), middle.into()];
+    let mut shares = vec![1.0, 0.9];
+    if !maps.is_empty() {
+        columns.push(Vertical::new(maps).into());
+        shares.push(1.2);
+    }
+    columns.push(right.into());
+    shares.push(0.8);
+    Horizontal::new(columns)
+        .with_column_shares(shares)
         .with_name("Life")
         .into()
 }

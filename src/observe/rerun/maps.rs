@@ -26,7 +26,7 @@ pub(super) const HERTZ: &str = "maps/hertz_contact";
 /// GPa, MPa, um from SI.
 pub(super) const GPA: (&str, f64) = ("GPa", 1e-9);
 const MPA: (&str, f64) = ("MPa", 1e-6);
-const UM: (&str, f64) = ("µm", 1e6);
+pub(super) const UM: (&str, f64) = ("µm", 1e6);
 
 /// Classes of the picture over the film map.
 const CLASS_FILM: u8 = 0;

@@ -11,11 +11,13 @@
 mod cadence;
 mod centre_line;
 mod colour;
+mod damage;
 mod file;
 mod geometry;
 mod interferogram;
 mod kymograph;
 mod layout;
+mod live;
 mod maps;
 mod mesh;
 mod plot;
@@ -29,5 +31,6 @@ mod stream;
 mod text;
 mod trace;
 
+pub use live::Live;
 pub use recorder::Recorder;
 pub use reread::{Recorded, RecordedTurn, RereadError};

@@ -7,9 +7,11 @@ use rerun::TextLogLevel;
 
 use super::cadence::Cadence;
 use super::centre_line::CentreLine;
+use super::damage::Damage;
 use super::geometry::Geometry;
-use super::kymograph::Kymograph;
+use super::kymograph::{self, Kymograph};
 use super::layout::{self, Shown};
+use super::live::Live;
 use super::maps::{self, Maps};
 use super::slice::Slice;
 use super::space::{Space, Tops};
@@ -32,6 +34,8 @@ pub struct Recorder {
     frames: u64,
     /// Where the last frame was: events come between frames.
     passages: f64,
+    /// Frames that came after the viewer was closed.
+    unsent: u64,
 }
 
 /// What is set up by the first frame.
@@ -43,7 +47,10 @@ struct Views {
     space: Option<Space>,
     centre_line: CentreLine,
     trace: Option<Trace>,
-    kymograph: Kymograph,
+    kymographs: [Kymograph; 2],
+    damage: Damage,
+    /// Bodies whose damage is mapped.
+    damaged: [bool; 2],
 }
 
 impl Recorder {
@@ -56,15 +63,29 @@ impl Recorder {
         overwrite: Overwrite,
         record: &Record,
     ) -> Result<Self, ObserveError> {
-        Ok(Self {
-            stream: Stream::create(path, overwrite)?,
+        Ok(Self::on(Stream::create(path, overwrite)?, record))
+    }
+
+    /// Opens a connection to a viewer, or for viewers. Put it behind
+    /// [`Queue::spawn_live`](crate::observe::Queue::spawn_live): a viewer may stall.
+    ///
+    /// # Errors
+    /// When no viewer listens, or the port is busy.
+    pub fn live(live: Live, record: &Record) -> Result<Self, ObserveError> {
+        Ok(Self::on(Stream::live(live)?, record))
+    }
+
+    fn on(stream: Stream, record: &Record) -> Self {
+        Self {
+            stream,
             record: record.clone(),
             scene: None,
             views: None,
             caption: String::new(),
             frames: 0,
             passages: 0.0,
-        })
+            unsent: 0,
+        }
     }
 
     /// Logs one frame.
@@ -133,7 +154,15 @@ impl Views {
         let step_s = scene.map_or(0.0, |scene| {
             scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
         });
-        let kymograph = Kymograph::new(stream, geometry, tops.pressure_pa, steps, step_s)?;
+        let kymograph = |shown| Kymograph::new(stream, geometry, shown, steps, step_s);
+        let kymographs = [
+            kymograph(kymograph::Shown::Pressure {
+                top_pa: tops.pressure_pa,
+            })?,
+            kymograph(kymograph::Shown::Film {
+                top_m: maps.film_top_m(),
+            })?,
+        ];
         series::log_styles(stream)?;
         let cadence = Cadence::new(record, steps, frame_bytes(geometry));
         let exaggeration = space.as_ref().map(Space::note).unwrap_or_default();
@@ -148,7 +177,11 @@ impl Views {
             space,
             centre_line,
             trace,
-            kymograph,
+            kymographs,
+            damage: Damage::default(),
+            damaged: scene
+                .and_then(|scene| scene.life.as_ref())
+                .map_or([false; 2], crate::scene::Life::maps),
         };
         layout::send(stream, &views.shown(first))?;
         Ok(views)
@@ -161,9 +194,10 @@ impl Views {
             centre_line: self.centre_line.plot().clone(),
             slice: self.slice.as_ref().map(|slice| slice.plot().clone()),
             trace: self.trace.as_ref().map(|trace| trace.plot().clone()),
-            kymograph: self.kymograph.plot().clone(),
+            kymograph: self.kymographs[0].plot().clone(),
             camera: self.space.as_ref().map(Space::camera),
             rough: self.maps.rough(),
+            damaged: self.damaged,
             life: first.metrics.life.is_some(),
         }
     }
@@ -173,7 +207,9 @@ impl Views {
         if let Some(trace) = &mut self.trace {
             trace.follow(frame);
         }
-        self.kymograph.follow(frame);
+        for kymograph in &mut self.kymographs {
+            kymograph.follow(frame);
+        }
     }
 
     /// The fields of a frame.
@@ -189,7 +225,11 @@ impl Views {
         if let Some(trace) = &self.trace {
             trace.log(stream, frame)?;
         }
-        self.kymograph.log_if_due(stream)
+        self.damage.log(stream, frame)?;
+        for kymograph in &mut self.kymographs {
+            kymograph.log_if_due(stream)?;
+        }
+        Ok(())
     }
 }
 
@@ -202,6 +242,10 @@ impl Observer for Recorder {
     /// Records a frame of the passage; the start-up is not part of the results.
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
         if frame.stage == Stage::StartUp {
+            return Ok(());
+        }
+        if self.stream.is_gone() {
+            self.unsent += 1;
             return Ok(());
         }
         self.passages = frame.passages;
@@ -220,6 +264,9 @@ impl Observer for Recorder {
     }
 
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        if self.stream.is_gone() {
+            return Ok(());
+        }
         self.stream
             .set_time(event.step, event.time_s, self.passages);
         if let RunEventKind::Caption(caption) = &event.kind {
@@ -229,15 +276,24 @@ impl Observer for Recorder {
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        if let Some(views) = &mut self.views {
-            views.kymograph.log(&self.stream)?;
+        if let Some(views) = &mut self.views
+            && !self.stream.is_gone()
+        {
+            for kymograph in &mut views.kymographs {
+                kymograph.log(&self.stream)?;
+            }
         }
         self.stream.close()?;
         Ok(ObserverReport {
             output: self.stream.output(),
             frames: self.frames,
-            skipped: 0,
+            skipped: self.unsent,
             bytes: self.stream.bytes(),
+            note: if self.unsent > 0 {
+                "the viewer was closed".to_owned()
+            } else {
+                String::new()
+            },
         })
     }
 }

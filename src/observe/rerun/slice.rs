@@ -68,6 +68,11 @@ impl Rows {
         self.between.len()
     }
 
+    /// Whether the rows were made over these depths.
+    pub(super) fn are_over(&self, depths: &Arc<[f64]>) -> bool {
+        self.depths == *depths
+    }
+
     pub(super) fn depth_mm(&self, row: usize) -> f64 {
         self.first_mm + self.height_mm * row as f64
     }

@@ -1,18 +1,23 @@
 //! The stream that is recorded to: opening, logging, closing, and the errors of each.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use rerun::log::ChunkBatcherConfig;
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder};
 
 use super::file::RecordingFile;
+use super::live::{self, Link, Live};
 use crate::observe::{ObserveError, Overwrite};
 
 /// Name under which viewers group recordings and remember layouts.
 pub(super) const APPLICATION: &str = "asperity";
 /// Most bytes that wait for the disk; logging waits when there are more.
 const WAITING_BYTES: u64 = 32 * 1024 * 1024;
+/// How often a live stream sends what waits.
+const LIVE_TICK: Duration = Duration::from_millis(50);
+/// Longest wait for a viewer to take the last bytes.
+const LIVE_CLOSE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Longest wait for the last bytes on closing.
 const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
 /// What is logged reaches the file's writer at least this often: what `kill -9` may lose.
@@ -25,12 +30,25 @@ pub(super) const SIMULATED_TIME: &str = "simulated_time";
 /// Lengths of 4 a travelled at U, in thousandths (a timeline holds no fractions).
 pub(super) const PASSAGE: &str = "passage_x1000";
 
+/// `enabled` is set because the variable RERUN=off would make a silent no-op of a recording that the user
+/// asked for.
+fn builder(batching: ChunkBatcherConfig) -> RecordingStreamBuilder {
+    RecordingStreamBuilder::new(APPLICATION)
+        .enabled(true)
+        .batcher_config(batching)
+}
+
 /// A recording that is being written.
 pub(super) struct Stream {
     recording: RecordingStream,
-    file: RecordingFile,
-    path: PathBuf,
+    to: Destination,
+    output: String,
     closed: bool,
+}
+
+enum Destination {
+    File(RecordingFile),
+    Live(Link),
 }
 
 impl Stream {
@@ -47,28 +65,52 @@ impl Stream {
             max_bytes_in_flight: WAITING_BYTES,
             ..ChunkBatcherConfig::DEFAULT
         };
-        // `enabled` is set because the variable RERUN=off would make a silent no-op of a recording
-        // that the user asked for.
-        let recording = RecordingStreamBuilder::new(APPLICATION)
-            .enabled(true)
-            .batcher_config(batching)
+        let recording = builder(batching)
             .buffered()
             .map_err(|error| failed(error.to_string()))?;
         recording.set_sink(Box::new(file.clone()));
+        let output = path.display().to_string();
+        Ok(Self::over(recording, Destination::File(file), output))
+    }
+
+    /// Opens a connection to a viewer, or for viewers.
+    pub(super) fn live(live: Live) -> Result<Self, ObserveError> {
+        let batching = ChunkBatcherConfig {
+            flush_tick: LIVE_TICK,
+            max_bytes_in_flight: WAITING_BYTES,
+            ..ChunkBatcherConfig::DEFAULT
+        };
+        let (recording, link) = live::open(live, builder(batching))?;
+        Ok(Self::over(
+            recording,
+            Destination::Live(link),
+            live.to_string(),
+        ))
+    }
+
+    fn over(recording: RecordingStream, to: Destination, output: String) -> Self {
         // Wall-clock time says nothing about the physics and makes every file differ.
         recording.set_log_time_enabled(false);
         recording.set_log_tick_enabled(false);
-        Ok(Self {
+        Self {
             recording,
-            file,
-            path: path.to_owned(),
+            to,
+            output,
             closed: false,
-        })
+        }
     }
 
-    /// The path as text.
+    /// The path, or which viewer.
     pub(super) fn output(&self) -> String {
-        self.path.display().to_string()
+        self.output.clone()
+    }
+
+    /// Whether a viewer has been closed: nobody reads any more.
+    pub(super) fn is_gone(&self) -> bool {
+        match &self.to {
+            Destination::File(_) => false,
+            Destination::Live(link) => link.is_gone(),
+        }
     }
 
     /// The library's stream, for the layout.
@@ -109,14 +151,19 @@ impl Stream {
 
     /// An error if the file has failed since.
     pub(super) fn check(&self) -> Result<(), ObserveError> {
-        self.file
-            .error()
+        let Destination::File(file) = &self.to else {
+            return Ok(());
+        };
+        file.error()
             .map_or(Ok(()), |reason| Err(self.failed(&reason)))
     }
 
-    /// Bytes in the file by now.
+    /// Bytes in the file by now; a viewer has its own limit and forgets the oldest, so nothing is counted.
     pub(super) fn bytes(&self) -> u64 {
-        self.file.bytes()
+        match &self.to {
+            Destination::File(file) => file.bytes(),
+            Destination::Live(_) => 0,
+        }
     }
 
     /// Writes what waits and the footer.
@@ -125,8 +172,13 @@ impl Stream {
             return self.check();
         }
         self.closed = true;
+        let Destination::File(file) = &self.to else {
+            // What a viewer does not take in time it does not get: nobody waits for it.
+            drop(self.recording.flush_with_timeout(LIVE_CLOSE_TIMEOUT));
+            return Ok(());
+        };
         let flushed = self.recording.flush_with_timeout(CLOSE_TIMEOUT);
-        self.file.finish().map_err(|reason| self.failed(&reason))?;
+        file.finish().map_err(|reason| self.failed(&reason))?;
         flushed.map_err(|error| self.failed(&error.to_string()))
     }
 

@@ -1,0 +1,199 @@
+//! numpy's archive: a zip file, nothing compressed, of `.npy` arrays (format 1.0, little-endian, C order).
+//!
+//! ```text
+//! .npy   \x93NUMPY 1 0 | length of header, u16 | {'descr': '<f4', 'fortran_order': False, 'shape': (n, m), }
+//!        padded with spaces to a multiple of 64 and a newline | values
+//! .zip   local header, array, ... | central directory | end record        (PKWARE APPNOTE 6.3, sizes below 4 GB)
+//! ```
+
+use std::io::{Error, ErrorKind, Result, Write};
+
+/// An archive under construction.
+pub(super) struct Npz<W> {
+    out: W,
+    at: u64,
+    directory: Vec<u8>,
+    members: u16,
+    /// The array in the making.
+    array: Vec<u8>,
+}
+
+impl<W: Write> Npz<W> {
+    pub(super) fn new(out: W) -> Self {
+        Self {
+            out,
+            at: 0,
+            directory: Vec::new(),
+            members: 0,
+            array: Vec::new(),
+        }
+    }
+
+    pub(super) fn f32(&mut self, name: &str, shape: &[usize], values: &[f32]) -> Result<()> {
+        self.begin("<f4", shape, values.len())?;
+        self.array
+            .extend(values.iter().flat_map(|value| value.to_le_bytes()));
+        self.end(name)
+    }
+
+    pub(super) fn f64(&mut self, name: &str, shape: &[usize], values: &[f64]) -> Result<()> {
+        self.begin("<f8", shape, values.len())?;
+        self.array
+            .extend(values.iter().flat_map(|value| value.to_le_bytes()));
+        self.end(name)
+    }
+
+    pub(super) fn u8(&mut self, name: &str, shape: &[usize], values: &[u8]) -> Result<()> {
+        self.begin("|u1", shape, values.len())?;
+        self.array.extend_from_slice(values);
+        self.end(name)
+    }
+
+    /// The array's header. A shape that does not hold the values would be read as something else.
+    fn begin(&mut self, kind: &str, shape: &[usize], values: usize) -> Result<()> {
+        if shape.iter().product::<usize>() != values {
+            let what = format!("{values} values do not fill an array of shape {shape:?}");
+            return Err(Error::new(ErrorKind::InvalidInput, what));
+        }
+        let shape: String = shape.iter().map(|n| format!("{n}, ")).collect();
+        let mut header =
+            format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}");
+        // Magic, version and length take ten bytes, the newline one.
+        while !(header.len() + 11).is_multiple_of(64) {
+            header.push(' ');
+        }
+        header.push('\n');
+        self.array.clear();
+        self.array.extend_from_slice(b"\x93NUMPY\x01\x00");
+        self.array
+            .extend_from_slice(&(header.len() as u16).to_le_bytes());
+        self.array.extend_from_slice(header.as_bytes());
+        Ok(())
+    }
+
+    /// Writes the array as a member.
+    fn end(&mut self, name: &str) -> Result<()> {
+        let name = format!("{name}.npy");
+        let too_long = |_| Error::new(ErrorKind::InvalidInput, "an archive of 4 GB and more");
+        let size = u32::try_from(self.array.len()).map_err(too_long)?;
+        let offset = u32::try_from(self.at).map_err(too_long)?;
+        let mut common = Vec::with_capacity(26);
+        // Version 2.0, no flags, stored, 1980-01-01 (files are reproducible), checksum, sizes, lengths.
+        for field in [20_u16, 0, 0, 0, 0x21] {
+            common.extend(field.to_le_bytes());
+        }
+        for field in [crc32(&self.array), size, size] {
+            common.extend(field.to_le_bytes());
+        }
+        for field in [name.len() as u16, 0] {
+            common.extend(field.to_le_bytes());
+        }
+        self.put(b"PK\x03\x04")?;
+        self.put(&common)?;
+        self.put(name.as_bytes())?;
+        let array = std::mem::take(&mut self.array);
+        self.put(&array)?;
+        self.array = array;
+        self.directory.extend_from_slice(b"PK\x01\x02\x14\x00");
+        self.directory.extend_from_slice(&common);
+        // No comment, first disk, no attributes.
+        self.directory.extend_from_slice(&[0; 10]);
+        self.directory.extend(offset.to_le_bytes());
+        self.directory.extend_from_slice(name.as_bytes());
+        self.members += 1;
+        Ok(())
+    }
+
+    fn put(&mut self, bytes: &[u8]) -> Result<()> {
+        self.at += bytes.len() as u64;
+        self.out.write_all(bytes)
+    }
+
+    /// Writes the directory; the bytes of the whole archive.
+    pub(super) fn finish(mut self) -> Result<u64> {
+        let (start, length) = (self.at as u32, self.directory.len() as u32);
+        let directory = std::mem::take(&mut self.directory);
+        self.put(&directory)?;
+        let mut end = b"PK\x05\x06\0\0\0\0".to_vec();
+        for count in [self.members, self.members] {
+            end.extend(count.to_le_bytes());
+        }
+        for field in [length, start] {
+            end.extend(field.to_le_bytes());
+        }
+        end.extend_from_slice(&[0, 0]);
+        self.put(&end)?;
+        self.out.flush()?;
+        Ok(self.at)
+    }
+}
+
+/// CRC-32 of ISO 3309: polynomial 0xEDB88320 (reflected), start and end inverted.
+fn crc32(bytes: &[u8]) -> u32 {
+    const TABLE: [u32; 256] = table();
+    !bytes.iter().fold(u32::MAX, |crc, &byte| {
+        (crc >> 8) ^ TABLE[((crc ^ u32::from(byte)) & 0xff) as usize]
+    })
+}
+
+const fn table() -> [u32; 256] {
+    let mut table = [0; 256];
+    let mut at = 0;
+    while at < 256 {
+        let mut value = at as u32;
+        let mut bit = 0;
+        while bit < 8 {
+            value = if value & 1 == 1 {
+                (value >> 1) ^ 0xEDB8_8320
+            } else {
+                value >> 1
+            };
+            bit += 1;
+        }
+        table[at] = value;
+        at += 1;
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_checksum_is_the_standards() {
+        // The check value of the catalogue of CRC algorithms.
+        assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
+        assert_eq!(crc32(b""), 0);
+    }
+
+    #[test]
+    fn arrays_lie_where_their_headers_say() {
+        let mut bytes = Vec::new();
+        let mut npz = Npz::new(&mut bytes);
+        assert!(
+            npz.f32("p", &[2, 3], &[0.0, 1.0, 2.0, 3.0, 4.0, 5.5])
+                .is_ok()
+        );
+        assert!(npz.f64("t", &[], &[0.25]).is_ok());
+        assert!(npz.u8("c", &[2], &[7]).is_err(), "one value is missing");
+        let length = npz.finish().unwrap_or(0);
+        assert_eq!(length, bytes.len() as u64);
+        let header = 30 + "p.npy".len();
+        assert_eq!(&bytes[..4], b"PK\x03\x04");
+        assert_eq!(&bytes[header..header + 6], b"\x93NUMPY");
+        let text = String::from_utf8_lossy(&bytes[header + 10..header + 128]).into_owned();
+        assert!(
+            text.contains("'descr': '<f4'") && text.contains("'shape': (2, 3, )"),
+            "{text}"
+        );
+        let values = header + 128;
+        assert_eq!(&bytes[values + 20..values + 24], &5.5_f32.to_le_bytes());
+        assert_eq!(&bytes[values + 24..values + 28], b"PK\x03\x04");
+        // The end record: two members, and the directory where it says.
+        let end = &bytes[bytes.len() - 22..];
+        assert_eq!((&end[..4], end[10]), (&b"PK\x05\x06"[..], 2));
+        let start = u32::from_le_bytes([end[16], end[17], end[18], end[19]]) as usize;
+        assert_eq!(&bytes[start..start + 4], b"PK\x01\x02");
+    }
+}

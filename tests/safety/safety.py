@@ -1,0 +1,162 @@
+"""What becomes of a recording when things go wrong, with the release binary and the real reader.
+
+    python3 -m venv venv && venv/bin/pip install rerun-sdk==0.36.3 numpy
+    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|memory|cost|table ...]
+
+kill    twenty runs ended by SIGKILL at random moments: every file opens and holds all but the last second
+disk    a full disk (a small tmpfs where that may be mounted) and a folder that may not be written: a clear
+        message, exit code 4, no panic, what was written before can be read
+memory  ten thousand steps: resident memory after the first tenth and at the end
+cost    the default scene with and without a recording in turns; ratio of the steps per second
+table   recorded h_min and life against the CSV of the same run, to rounding
+
+Moments and timings vary from run to run, which is why this is a script to look at and not a unit test; it
+ends with code 1 when something does not hold.
+"""
+
+import csv
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+import rerun.experimental as rx
+
+SMALL = ["--set", "grid.nodes=65", "--set", "numerics.error_estimate=none"]
+failures = []
+
+
+def check(holds, what):
+    print(("ok    " if holds else "FAILS ") + what, flush=True)
+    if not holds:
+        failures.append(what)
+
+
+def scalars(path, entity):
+    """Values of an entity by step, as far as the file can be read."""
+    found = {}
+    try:
+        for chunk in rx.RrdReader(path).stream():
+            if chunk.entity_path != "/" + entity or chunk.is_static:
+                continue
+            batch = chunk.to_record_batch()
+            steps = batch.column(batch.schema.get_field_index("step")).to_pylist()
+            name = next(n for n in batch.schema.names if n.endswith("Scalars:scalars"))
+            found.update(zip(steps, batch.column(name).to_pylist()))
+    except Exception as error:  # a file that breaks off is read up to there
+        print("      reader:", error)
+    return found
+
+
+def run(program, *arguments, **more):
+    command = [program, "run", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, **more)
+
+
+def kill(program, folder):
+    random.seed(1)
+    for number in range(20):
+        out, table = folder / f"{number}.rrd", folder / f"{number}.csv"
+        command = [program, "run", *SMALL, "--passages", "1000", "--out", out, "--table", table]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        # From the start-up's end on, so that there is something to lose.
+        while not (table.exists() and table.read_text().count("\n") > 1):
+            time.sleep(0.02)
+        until = time.monotonic() + random.uniform(0.0, 4.0)
+        rows = []  # (moment, last step in the table)
+        while time.monotonic() < until:
+            rows.append((time.monotonic(), table.read_text().count("\n") - 1))
+            time.sleep(0.05)
+        process.kill()
+        moment = time.monotonic()
+        process.wait()
+        # A second for the tick, half a one for a busy machine.
+        due = max((steps for when, steps in rows if when < moment - 1.5), default=0)
+        held = max(scalars(out, "series/film_um"), default=0)
+        check(held >= due, f"kill {number + 1:2}: holds step {held}, {due} were due, table has {rows[-1][1] if rows else 0}")
+
+
+def disk(program, folder):
+    small = folder / "small"
+    small.mkdir()
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=2m", "tmpfs", small]).returncode == 0
+    if mounted:
+        try:
+            done = run(program, *SMALL, "--passages", "20", "--out", small / "run.rrd")
+            check(done.returncode == 4, f"full disk: exit code {done.returncode}")
+            check("panick" not in done.stderr and "full" in done.stderr, "full disk: " + done.stderr.strip()[:160])
+            held = len(scalars(small / "run.rrd", "series/film_um"))
+            check(held > 0, f"full disk: {held} steps can be read")
+        finally:
+            subprocess.run(["umount", small])
+    else:
+        print("no tmpfs may be mounted here: full disk not tried")
+    done = run(program, *SMALL, "--out", "/proc/nowhere/run.rrd")
+    check(done.returncode == 4 and "panick" not in done.stderr, "unwritable: " + done.stderr.strip()[:160])
+
+
+def memory(program, folder):
+    command = [program, "run", *SMALL, "--set", "record.budget_mb=30"]
+    command += ["--passages", "313", "--out", folder / "long.rrd", "--table", folder / "long.csv"]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    seen = []
+    table = folder / "long.csv"
+    while process.poll() is None:
+        time.sleep(0.5)
+        status = pathlib.Path(f"/proc/{process.pid}/status")
+        if table.exists() and status.exists():
+            found = re.search(r"VmRSS:\s+(\d+)", status.read_text())
+            steps = table.read_text().count("\n") - 1
+            if found and steps > 0:
+                seen.append((steps, int(found[1]) / 1024))
+    last = seen[-1]
+    early = next(rss for steps, rss in seen if steps >= 0.1 * last[0])
+    growth = last[1] / early - 1
+    check(abs(growth) < 0.05, f"memory: {early:.1f} MB after a tenth, {last[1]:.1f} MB after {last[0]} steps: {100 * growth:+.1f} %")
+
+
+def cost(program, folder):
+    pairs = []
+    for number in range(3):
+        rates = []
+        for record in (["--no-record"], ["--out", folder / f"cost{number}.rrd"]):
+            done = run(program, "--passages", "1", "--set", "numerics.error_estimate=none", "--summary", "-", *record)
+            rates.append(float(re.search(r'"steps_per_s": ([0-9.e+-]+)', done.stdout)[1]))
+        pairs.append(rates[0] / rates[1] - 1)
+        print(f"      {rates[0]:.2f} steps/s without, {rates[1]:.2f} with: {100 * pairs[-1]:+.1f} %", flush=True)
+    middle = sorted(pairs)[1]
+    check(middle < 0.05, f"cost: recording adds {100 * middle:.1f} % (median of three)")
+    size = (folder / "cost0.rrd").stat().st_size / 1e6
+    check(size < 60, f"size: one passage of the default scene takes {size:.1f} MB")
+
+
+def table(program, folder):
+    out, path = folder / "run.rrd", folder / "run.csv"
+    done = run(program, *SMALL, "--passages", "2", "--out", out, "--table", path)
+    check(done.returncode == 0, f"run: exit code {done.returncode} {done.stderr.strip()[:200]}")
+    rows = {int(row["step"]): row for row in csv.DictReader(path.open())}
+    film = scalars(out, "series/film_um")
+    life = scalars(out, "life/relative")
+    check(sorted(film) == sorted(rows), f"table: {len(film)} steps in both")
+    pairs = [(film[step][2], 1e6 * float(row["h_min_m"])) for step, row in rows.items()]
+    check(np.allclose(*zip(*pairs), rtol=1e-6, atol=0), f"table: h_min of {len(pairs)} steps agrees to 1e-6")
+    pairs = [(life[step][0], float(row["life_relative"])) for step, row in rows.items() if row["life_relative"]]
+    check(len(pairs) > 0 and len(pairs) == len(life), f"table: life in {len(pairs)} steps of both")
+    check(np.allclose(*zip(*pairs), rtol=1e-6, atol=0), f"table: life of {len(pairs)} steps agrees to 1e-6")
+
+
+def main():
+    program = str(pathlib.Path(sys.argv[1]).resolve())
+    parts = {"kill": kill, "disk": disk, "memory": memory, "cost": cost, "table": table}
+    for name in sys.argv[2:] or parts:
+        with tempfile.TemporaryDirectory() as folder:
+            parts[name](program, pathlib.Path(folder))
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()
