@@ -17,6 +17,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use rayon::prelude::*;
+
 use crate::math::grid::Grid;
 
 /// Pressure below which ripples count as absolute, not relative.
@@ -134,23 +136,25 @@ impl History {
             (0.0, 1.0)
         };
         let nx = grid.nx;
-        for j in 0..grid.ny {
-            let row_1 = &self.mass_1[j * nx..(j + 1) * nx];
-            let row_2 = &self.mass_2[j * nx..(j + 1) * nx];
-            for i in 0..nx {
-                let n = j * nx + i;
-                let c1 = shifted(row_1, i, nodes).max(0.0);
-                let c2 = shifted(row_2, i, nodes + self.last_nodes).max(0.0);
-                let extra = weight * (c1 - c2);
-                let theta = if extra < -0.5 * c1 {
-                    -0.5 * c1 / extra
-                } else {
-                    1.0
-                };
-                c_star[n] = c1 + theta * extra;
-                s[n] = dt * (1.0 + theta * (implicit - 1.0));
-            }
-        }
+        let rows = c_star.par_chunks_mut(nx).zip(s.par_chunks_mut(nx));
+        rows.enumerate()
+            .with_min_len(8)
+            .for_each(|(j, (c_star, s))| {
+                let row_1 = &self.mass_1[j * nx..(j + 1) * nx];
+                let row_2 = &self.mass_2[j * nx..(j + 1) * nx];
+                for i in 0..nx {
+                    let c1 = shifted(row_1, i, nodes).max(0.0);
+                    let c2 = shifted(row_2, i, nodes + self.last_nodes).max(0.0);
+                    let extra = weight * (c1 - c2);
+                    let theta = if extra < -0.5 * c1 {
+                        -0.5 * c1 / extra
+                    } else {
+                        1.0
+                    };
+                    c_star[i] = c1 + theta * extra;
+                    s[i] = dt * (1.0 + theta * (implicit - 1.0));
+                }
+            });
     }
 
     /// First guess of the next pressure: the slow part stays, the *relative* ripple is extrapolated
@@ -165,24 +169,27 @@ impl History {
         } else {
             0.0
         };
-        for j in grid.interior_rows() {
-            let range = j * nx..(j + 1) * nx;
-            let (one, two, slow) = (
-                &self.pressure_1[range.clone()],
-                &self.pressure_2[range.clone()],
-                &self.pressure_slow[range],
-            );
-            for i in 1..nx - 1 {
-                let back = nodes + self.last_nodes;
-                let r1 = (shifted(one, i, nodes) + FLOOR) / (shifted(slow, i, nodes) + FLOOR);
-                let r2 = (shifted(two, i, back) + FLOOR) / (shifted(slow, i, back) + FLOOR);
-                p[j * nx + i] = if one[i] == 0.0 {
-                    0.0
-                } else {
-                    ((slow[i] + FLOOR) * (r1 + omega * (r1 - r2)) - FLOOR).max(0.0)
-                };
-            }
-        }
+        let interior = grid.interior_rows();
+        let rows = p.par_chunks_mut(nx).enumerate().with_min_len(8);
+        rows.filter(|(j, _)| interior.contains(j))
+            .for_each(|(j, p)| {
+                let range = j * nx..(j + 1) * nx;
+                let (one, two, slow) = (
+                    &self.pressure_1[range.clone()],
+                    &self.pressure_2[range.clone()],
+                    &self.pressure_slow[range],
+                );
+                for i in 1..nx - 1 {
+                    let back = nodes + self.last_nodes;
+                    let r1 = (shifted(one, i, nodes) + FLOOR) / (shifted(slow, i, nodes) + FLOOR);
+                    let r2 = (shifted(two, i, back) + FLOOR) / (shifted(slow, i, back) + FLOOR);
+                    p[i] = if one[i] == 0.0 {
+                        0.0
+                    } else {
+                        ((slow[i] + FLOOR) * (r1 + omega * (r1 - r2)) - FLOOR).max(0.0)
+                    };
+                }
+            });
     }
 
     /// Error that steps of `nodes` nodes add to the film while oil crosses the contact, over the film, judged

@@ -13,6 +13,7 @@
 //! Positive on body 1 when body 2 is the faster: it drags the slower body forward. Without sliding
 //! there is none. Sources: Eyring (1936); Bair and Winer (1979) for the limit.
 
+use crate::math::elementary::{asinh, exp};
 use crate::physics::fluid::Viscosity;
 
 /// The law, dimensionless.
@@ -57,9 +58,9 @@ impl TractionLaw {
         let Some(film) = self.film.filter(|_| !self.is_contact(p, h)) else {
             return self.direction * self.boundary * p;
         };
-        let newtonian = film.rate / h * self.viscosity.ln_eta(p).0.exp();
+        let newtonian = film.rate / h * exp(self.viscosity.ln_eta(p).0);
         let shear = match film.eyring {
-            Some(tau0) => tau0 * (newtonian / tau0).asinh(),
+            Some(tau0) => tau0 * asinh(newtonian / tau0),
             None => newtonian,
         };
         self.direction * shear.min(film.limit * p)
