@@ -18,8 +18,8 @@ use crate::math::grid::Grid;
 
 /// Number of conductance bins.
 const BINS: usize = 5;
-/// Extra diagonal of the line sweeps in units of ρ̄K00.
-const IDLE: f64 = 1.0;
+/// Extra diagonal of the line sweeps in units of ρ̄K00: 2 takes a tenth fewer iterations than 1, a quarter than ½.
+const IDLE: f64 = 2.0;
 
 /// Order of parities in the line sweeps.
 const ORDER: [usize; 3] = [0, 1, 0];
