@@ -174,7 +174,7 @@ fn run_from_a_recording_writes_the_same_table() {
         output.unwrap()
     };
     let first = [
-        "--set=grid.nodes=33",
+        "--set=grid.nodes=65",
         "--set=stress.depths=8",
         "--set=motion.slide_roll=0.75",
         "--passages=0.5",
@@ -194,7 +194,7 @@ fn run_from_a_recording_writes_the_same_table() {
     assert!(table("one.csv") == table("two.csv"));
     assert!(folder.path().join("one-again.rrd").exists());
     // A recording says what it repeats; nothing may be set on top.
-    let both = asperity(&["--from=one.rrd", "--set=grid.nodes=65"]);
+    let both = asperity(&["--from=one.rrd", "--set=grid.nodes=33"]);
     assert_eq!(both.status.code(), Some(1));
     let none = asperity(&["--from=none.rrd"]);
     assert_eq!(none.status.code(), Some(1));
