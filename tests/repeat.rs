@@ -159,3 +159,44 @@ fn what_cannot_be_repeated_is_refused_in_words() {
     let reason = Recorded::read(&path).unwrap_err().reason;
     assert!(reason.contains("--from-state"), "{reason}");
 }
+
+/// The command line: the table of the repetition is the table of the run, byte for byte.
+#[test]
+fn run_from_a_recording_writes_the_same_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let asperity = |args: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_asperity"));
+        let output = command
+            .current_dir(folder.path())
+            .arg("run")
+            .args(args)
+            .output();
+        output.unwrap()
+    };
+    let first = [
+        "--set=grid.nodes=65",
+        "--set=stress.depths=8",
+        "--set=motion.slide_roll=0.75",
+        "--passages=0.5",
+        "--out=one.rrd",
+        "--table=one.csv",
+    ];
+    let done = asperity(&first);
+    assert!(
+        done.status
+            .code()
+            .is_some_and(|code| code == 0 || code == 2)
+    );
+    let again = asperity(&["--from=one.rrd", "--table=two.csv"]);
+    assert_eq!(again.status.code(), done.status.code());
+    let table = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert!(table("one.csv").len() > 1000);
+    assert!(table("one.csv") == table("two.csv"));
+    assert!(folder.path().join("one-again.rrd").exists());
+    // A recording says what it repeats; nothing may be set on top.
+    let both = asperity(&["--from=one.rrd", "--set=grid.nodes=33"]);
+    assert_eq!(both.status.code(), Some(1));
+    let none = asperity(&["--from=none.rrd"]);
+    assert_eq!(none.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&none.stderr).contains("none.rrd"));
+}

@@ -1,0 +1,59 @@
+//! Exported fields: one archive a step with the scene beside it, and nobody's files lost.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+mod synthetic;
+
+use asperity::observe::{Export, Observer, Overwrite};
+
+const NODES: usize = 17;
+
+#[test]
+fn every_step_handed_over_becomes_an_archive_beside_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("fields");
+    let mut export = Export::create(&target, Overwrite::Refuse).unwrap();
+    let context = synthetic::context(synthetic::scene(NODES, 1.0));
+    export.begin(&context).unwrap();
+    for step in [16, 32] {
+        export.frame(&synthetic::frame(NODES, step)).unwrap();
+    }
+    let report = export.finish().unwrap();
+    let bytes = |name: &str| std::fs::read(target.join(name)).unwrap();
+    let (one, two) = (bytes("step_000016.npz"), bytes("step_000032.npz"));
+    assert_eq!(
+        (report.frames, report.bytes),
+        (2, (one.len() + two.len()) as u64)
+    );
+    assert_eq!(bytes("scene.toml"), context.scene_toml.as_bytes());
+    // The pressure lies in the file as the frame held it.
+    let frame = synthetic::frame(NODES, 16);
+    let pressure: Vec<u8> = frame
+        .pressure_pa
+        .iter()
+        .flat_map(|p| p.to_le_bytes())
+        .collect();
+    assert!(one.windows(pressure.len()).any(|window| window == pressure));
+    for name in [
+        "pressure_pa.npy",
+        "film_m.npy",
+        "slice_effective_pa.npy",
+        "x_m.npy",
+    ] {
+        assert!(
+            one.windows(name.len())
+                .any(|window| window == name.as_bytes()),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_folder_with_somebodys_files_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+    let refused = Export::create(folder.path(), Overwrite::Refuse).unwrap_err();
+    assert!(refused.reason.contains("--force"), "{refused}");
+    assert!(Export::create(folder.path(), Overwrite::Replace).is_ok());
+    let file = folder.path().join("notes.txt");
+    assert!(Export::create(&file.join("below"), Overwrite::Refuse).is_err());
+}
