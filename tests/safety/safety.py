@@ -83,7 +83,7 @@ def kill(program, folder):
 def disk(program, folder):
     small = folder / "small"
     small.mkdir()
-    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=2m", "tmpfs", small]).returncode == 0
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16m", "tmpfs", small]).returncode == 0
     if mounted:
         try:
             done = run(program, *SMALL, "--passages", "20", "--out", small / "run.rrd")

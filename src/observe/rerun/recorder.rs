@@ -236,7 +236,10 @@ impl Views {
 impl Observer for Recorder {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
         self.scene = Some(Arc::clone(&context.scene));
-        text::log_context(&self.stream, context)
+        text::log_context(&self.stream, context)?;
+        // What repeats the run is on the disk before it starts.
+        self.stream.send_on();
+        Ok(())
     }
 
     /// Records a frame of the passage; the start-up is not part of the results.
@@ -250,6 +253,7 @@ impl Observer for Recorder {
         }
         self.passages = frame.passages;
         self.log_frame(frame)?;
+        self.stream.send_on_if_due();
         self.stream.check()?;
         self.frames += 1;
         let on_disk = self.stream.bytes();

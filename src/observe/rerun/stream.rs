@@ -1,7 +1,7 @@
 //! The stream that is recorded to: opening, logging, closing, and the errors of each.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rerun::log::ChunkBatcherConfig;
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder};
@@ -44,6 +44,7 @@ pub(super) struct Stream {
     to: Destination,
     output: String,
     closed: bool,
+    sent: Instant,
 }
 
 enum Destination {
@@ -97,6 +98,7 @@ impl Stream {
             to,
             output,
             closed: false,
+            sent: Instant::now(),
         }
     }
 
@@ -147,6 +149,21 @@ impl Stream {
         self.recording.set_duration_secs(SIMULATED_TIME, time_s);
         self.recording
             .set_time_sequence(PASSAGE, (passages * 1000.0).round() as i64);
+    }
+
+    /// Sends what waits on to the file now.
+    pub(super) fn send_on(&mut self) {
+        self.sent = Instant::now();
+        // Errors of the file are kept in it, for `check`.
+        drop(self.recording.flush_async());
+    }
+
+    /// Same once a second. The library's own tick is left out whenever some entity has filled a batch, so that
+    /// in a fast run scalars would wait for as long as images keep coming.
+    pub(super) fn send_on_if_due(&mut self) {
+        if self.sent.elapsed() >= TICK {
+            self.send_on();
+        }
     }
 
     /// An error if the file has failed since.
