@@ -132,7 +132,7 @@ impl Outputs {
             viewers.push(Live::Serve(port));
         }
         let record = prepared.scene.record.clone();
-        let record = record.unwrap_or_else(Record::default);
+        let record = record.unwrap_or_default();
         for viewer in viewers {
             let recorder = Recorder::live(viewer, &record)?;
             if let Live::Serve(port) = viewer {

@@ -55,7 +55,9 @@ impl<W: Write> Npz<W> {
             let what = format!("{values} values do not fill an array of shape {shape:?}");
             return Err(Error::new(ErrorKind::InvalidInput, what));
         }
-        let shape: String = shape.iter().map(|n| format!("{n}, ")).collect();
+        let shape = shape
+            .iter()
+            .fold(String::new(), |text, n| text + &n.to_string() + ", ");
         let mut header =
             format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}");
         // Magic, version and length take ten bytes, the newline one.
