@@ -118,7 +118,6 @@ impl Outputs {
     #[cfg(feature = "rerun")]
     fn open_live(&mut self, args: &RunArgs, prepared: &Prepared) -> Result<(), Failure> {
         use asperity::observe::rerun::{Live, Recorder};
-        use asperity::scene::Record;
         /// Frames that may wait: about half a second of the screen's pace.
         const WAITING: usize = 16;
         let mut viewers = Vec::new();
