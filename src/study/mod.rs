@@ -1,6 +1,7 @@
 //! Studies: what results cost, and what they are worth. Every number is measured in the run that prints it.
 
 mod scaling;
+pub mod sweep;
 
 pub use scaling::{Extent, ScalingRow, scaling, scaling_text};
 
