@@ -263,10 +263,9 @@ fn a_warm_case_is_what_a_cold_one_is() {
         .unwrap()
         .unwrap();
     println!("life and film, warm over cold: {:?}", against.ratios);
-    // The head is the same run. The others differ by what is left of the neighbour after 2.5 a, and at S = 0
+    // They differ by what is left of the neighbour after 2.5 a, and at S = 0
     // by nothing less than how the crests stand to each other, if they were not led back to their places.
-    assert_eq!(against.ratios[0], [1.0, 1.0]);
-    for ratio in &against.ratios[1..] {
+    for ratio in &against.ratios {
         assert!(
             (ratio[0] - 1.0).abs() < 0.01 && (ratio[1] - 1.0).abs() < 0.005,
             "{ratio:?}"

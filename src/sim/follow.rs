@@ -18,6 +18,11 @@ use super::{Knob, SimError, State};
 
 /// Way at U, in a, in which what entered under the neighbour's conditions leaves the contact.
 const FLUSH: f64 = 2.5;
+/// Part of it, in a, at the end, that is stepped as the passage is; before it steps are [`COARSE`] times as
+/// long, whose own errors have left the inner contact when the passage begins.
+const FINE: f64 = 1.5;
+/// Steps of settling over those of the passage.
+pub(super) const COARSE: f64 = 2.0;
 /// Knobs that a neighbour may differ in.
 const FREE: [Knob; 3] = [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M];
 /// Speed, in U, at which a surface is led at most.
@@ -53,29 +58,38 @@ impl Simulation {
             })
             .into_iter()
             .fold(0.0, f64::max);
-        // The lead shortens nothing but its own way, so two rounds find a length that serves.
-        let (mut settle, mut lead) = (walk + FLUSH, [0.0; 2]);
+        // How far the surfaces must be led depends on how long settling takes, and the other way round: two
+        // rounds find a length that serves.
+        let mut plan = Settling::new(walk, dt);
         let mut over = 0.0;
         for _ in 0..2 {
-            let steps = (settle / dt).ceil() as u64;
-            let end = ways(&self.drive, self.motion.travelled, steps, dt);
-            lead = [0, 1].map(|body| self.missing(body, goal[body] - end[body]));
+            let lead = self.lead_after(&plan, goal);
             let longest = lead.into_iter().map(f64::abs).fold(0.0, f64::max);
             over = (longest / LEAD).max(LEAD_WAY);
-            settle = walk.max(over) + FLUSH;
+            plan = Settling::new(walk.max(over), dt);
         }
-        let left = (settle / dt).ceil() as u64;
-        let end = ways(&self.drive, self.motion.travelled, left, dt);
-        for body in 0..2 {
-            lead[body] = self.missing(body, goal[body] - end[body]);
-        }
+        let lead = self.lead_after(&plan, goal);
         self.motion.lead(lead, over);
-        self.motion.disturb(settle);
-        self.phase = Phase::Develop { left };
-        self.start_up_steps = (0, left);
+        self.motion.disturb(plan.length());
+        self.phase = Phase::Settle {
+            left: plan.coarse,
+            then: plan.fine,
+        };
+        self.start_up_steps = (0, plan.coarse + plan.fine);
         self.watched = self.motion.travelled;
         self.see_again();
         Ok(())
+    }
+
+    /// What both surfaces lack of their places after settling.
+    fn lead_after(&self, plan: &Settling, goal: [f64; 2]) -> [f64; 2] {
+        let half = ways(
+            &self.drive,
+            self.motion.travelled,
+            (plan.coarse, COARSE * plan.dt),
+        );
+        let end = ways(&half.0, half.1, (plan.fine, plan.dt)).1;
+        [0, 1].map(|body: usize| self.missing(body, goal[body] - end[body]))
     }
 
     /// What a way is short of, modulo the body's wave: between −W/2 and W/2. A body without one wave along x
@@ -106,12 +120,36 @@ impl Simulation {
         let developing = self.terrain.is_rough(0)
             || self.terrain.is_rough(1)
             || self.wanted.get(Knob::SlideRoll).target != 0.0;
-        ways(&drive, [smooth; 2], if developing { steps } else { 0 }, dt)
+        let steps = if developing { steps } else { 0 };
+        ways(&drive, [smooth; 2], (steps, dt)).1
     }
 }
 
-/// Ways of both bodies after so many steps of `dt`, from `travelled` on.
-fn ways(drive: &Drive, mut travelled: [f64; 2], steps: u64, dt: f64) -> [f64; 2] {
+/// Steps of settling.
+struct Settling {
+    coarse: u64,
+    fine: u64,
+    dt: f64,
+}
+
+impl Settling {
+    /// After a walk of so much.
+    fn new(walk: f64, dt: f64) -> Self {
+        Self {
+            coarse: ((walk + FLUSH - FINE) / (COARSE * dt)).ceil() as u64,
+            fine: (FINE / dt).ceil() as u64,
+            dt,
+        }
+    }
+
+    /// In a.
+    fn length(&self) -> f64 {
+        (COARSE * self.coarse as f64 + self.fine as f64) * self.dt
+    }
+}
+
+/// Knobs and ways of both bodies after so many steps of such a length, from `travelled` on.
+fn ways(drive: &Drive, mut travelled: [f64; 2], (steps, dt): (u64, f64)) -> (Drive, [f64; 2]) {
     let mut drive = drive.clone();
     for _ in 0..steps {
         drive.walk(dt);
@@ -119,5 +157,5 @@ fn ways(drive: &Drive, mut travelled: [f64; 2], steps: u64, dt: f64) -> [f64; 2]
         travelled[0] += (1.0 - 0.5 * s) * dt;
         travelled[1] += (1.0 + 0.5 * s) * dt;
     }
-    travelled
+    (drive, travelled)
 }

@@ -66,17 +66,26 @@ pub(super) trait Watch {
 /// A case that was run: its record, and the state that the next one may start from. `None`: stopped.
 pub(super) type Ran = Option<(CaseRecord, Option<State>)>;
 
+/// How long a case is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Length {
+    /// What the sweep says, the last passage as long as its window.
+    Windowed,
+    /// What the scene says.
+    Asked,
+}
+
 /// The scene of a case with the passages that the sweep gives it.
-pub(super) fn shortened(mut scene: Scene, chain: ChainKeys) -> Scene {
+pub(super) fn shortened(mut scene: Scene, chain: ChainKeys) -> (Scene, Length) {
     let points_cross = scene.life.as_ref().is_some_and(|life| {
         matches!(life.cycles, CycleBasis::Peaks | CycleBasis::Ranges) || life.maps() != [false; 2]
     });
     match chain.passages {
         Some(passages) => scene.time.passages = passages,
         None if !points_cross => scene.time.passages = scene.time.passages.min(1.0),
-        None => {}
+        None => return (scene, Length::Asked),
     }
-    scene
+    (scene, Length::Windowed)
 }
 
 /// Whether a case may start from the end of another: they differ in S and amplitudes alone, and no height

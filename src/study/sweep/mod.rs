@@ -22,6 +22,7 @@ mod presets;
 mod run;
 mod spec;
 mod table;
+mod window;
 
 pub use axis::{Axis, WARM_KEYS};
 pub use case::{Began, CaseEnd, CaseRecord};

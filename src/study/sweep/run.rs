@@ -7,12 +7,13 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
-use super::case::{self, CaseEnd, CaseRecord, Watch, may_follow, shortened};
+use super::case::{self, CaseEnd, CaseRecord, Length, Watch, may_follow, shortened};
 use super::chain::Shard;
 use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::Sweep;
-use crate::plan::Plan;
+use super::window::window;
+use crate::plan::{March, Plan};
 use crate::scene::Scene;
 use crate::sim::State;
 
@@ -133,13 +134,29 @@ pub fn run(
 
 /// Scene and plan of a case.
 pub(super) fn prepare(sweep: &Sweep, index: usize) -> Result<(Scene, Plan), SweepError> {
-    let scene = shortened(sweep.scene(index)?, sweep.chain);
-    let plan = Plan::new(&scene).map_err(|source| SweepError::Plan {
+    let (scene, length) = shortened(sweep.scene(index)?, sweep.chain);
+    let mut plan = Plan::new(&scene).map_err(|source| SweepError::Plan {
         index,
         at: sweep.at(index),
         source,
     })?;
+    if length == Length::Windowed {
+        fit_window(&mut plan);
+    }
     Ok((scene, plan))
+}
+
+/// Makes the last passage of a plan as long as its window.
+fn fit_window(plan: &mut Plan) {
+    if plan.march != March::Transient {
+        return;
+    }
+    let run_in = (plan.length_a - plan.passage_a).max(0.0);
+    let asked = plan.length_a - run_in;
+    let averaged = window(plan, asked);
+    (plan.passage_a, plan.length_a) = (averaged, run_in + averaged);
+    let step_a = 4.0 / plan.steps_per_passage as f64;
+    plan.steps = (plan.length_a / step_a).ceil() as u64;
 }
 
 /// Workers and what they share.
