@@ -60,6 +60,7 @@ Examples:
   asperity sweep collect mine.sweep              the table of parts that share a folder
   asperity sweep collect one.sweep two.sweep --out all.sweep
   asperity sweep slide_roll --compare-cold       what the chains save, and what they cost in accuracy
+  asperity sweep fzg_c --ride > ride.toml        then asperity run ride.toml: a recording along the tooth
   asperity sweep fzg_c --points                  R, U1, U2, S, load, p_h, film along the path; no simulation
 
 Exit codes: 0 all converged; 1 bad input; 2 some cases did not converge; 3 some stalled, or cases are missing;
@@ -173,6 +174,9 @@ pub(crate) struct SweepArgs {
     /// Print the sweep's file and do nothing
     #[arg(long)]
     pub(crate) print: bool,
+    /// Print a scene that moves along a [gear] path in its own time, for asperity run and its recording
+    #[arg(long)]
+    pub(crate) ride: bool,
     /// Print what is known of every case by closed forms, as CSV, and do nothing
     #[arg(long)]
     pub(crate) points: bool,

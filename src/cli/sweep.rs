@@ -33,6 +33,16 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         print(&points_csv(&sweep)?);
         return Ok(0);
     }
+    if args.ride {
+        let Some(scene) = sweep.ride()? else {
+            return Err(Failure::input(miette::miette!(
+                help = "asperity sweep fzg_c --ride prints one",
+                "only a [gear] path has times to ride along"
+            )));
+        };
+        print(&scene.to_toml());
+        return Ok(0);
+    }
     let root = args
         .out
         .clone()
@@ -102,7 +112,10 @@ fn collect(folders: &[PathBuf], out: Option<&Path>) -> Result<u8, Failure> {
 fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
     let root = folder.root();
     let table = root.join("table.csv");
-    folder.write(&table, rows.csv(sweep)?.as_bytes())?;
+    let csv = rows.csv(sweep)?;
+    folder.write(&table, csv.as_bytes())?;
+    #[cfg(feature = "parquet")]
+    write_parquet(folder, &csv)?;
     folder.write(&root.join("seconds.csv"), rows.seconds_csv().as_bytes())?;
     if !sweep.path.is_empty() {
         folder.write(&root.join("path.csv"), points_csv(sweep)?.as_bytes())?;
@@ -114,6 +127,17 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
         CaseEnd::NotConverged => 2,
         CaseEnd::Stalled => 3,
     })
+}
+
+#[cfg(feature = "parquet")]
+fn write_parquet(folder: &Folder, csv: &str) -> Result<(), Failure> {
+    let path = folder.root().join("table.parquet");
+    let bytes =
+        asperity::study::sweep::parquet_table(csv).map_err(|reason| SweepError::Folder {
+            path: path.display().to_string(),
+            reason,
+        })?;
+    Ok(folder.write(&path, &bytes)?)
 }
 
 fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String {
