@@ -1,10 +1,30 @@
 //! Studies: what results cost, and what they are worth. Every number is measured in the run that prints it.
 
+mod crew;
+mod machine;
 mod scaling;
+pub mod stability;
+mod table;
 
-pub use scaling::{Extent, ScalingRow, scaling, scaling_text};
+pub use machine::machine;
+pub use scaling::{ScalingRow, scaling, scaling_text};
+pub use table::Table;
 
 use thiserror::Error;
+
+/// How much to measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// The least that shows every part: within about a minute.
+    Quick,
+    /// Some minutes.
+    Usual,
+    /// Everything.
+    Full,
+}
+
+/// Hears the name of what is done next, how many are done, and how many there are.
+pub type Progress<'a> = dyn FnMut(&str, usize, usize) + 'a;
 
 /// A study that could not be done.
 #[derive(Debug, Clone, Error)]

@@ -12,23 +12,12 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use super::StudyError;
+use super::{Extent, Progress, StudyError};
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
 use crate::plan::Plan;
 use crate::scene::{Override, Scene, presets};
 use crate::sim::{Simulation, Stage};
-
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// 65² and 129²: half a minute.
-    Quick,
-    /// Up to 257², and regimes: some minutes.
-    Usual,
-    /// Up to 513².
-    Full,
-}
 
 /// One measured case.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,10 +113,7 @@ fn cases(extent: Extent) -> Vec<Case> {
 ///
 /// # Errors
 /// [`StudyError`] when a case cannot be made or fails.
-pub fn scaling(
-    extent: Extent,
-    progress: &mut dyn FnMut(&str, usize, usize),
-) -> Result<Vec<ScalingRow>, StudyError> {
+pub fn scaling(extent: Extent, progress: &mut Progress) -> Result<Vec<ScalingRow>, StudyError> {
     let cases = cases(extent);
     let mut rows = Vec::with_capacity(cases.len());
     for (n, case) in cases.iter().enumerate() {
