@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::case::Ready;
 use crate::plan::{March, Plan, mesh_error};
+use crate::scene::ContactKind;
 use crate::sim::{Frame, Simulation, Stage, Stats};
 
 /// Linear iterations and steps that a case may take.
@@ -132,13 +133,41 @@ pub(super) fn run(ready: &Ready) -> Trial {
     trial
 }
 
+/// Where surfaces run into each other.
+#[derive(Debug, Clone, Copy)]
+struct Overlap {
+    depth_nm: f64,
+    /// Place in half-widths of the contact.
+    at: [f64; 2],
+    at_edge: bool,
+}
+
+impl Overlap {
+    fn of(frame: &Frame) -> Option<Self> {
+        let films = frame.film_m.iter().enumerate();
+        let (node, h) = films.min_by(|(_, one), (_, two)| one.total_cmp(two))?;
+        let (i, j) = (node % frame.nx, node / frame.nx);
+        let x = (frame.x_min_m + i as f64 * frame.dx_m) / frame.a_m;
+        let y = (frame.y_min_m + j as f64 * frame.dy_m) / frame.b_m;
+        let edge_x = i == 0 || i + 1 == frame.nx;
+        // A line's rows are all alike: none of them is an edge.
+        let edge_y = frame.kind == ContactKind::Point && (j == 0 || j + 1 == frame.ny);
+        Some(Self {
+            depth_nm: -1e9 * f64::from(*h),
+            at: [x, y],
+            at_edge: edge_x || edge_y,
+        })
+    }
+}
+
 /// What is seen on the way.
 #[derive(Debug, Default)]
 struct Watch {
     frame: Frame,
     unconverged: u64,
     negative: u64,
-    overlap_nm: f64,
+    /// Deepest overlap of a converged step.
+    overlap: Option<Overlap>,
     /// Central film, m, and greatest pressure over Hertz's of the smooth start-up.
     smooth: Option<(f64, f64)>,
     /// The first thing that a converged step should not have.
@@ -218,7 +247,10 @@ impl Watch {
         if !metrics.converged {
             self.unconverged += 1;
         } else {
-            self.overlap_nm = self.overlap_nm.max(-h_min_nm);
+            let deepest = self.overlap.map_or(OVERLAP_NM, |overlap| overlap.depth_nm);
+            if -h_min_nm > deepest {
+                self.overlap = Overlap::of(frame);
+            }
             let tolerance = ready.scene.numerics.tolerance;
             if self.wrong.is_none() && metrics.residual > tolerance {
                 self.wrong = Some(format!(
@@ -254,8 +286,18 @@ impl Watch {
         if self.negative > 0 {
             return Ending::Quiet(format!("{} negative pressures", self.negative));
         }
-        if self.overlap_nm > OVERLAP_NM {
-            return Ending::Quiet(format!("surfaces overlap by {:.2} nm", self.overlap_nm));
+        if let Some(overlap) = self.overlap {
+            return Ending::Quiet(format!(
+                "surfaces overlap by {:.2} nm at x = {:.2} a, y = {:.2} b{}",
+                overlap.depth_nm,
+                overlap.at[0],
+                overlap.at[1],
+                if overlap.at_edge {
+                    ", the edge of the domain"
+                } else {
+                    ""
+                }
+            ));
         }
         if let Some(wrong) = self.wrong {
             return Ending::Quiet(wrong);
