@@ -129,6 +129,8 @@ impl StudyArgs {
 /// The studies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum StudyKind {
+    /// Error against run time, part by part
+    Accuracy,
     /// Stiff and extreme cases: converged or named
     Stability,
     /// Cost of a step by grid, symmetry, threads and regime

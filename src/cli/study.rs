@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use asperity::study::accuracy::{
+    accuracy, accuracy_table, accuracy_text, life_plot, work_precision_plot,
+};
 use asperity::study::stability::{stability, stability_table, stability_text};
 use asperity::study::{Extent, StudyError, machine, scaling, scaling_text};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -20,6 +23,7 @@ struct Report {
 pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
     let bar = Bar::new();
     let report = match args.kind {
+        StudyKind::Accuracy => accurate(args, &bar),
         StudyKind::Stability => stable(args, &bar),
         StudyKind::Scaling => scales(args, &bar),
     };
@@ -32,6 +36,27 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
         write(folder, &report.files)?;
     }
     Ok(if report.passes { 0 } else { 2 })
+}
+
+fn accurate(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let result = accuracy(extent(args), args.threads(), &mut |name, n, all| {
+        bar.tell(name, n, all);
+    })?;
+    let text = headed("Accuracy", args, &accuracy_text(&result));
+    let mut files = vec![
+        ("accuracy.md".to_owned(), text),
+        ("accuracy.csv".to_owned(), accuracy_table(&result).csv()),
+    ];
+    for (name, plot) in [
+        ("work_precision.svg", work_precision_plot(&result)),
+        ("life_error.svg", life_plot(&result)),
+    ] {
+        files.push((name.to_owned(), plot.map_err(StudyError::Plot)?));
+    }
+    Ok(Report {
+        files,
+        passes: result.passes(),
+    })
 }
 
 fn stable(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {

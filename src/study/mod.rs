@@ -1,5 +1,6 @@
 //! Studies: what results cost, and what they are worth. Every number is measured in the run that prints it.
 
+pub mod accuracy;
 mod crew;
 mod machine;
 mod scaling;
@@ -32,6 +33,9 @@ pub enum StudyError {
     /// A scene of the study is not accepted: a fault of the study.
     #[error("the study's own scene is refused: {0}")]
     Scene(String),
+    /// A picture could not be drawn.
+    #[error("a plot could not be drawn: {0}")]
+    Plot(String),
     /// A run of the study failed.
     #[error("{case}: {reason}")]
     Run {
