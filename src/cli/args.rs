@@ -133,6 +133,8 @@ pub(crate) enum StudyKind {
     Accuracy,
     /// Stiff and extreme cases: converged or named
     Stability,
+    /// What each stage that a plan leaves out would cost and change
+    Pruning,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use asperity::study::accuracy::{
     accuracy, accuracy_table, accuracy_text, life_plot, work_precision_plot,
 };
+use asperity::study::pruning::{PruningRow, pruning, pruning_table, pruning_text};
 use asperity::study::stability::{stability, stability_table, stability_text};
 use asperity::study::{Extent, StudyError, machine, scaling, scaling_text};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -24,6 +25,7 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
     let bar = Bar::new();
     let report = match args.kind {
         StudyKind::Accuracy => accurate(args, &bar),
+        StudyKind::Pruning => prunes(args, &bar),
         StudyKind::Stability => stable(args, &bar),
         StudyKind::Scaling => scales(args, &bar),
     };
@@ -56,6 +58,21 @@ fn accurate(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
     Ok(Report {
         files,
         passes: result.passes(),
+    })
+}
+
+fn prunes(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let only = args.only.as_deref();
+    let rows = pruning(extent(args), only, args.threads(), &mut |name, n, all| {
+        bar.tell(name, n, all);
+    })?;
+    let text = headed("Pruning", args, &pruning_text(&rows));
+    Ok(Report {
+        files: vec![
+            ("pruning.md".to_owned(), text),
+            ("pruning.csv".to_owned(), pruning_table(&rows).csv()),
+        ],
+        passes: rows.iter().all(PruningRow::is_harmless),
     })
 }
 

@@ -3,6 +3,7 @@
 pub mod accuracy;
 mod crew;
 mod machine;
+pub mod pruning;
 mod scaling;
 pub mod stability;
 mod table;

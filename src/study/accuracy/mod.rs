@@ -13,7 +13,7 @@ mod row;
 mod smooth;
 mod stress;
 
-pub use passage::{LifeRun, Setting};
+pub use passage::{LifeLimit, LifeRun, Setting};
 pub use plot::{life_plot, work_precision_plot};
 pub use report::{accuracy_table, accuracy_text};
 pub use row::{AccuracyRow, Against, Part, Varied};
@@ -26,8 +26,10 @@ use passage::Series;
 pub struct Accuracy {
     /// Rows by part and series, coarse to fine.
     pub rows: Vec<AccuracyRow>,
-    /// Whole runs against the finest.
+    /// Whole runs against what they tend to.
     pub lives: Vec<LifeRun>,
+    /// What they tend to.
+    pub limit: LifeLimit,
     /// Length of those runs, in lengths of 4 a.
     pub passages: f64,
 }
@@ -36,13 +38,9 @@ pub struct Accuracy {
 pub const LEVELS: [f64; 3] = [0.05, 0.01, 0.002];
 
 impl Accuracy {
-    /// The cheapest run whose life is within `error` of the finest; the finest itself has no error to show.
+    /// The cheapest run whose life is within `error` of the limit, and so is that of every finer one.
     pub fn recommended(&self, error: f64) -> Option<&LifeRun> {
-        let good = self
-            .lives
-            .iter()
-            .filter(|run| run.error > 0.0 && run.error <= error);
-        good.min_by(|one, two| one.seconds.total_cmp(&two.seconds))
+        passage::cheapest(&self.lives, error)
     }
 
     /// Whether every error is a number.
@@ -58,12 +56,13 @@ struct Sizes {
     smooth: &'static [usize],
     stress: &'static [usize],
     samples: &'static [usize],
-    /// Nodes of whole runs, the finest last; nodes at which the rest is varied.
+    /// Nodes of whole runs, the finest last; nodes and step at which the rest is varied; steps.
     whole: &'static [usize],
-    whole_base: usize,
+    whole_base: (usize, f64),
+    steps: &'static [f64],
     /// Same of the rough film.
     rough: &'static [usize],
-    rough_base: usize,
+    rough_base: (usize, f64),
     passages: f64,
 }
 
@@ -76,9 +75,10 @@ impl Sizes {
                 stress: &[32, 64, 128],
                 samples: &[4, 8, 16, 32],
                 whole: &[65, 129],
-                whole_base: 65,
+                whole_base: (65, 1.0),
+                steps: &[2.0, 1.0, 0.5],
                 rough: &[33, 65, 129],
-                rough_base: 33,
+                rough_base: (33, 1.0),
                 passages: 0.5,
             },
             Extent::Usual => Self {
@@ -86,10 +86,11 @@ impl Sizes {
                 smooth: &[33, 65, 129],
                 stress: &[32, 64, 128, 256],
                 samples: &[2, 4, 8, 16, 32, 64],
-                whole: &[65, 129, 257],
-                whole_base: 65,
+                whole: &[65, 129],
+                whole_base: (65, 0.5),
+                steps: &[4.0, 2.0, 1.0, 0.5, 0.25],
                 rough: &[33, 65, 129],
-                rough_base: 65,
+                rough_base: (65, 0.5),
                 passages: 1.0,
             },
             Extent::Full => Self {
@@ -98,48 +99,49 @@ impl Sizes {
                 stress: &[32, 64, 128, 256, 512],
                 samples: &[2, 4, 8, 16, 32, 64, 128],
                 whole: &[65, 129, 257],
-                whole_base: 129,
+                whole_base: (129, 0.5),
+                steps: &[4.0, 2.0, 1.0, 0.5, 0.25],
                 rough: &[33, 65, 129, 257],
-                rough_base: 65,
-                passages: 2.0,
+                rough_base: (65, 0.5),
+                passages: 1.0,
             },
         }
     }
 }
 
-/// Series of whole runs: over nodes, then over the rest at `base` nodes, coarse to fine.
-fn series(sizes: &[usize], base: usize, extent: Extent, depths: &[usize]) -> Vec<Series> {
-    let usual = Setting::USUAL;
+/// Series of whole runs: over nodes at step `fine`, then over the rest at `base` nodes, coarse to fine.
+fn series(
+    sizes: &[usize],
+    (base, step): (usize, f64),
+    steps: &[f64],
+    depths: &[usize],
+) -> Vec<Series> {
     let at = Setting {
         nodes: base,
-        ..usual
+        step,
+        ..Setting::USUAL
     };
-    let steps: &[f64] = match extent {
-        Extent::Quick => &[2.0, 1.0, 0.5],
-        Extent::Usual | Extent::Full => &[4.0, 2.0, 1.0, 0.5],
-    };
-    let tolerances: &[f64] = match extent {
-        Extent::Quick => &[1e-2, 1e-3, 1e-4],
-        Extent::Usual | Extent::Full => &[1e-2, 3e-3, 1e-3, 1e-4, 1e-5],
-    };
-    let nodes = |&nodes: &usize| Setting { nodes, ..usual };
+    let over = |varied, settings: Vec<Setting>| (varied, settings);
     let mut all = vec![
-        (Varied::Nodes, sizes.iter().map(nodes).collect::<Vec<_>>()),
-        (
+        over(
+            Varied::Nodes,
+            sizes.iter().map(|&nodes| Setting { nodes, ..at }).collect(),
+        ),
+        over(
             Varied::Step,
             steps.iter().map(|&step| Setting { step, ..at }).collect(),
         ),
-        (
+        over(
             Varied::Tolerance,
-            tolerances
+            [1e-2, 1e-3, 1e-4]
                 .iter()
                 .map(|&tolerance| Setting { tolerance, ..at })
                 .collect(),
         ),
     ];
     if !depths.is_empty() {
-        let at = |&depths: &usize| Setting { depths, ..at };
-        all.push((Varied::Depths, depths.iter().map(at).collect()));
+        let settings = depths.iter().map(|&depths| Setting { depths, ..at });
+        all.push(over(Varied::Depths, settings.collect()));
     }
     all
 }
@@ -194,10 +196,10 @@ pub fn accuracy(
     tell(Part::CountedCycles);
     rows.extend(counted::counted(sizes.samples));
     tell(Part::RoughFilm);
-    let of_film = series(sizes.rough, sizes.rough_base, extent, &[]);
+    let of_film = series(sizes.rough, sizes.rough_base, sizes.steps, &[]);
     rows.extend(passage::rough(&of_film, threads).map_err(failed(Part::RoughFilm))?);
-    let of_life = series(sizes.whole, sizes.whole_base, extent, &[8, 16, 32, 64]);
-    let (more, lives) = passage::life(&of_life, sizes.passages, threads, |name| {
+    let of_life = series(sizes.whole, sizes.whole_base, sizes.steps, &[8, 16, 32, 64]);
+    let (more, lives, limit) = passage::life(&of_life, sizes.passages, threads, |name| {
         progress(name, all - 1, all);
     })
     .map_err(failed(Part::Life))?;
@@ -207,6 +209,7 @@ pub fn accuracy(
     Ok(Accuracy {
         rows,
         lives,
+        limit,
         passages: sizes.passages,
     })
 }

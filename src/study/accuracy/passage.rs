@@ -1,8 +1,8 @@
 //! Whole runs: the film of moving waves, and the life that a passage gives.
 //!
 //! *Rough film*: the demonstration at 5 m/s with transverse waves of 0.35 mm (0.74 a) on the faster body, S = 1. Each
-//! series is measured against its own finest case. *Life*: the default scene; besides the series, every setting is
-//! measured against the finest run of all, which is what the recommendation goes by.
+//! series is measured against its own finest case. *Life*: the default scene; besides the series, every run is
+//! measured against what all of them tend to, which is what the recommendation goes by.
 
 use super::row::{AccuracyRow, Against, Part, Varied, against_finest, timed};
 use crate::plan::Plan;
@@ -185,31 +185,51 @@ pub(super) fn rough(series: &[Series], threads: usize) -> Result<Vec<AccuracyRow
     Ok(rows)
 }
 
-/// A whole run, what it cost, and its error against the finest of all.
+/// A whole run, what it cost, and its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LifeRun {
     /// Settings.
     pub setting: Setting,
     /// Relative life.
     pub life: f64,
-    /// |ln| of it over the finest run's.
+    /// |ln| of it over the limit of all runs.
     pub error: f64,
     /// Time, s.
     pub seconds: f64,
 }
 
-/// Lives by series, and all runs against the finest one, which must be the last of the first series.
+/// What the runs tend to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LifeLimit {
+    /// Relative life, extrapolated with the order of the scheme.
+    pub life: f64,
+    /// |ln| of the finest run's life over it: what the extrapolation adds, and no error below it is known.
+    pub uncertainty: f64,
+}
+
+/// Lives by series, all runs against their limit.
+///
+/// ```text
+/// ln L* = ln L(h) + [ln L(h) − ln L(2h)]/3        the last two of the first series: half the mesh, half the step
+/// ```
 pub(super) fn life(
     series: &[Series],
     passages: f64,
     threads: usize,
     mut heard: impl FnMut(&str),
-) -> Result<(Vec<AccuracyRow>, Vec<LifeRun>), String> {
+) -> Result<(Vec<AccuracyRow>, Vec<LifeRun>, LifeLimit), String> {
     let mut rows: Vec<AccuracyRow> = Vec::new();
     let mut runs: Vec<LifeRun> = Vec::new();
     for (varied, settings) in series {
-        let mut of_one = Vec::new();
+        let mut of_one: Vec<AccuracyRow> = Vec::new();
         for setting in settings {
+            if let Some(known) = rows.iter().find(|row| is_of(row, *setting)) {
+                let mut row = known.clone();
+                (row.varied, row.setting) = (*varied, setting.value(*varied));
+                row.fixed = setting.fixed(*varied);
+                of_one.push(row);
+                continue;
+            }
             heard(&format!("life, {}", setting.command()));
             let mut sets = setting.sets();
             sets.push(format!("stress.depths={}", setting.depths));
@@ -225,24 +245,95 @@ pub(super) fn life(
                 threads,
             );
             row.value = Some(life);
-            if !runs.iter().any(|run| run.setting == *setting) {
-                runs.push(LifeRun {
-                    setting: *setting,
-                    life,
-                    error: 0.0,
-                    seconds: ran.seconds,
-                });
-            }
+            runs.push(LifeRun {
+                setting: *setting,
+                life,
+                error: 0.0,
+                seconds: ran.seconds,
+            });
             of_one.push(row);
         }
         against_finest(&mut of_one);
         rows.extend(of_one);
     }
-    let finest = series.first().and_then(|(_, settings)| settings.last());
-    let truth = finest.and_then(|setting| runs.iter().find(|run| run.setting == *setting));
-    let truth = truth.map_or(f64::NAN, |run| run.life);
+    let limit = limit(series, &runs);
     for run in &mut runs {
-        run.error = (run.life / truth).ln().abs();
+        run.error = (run.life / limit.life).ln().abs();
     }
-    Ok((rows, runs))
+    Ok((rows, runs, limit))
+}
+
+fn is_of(row: &AccuracyRow, setting: Setting) -> bool {
+    (row.setting, &row.fixed) == (setting.value(row.varied), &setting.fixed(row.varied))
+}
+
+fn limit(series: &[Series], runs: &[LifeRun]) -> LifeLimit {
+    let ln_life = |setting: &Setting| {
+        let run = runs.iter().find(|run| run.setting == *setting);
+        run.map_or(f64::NAN, |run| run.life.ln())
+    };
+    let lives: Vec<f64> = series.first().map_or(Vec::new(), |(_, settings)| {
+        settings.iter().map(ln_life).collect()
+    });
+    let uncertainty = match lives[..] {
+        [.., coarse, fine] => (fine - coarse) / 3.0,
+        _ => f64::NAN,
+    };
+    let fine = lives.last().copied().unwrap_or(f64::NAN);
+    LifeLimit {
+        life: (fine + uncertainty).exp(),
+        uncertainty: uncertainty.abs(),
+    }
+}
+
+impl Setting {
+    /// Whether nothing is coarser than in `other`.
+    fn is_as_fine_as(self, other: Self) -> bool {
+        self.nodes >= other.nodes
+            && self.step <= other.step
+            && self.tolerance <= other.tolerance
+            && self.depths >= other.depths
+    }
+}
+
+/// The cheapest run whose life is within `error` of the limit, and that of every run that is as fine in all respects
+/// too: an error that is small because two errors cancel recommends nothing.
+pub(super) fn cheapest(runs: &[LifeRun], error: f64) -> Option<&LifeRun> {
+    let robust = |run: &&LifeRun| {
+        let mut finer = runs
+            .iter()
+            .filter(|other| other.setting.is_as_fine_as(run.setting));
+        finer.all(|other| other.error <= error)
+    };
+    let good = runs.iter().filter(robust);
+    good.min_by(|one, two| one.seconds.total_cmp(&two.seconds))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_that_cancel_recommend_nothing() {
+        let run = |nodes, step, error, seconds| LifeRun {
+            setting: Setting {
+                nodes,
+                step,
+                ..Setting::USUAL
+            },
+            life: 1.0,
+            error,
+            seconds,
+        };
+        // The coarsest is right by accident: a finer one is not.
+        let runs = [
+            run(65, 1.0, 0.001, 1.0),
+            run(65, 0.5, 0.03, 2.0),
+            run(129, 0.5, 0.008, 9.0),
+            run(257, 0.5, 0.002, 90.0),
+        ];
+        assert_eq!(cheapest(&runs, 0.05).map(|run| run.seconds), Some(1.0));
+        assert_eq!(cheapest(&runs, 0.01).map(|run| run.seconds), Some(9.0));
+        assert_eq!(cheapest(&runs, 0.001), None);
+    }
 }

@@ -41,7 +41,9 @@ pub fn work_precision_plot(result: &Accuracy) -> Result<String, String> {
             .rows
             .iter()
             .filter(|row| (row.part, row.quantity) == (part, quantity) && row.error > 0.0)
-            .filter(|row| matches!(row.varied, Varied::Nodes | Varied::Samples))
+            .filter(|row| {
+                matches!(row.varied, Varied::Nodes | Varied::Samples) || part == Part::Deflection
+            })
             .map(|row| (row.seconds, row.error))
             .collect();
         if points.len() > 1 {

@@ -247,21 +247,22 @@ fn same_series(one: &AccuracyRow, two: &AccuracyRow) -> bool {
         == (two.part, two.quantity, two.varied, &two.fixed)
 }
 
-/// Marks the rows that no other row of the same part and quantity beats in both error and time. Rows that are
-/// their own reference have no error of their own and stand aside.
+/// Marks the rows that no other row of the same part and quantity beats in both error and time; errors against the
+/// finest case are compared within their own series only. Rows that are their own reference stand aside.
 pub(super) fn mark_front(rows: &mut [AccuracyRow]) {
     let is_reference = |row: &AccuracyRow| row.against == Against::Finest && row.error == 0.0;
-    let kept: Vec<(Part, &'static str, f64, f64)> = rows
+    let kept: Vec<AccuracyRow> = rows
         .iter()
         .filter(|row| !is_reference(row))
-        .map(|row| (row.part, row.quantity, row.error, row.seconds))
+        .cloned()
         .collect();
     for row in rows {
-        let beaten = kept.iter().any(|&(part, quantity, error, seconds)| {
-            (part, quantity) == (row.part, row.quantity)
-                && error <= row.error
-                && seconds <= row.seconds
-                && (error < row.error || seconds < row.seconds)
+        let beaten = kept.iter().any(|other| {
+            (other.part, other.quantity, other.against) == (row.part, row.quantity, row.against)
+                && (row.against != Against::Finest || same_series(other, row))
+                && other.error <= row.error
+                && other.seconds <= row.seconds
+                && (other.error < row.error || other.seconds < row.seconds)
         });
         row.front = !beaten && !is_reference(row);
     }

@@ -214,7 +214,10 @@ impl CaseSet {
 
 /// Value of a pushed key.
 pub(super) fn pushed([usual, extreme]: [f64; 2], t: f64) -> f64 {
-    if usual > 0.0 && extreme > 0.0 {
+    if t == 1.0 {
+        // Rounding must not carry it beyond what is allowed.
+        extreme
+    } else if usual > 0.0 && extreme > 0.0 {
         (usual.ln() + t * (extreme / usual).ln()).exp()
     } else {
         usual + t * (extreme - usual)

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::case::Ready;
-use crate::plan::{March, Plan, mesh_error};
+use crate::plan::{March, mesh_error};
 use crate::scene::ContactKind;
 use crate::sim::{Frame, Simulation, Stage, Stats};
 
@@ -17,7 +17,7 @@ const JUMP_AT: f64 = 0.125;
 /// Central film of the smooth start-up over the regression, where the mesh carries it. The regression itself
 /// lies 7 to 13 % below computed films for heavy loads, and knows neither Roelands' law nor compression.
 const FILM_BAND: std::ops::RangeInclusive<f64> = 0.5..=1.6;
-/// Error by the mesh up to which the film is compared.
+/// Error by the mesh or, where they are longer than a node, the steps, up to which the film is compared.
 const MESH_GOOD: f64 = 0.25;
 /// Greatest pressure of the smooth start-up over Hertz's, where the film is thin: the dry limit within a mesh.
 const PEAK_BAND: std::ops::RangeInclusive<f64> = 0.85..=1.35;
@@ -125,7 +125,7 @@ pub(super) fn run(ready: &Ready) -> Trial {
             let end = drive(&mut sim, ready, &mut trial, &mut watch);
             trial.steps = sim.passage_steps();
             trial.stats = *sim.stats();
-            trial.ending = watch.judge(end, &mut trial, &ready.plan);
+            trial.ending = watch.judge(end, &mut trial, ready);
         }
         Err(error) => trial.ending = Ending::Refused(error.to_string()),
     }
@@ -275,8 +275,8 @@ impl Watch {
     }
 
     /// The ending: sane results only are called converged.
-    fn judge(self, end: Result<(), Ending>, trial: &mut Trial, plan: &Plan) -> Ending {
-        let film = plan.film.as_ref();
+    fn judge(self, end: Result<(), Ending>, trial: &mut Trial, ready: &Ready) -> Ending {
+        let film = ready.plan.film.as_ref();
         trial.film_ratio = film
             .zip(self.smooth)
             .map(|(film, (h, _))| h / film.central_m);
@@ -308,15 +308,17 @@ impl Watch {
         if self.unconverged > 0 {
             return Ending::Unconverged(self.unconverged);
         }
-        insane(plan, self.smooth, trial.film_ratio).map_or(Ending::Converged, Ending::Quiet)
+        insane(ready, self.smooth, trial.film_ratio).map_or(Ending::Converged, Ending::Quiet)
     }
 }
 
 /// The smooth start-up against the regression film and the dry limit.
-fn insane(plan: &Plan, smooth: Option<(f64, f64)>, film_ratio: Option<f64>) -> Option<String> {
+fn insane(ready: &Ready, smooth: Option<(f64, f64)>, film_ratio: Option<f64>) -> Option<String> {
     let (_, peak) = smooth?;
+    let plan = &ready.plan;
     let film = plan.film.as_ref();
-    let mesh = film.map(|film| mesh_error(plan.kind, film.central, plan.domain.dx_a()));
+    let length = plan.domain.dx_a() * ready.scene.time.step_nodes.max(1.0);
+    let mesh = film.map(|film| mesh_error(plan.kind, film.central, length));
     if let Some(ratio) = film_ratio.filter(|_| mesh.is_some_and(|mesh| mesh < MESH_GOOD))
         && !FILM_BAND.contains(&ratio)
     {
