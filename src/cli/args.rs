@@ -135,6 +135,8 @@ pub(crate) enum StudyKind {
     Stability,
     /// What each stage that a plan leaves out would cost and change
     Pruning,
+    /// Our side of the comparison with public codes, as CSV (tests/peers has the others')
+    Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
 }

@@ -7,7 +7,7 @@ use asperity::study::accuracy::{
 };
 use asperity::study::pruning::{PruningRow, pruning, pruning_table, pruning_text};
 use asperity::study::stability::{stability, stability_table, stability_text};
-use asperity::study::{Extent, StudyError, machine, scaling, scaling_text};
+use asperity::study::{Extent, StudyError, machine, peers, scaling, scaling_text};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::{StudyArgs, StudyKind};
@@ -25,6 +25,7 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
     let bar = Bar::new();
     let report = match args.kind {
         StudyKind::Accuracy => accurate(args, &bar),
+        StudyKind::Peers => compares(args, &bar),
         StudyKind::Pruning => prunes(args, &bar),
         StudyKind::Stability => stable(args, &bar),
         StudyKind::Scaling => scales(args, &bar),
@@ -58,6 +59,14 @@ fn accurate(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
     Ok(Report {
         files,
         passes: result.passes(),
+    })
+}
+
+fn compares(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let table = peers(extent(args), &mut |name, n, all| bar.tell(name, n, all))?;
+    Ok(Report {
+        files: vec![("peers_asperity.csv".to_owned(), table.csv())],
+        passes: true,
     })
 }
 

@@ -3,12 +3,14 @@
 pub mod accuracy;
 mod crew;
 mod machine;
+mod peers;
 pub mod pruning;
 mod scaling;
 pub mod stability;
 mod table;
 
 pub use machine::machine;
+pub use peers::peers;
 pub use scaling::{ScalingRow, scaling, scaling_text};
 pub use table::Table;
 
