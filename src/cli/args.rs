@@ -75,11 +75,18 @@ Examples:
         /// Preset to print
         name: Option<String>,
     },
-    /// Measure what results cost
+    /// Measure what results cost, what they are worth and where they end
     #[command(after_long_help = "\
+Each study prints its table and, with --out, writes it as Markdown and CSV, with plots as SVG where there are any.
+
 Examples:
-  asperity study scaling           cost of a step by grid, symmetry, threads and regime, some minutes
-  asperity study scaling --quick   half a minute")]
+  asperity study accuracy --out report      error against run time, part by part: CSV, Markdown, SVG
+  asperity study stability --quick          stiff and extreme cases, a part of them, within a minute
+  asperity study stability --only jump      the cases whose name or group says jump
+  asperity study pruning                    what leaving out stages gains, preset by preset
+  asperity study scaling                    cost of a step by grid, symmetry, threads and regime
+
+Exit codes: 0 as it must be; 2 something did not converge or lies beyond its bound (the table says what).")]
     Study(StudyArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
@@ -101,11 +108,35 @@ pub(crate) struct StudyArgs {
     /// The largest set of cases
     #[arg(long)]
     pub(crate) full: bool,
+    /// Folder for the report's files, made where it is missing
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Cases whose name or group holds this text only
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) only: Option<String>,
+    /// Cores to use [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+}
+
+impl StudyArgs {
+    /// Cores to use.
+    pub(crate) fn threads(&self) -> usize {
+        threads(self.threads)
+    }
 }
 
 /// The studies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum StudyKind {
+    /// Error against run time, part by part
+    Accuracy,
+    /// Stiff and extreme cases: converged or named
+    Stability,
+    /// What each stage that a plan leaves out would cost and change
+    Pruning,
+    /// Our side of the comparison with public codes, as CSV (tests/peers has the others')
+    Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
 }
@@ -231,11 +262,16 @@ impl RunArgs {
 
     /// Worker threads.
     pub(crate) fn threads(&self) -> usize {
-        self.threads.map_or_else(
-            || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-            usize::from,
-        )
+        threads(self.threads)
     }
+}
+
+/// As many as asked for, or one for each core.
+fn threads(asked: Option<u16>) -> usize {
+    asked.map_or_else(
+        || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+        usize::from,
+    )
 }
 
 #[cfg(test)]
