@@ -95,6 +95,7 @@ Examples:
   asperity run --passages 1 --save-state half.state
   asperity run --passages 2 --from-state half.state        goes on as if it had never stopped
   asperity run --export fields --export-every 32           pressure, film, stress for numpy
+  asperity run --export pictures --export-as png           the maps and the centre line as pictures
   asperity run --no-record --spawn                         shows it live in a viewer that it starts
   asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit")]
     Run(HeadlessArgs),
@@ -248,9 +249,19 @@ pub(crate) struct RunArgs {
     /// Table to write: every scalar of every step, as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) table: Option<PathBuf>,
-    /// Folder for fields of chosen steps as numpy archives (step_000016.npz, ...), with the scene beside them
+    /// Folder for fields of chosen steps (step_000016.npz, ... or pictures), with the scene beside them
     #[arg(long, value_name = "FOLDER")]
     pub(crate) export: Option<PathBuf>,
+    /// What to export of a step: fields as numpy archives, maps and centre line as pictures, or both
+    #[arg(
+        long,
+        value_name = "FORMATS",
+        value_enum,
+        value_delimiter = ',',
+        default_value = "npz",
+        requires = "export"
+    )]
+    pub(crate) export_as: Vec<ExportAs>,
     /// Steps between two exported ones
     #[arg(long, value_name = "N", default_value_t = 16, requires = "export",
         value_parser = clap::value_parser!(u64).range(1..))]
@@ -278,6 +289,15 @@ pub(crate) struct RunArgs {
     /// Replace output files that exist
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+/// What is exported of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ExportAs {
+    /// Fields as numpy archives
+    Npz,
+    /// Maps and centre line as pictures
+    Png,
 }
 
 /// A run without a screen, which may be saved and taken up again.
@@ -320,6 +340,7 @@ impl RunArgs {
             out: None,
             table: None,
             export: None,
+            export_as: vec![ExportAs::Npz],
             export_every: 16,
             summary: None,
             threads: None,
