@@ -96,6 +96,7 @@ Examples:
   asperity run --passages 1 --save-state half.state
   asperity run --passages 2 --from-state half.state        goes on as if it had never stopped
   asperity run --export fields --export-every 32           pressure, film, stress for numpy
+  asperity run --export pictures --export-as png           the maps and the centre line as pictures
   asperity run --no-record --spawn                         shows it live in a viewer that it starts
   asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit")]
     Run(HeadlessArgs),
@@ -106,11 +107,18 @@ Examples:
         /// Preset to print
         name: Option<String>,
     },
-    /// Measure what results cost
+    /// Measure what results cost, what they are worth and where they end
     #[command(after_long_help = "\
+Each study prints its table and, with --out, writes it as Markdown and CSV, with plots as SVG where there are any.
+
 Examples:
-  asperity study scaling           cost of a step by grid, symmetry, threads and regime, some minutes
-  asperity study scaling --quick   half a minute")]
+  asperity study accuracy --out report      error against run time, part by part: CSV, Markdown, SVG
+  asperity study stability --quick          stiff and extreme cases, a part of them, within a minute
+  asperity study stability --only jump      the cases whose name or group says jump
+  asperity study pruning                    what leaving out stages gains, preset by preset
+  asperity study scaling                    cost of a step by grid, symmetry, threads and regime
+
+Exit codes: 0 as it must be; 2 something did not converge or lies beyond its bound (the table says what).")]
     Study(StudyArgs),
     /// Run many cases of a scene: life maps, operating paths; one table, pictures
     #[command(long_about = SWEEP_ABOUT, after_long_help = SWEEP_EXAMPLES)]
@@ -135,11 +143,35 @@ pub(crate) struct StudyArgs {
     /// The largest set of cases
     #[arg(long)]
     pub(crate) full: bool,
+    /// Folder for the report's files, made where it is missing
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Cases whose name or group holds this text only
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) only: Option<String>,
+    /// Cores to use [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+}
+
+impl StudyArgs {
+    /// Cores to use.
+    pub(crate) fn threads(&self) -> usize {
+        threads(self.threads)
+    }
 }
 
 /// The studies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum StudyKind {
+    /// Error against run time, part by part
+    Accuracy,
+    /// Stiff and extreme cases: converged or named
+    Stability,
+    /// What each stage that a plan leaves out would cost and change
+    Pruning,
+    /// Our side of the comparison with public codes, as CSV (tests/peers has the others')
+    Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
 }
@@ -221,9 +253,19 @@ pub(crate) struct RunArgs {
     /// Table to write: every scalar of every step, as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) table: Option<PathBuf>,
-    /// Folder for fields of chosen steps as numpy archives (step_000016.npz, ...), with the scene beside them
+    /// Folder for fields of chosen steps (step_000016.npz, ... or pictures), with the scene beside them
     #[arg(long, value_name = "FOLDER")]
     pub(crate) export: Option<PathBuf>,
+    /// What to export of a step: fields as numpy archives, maps and centre line as pictures, or both
+    #[arg(
+        long,
+        value_name = "FORMATS",
+        value_enum,
+        value_delimiter = ',',
+        default_value = "npz",
+        requires = "export"
+    )]
+    pub(crate) export_as: Vec<ExportAs>,
     /// Steps between two exported ones
     #[arg(long, value_name = "N", default_value_t = 16, requires = "export",
         value_parser = clap::value_parser!(u64).range(1..))]
@@ -251,6 +293,15 @@ pub(crate) struct RunArgs {
     /// Replace output files that exist
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+/// What is exported of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ExportAs {
+    /// Fields as numpy archives
+    Npz,
+    /// Maps and centre line as pictures
+    Png,
 }
 
 /// A run without a screen, which may be saved and taken up again.
@@ -293,6 +344,7 @@ impl RunArgs {
             out: None,
             table: None,
             export: None,
+            export_as: vec![ExportAs::Npz],
             export_every: 16,
             summary: None,
             threads: None,
@@ -317,11 +369,16 @@ impl RunArgs {
 
     /// Worker threads.
     pub(crate) fn threads(&self) -> usize {
-        self.threads.map_or_else(
-            || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-            usize::from,
-        )
+        threads(self.threads)
     }
+}
+
+/// As many as asked for, or one for each core.
+fn threads(asked: Option<u16>) -> usize {
+    asked.map_or_else(
+        || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+        usize::from,
+    )
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ mod surfaces;
 mod warning;
 
 pub use cost::Cost;
-pub use domain::{Domain, inlet_error, mesh_error, side_error};
+pub use domain::{Crests, Domain, inlet_error, mesh_error, side_error};
 pub use life::{LifeAsked, LifePlan};
 pub use surfaces::WavePlan;
 pub use warning::{LeftOut, PlanError, Warning};
@@ -159,6 +159,8 @@ pub struct RecordPlan {
     pub frames: u64,
     /// Estimated size, bytes.
     pub bytes: u64,
+    /// Most that the scene allows, bytes.
+    pub budget_bytes: u64,
 }
 
 /// Rows by which frames show a line contact, all alike: enough for a map or a mesh.
@@ -180,10 +182,12 @@ impl Plan {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
         let kind = scene.kind();
+        let crests = decide::crests(scene, &hertz);
         let domain = Domain::choose(
             kind,
             &scene.grid,
             film.map(|film| (film.central, film.groups.l)),
+            crests,
         );
         let dx_m = domain.dx_a() * hertz.a_m;
         let dy_m = match kind {
@@ -191,6 +195,11 @@ impl Plan {
             ContactKind::Line => 2.0 * LINE_HALF_WIDTH * hertz.a_m / (LINE_ROWS - 1) as f64,
         };
         let mut warnings = decide::domain_warnings(kind, &domain, film.as_ref());
+        if crests.meet_at_edge_of(kind, &domain) {
+            warnings.push(Warning::CrestsAtEdge {
+                crests_m: decide::crest_m(scene),
+            });
+        }
         let step_m = scene.time.step_nodes * dx_m;
         let waves = surfaces::plan(scene, [dx_m, dy_m], step_m, &mut warnings)?;
         let march = decide::march(scene);
@@ -258,6 +267,7 @@ impl Plan {
             every_steps,
             frames,
             bytes: (frames as f64 * frame + scalars) as u64,
+            budget_bytes: (record.budget_mb * 1e6) as u64,
         }
     }
 
