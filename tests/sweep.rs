@@ -104,8 +104,8 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     std::fs::write(&last, &half[..half.len() / 2]).unwrap();
     assert!(folder.read_case(kept - 1).is_none());
     let computed = fill(&sweep, &place, Shard::WHOLE, 1).1;
-    assert!(computed >= 8 - kept + 1, "{computed} of {kept}");
-    assert_eq!(table(&sweep, &[folder.clone()]), single);
+    assert!(computed > 8 - kept, "{computed} of {kept}");
+    assert_eq!(table(&sweep, std::slice::from_ref(&folder)), single);
     // A state that was changed is no state: the chain begins again at its head, with the same result.
     let cases = place.join("cases");
     std::fs::remove_file(cases.join("0000003.json")).unwrap();
@@ -115,7 +115,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     )
     .unwrap();
     assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 4);
-    assert_eq!(table(&sweep, &[folder.clone()]), single);
+    assert_eq!(table(&sweep, std::slice::from_ref(&folder)), single);
     // Nothing is missing: nothing is computed.
     assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 0);
     // Without being told to, nobody goes on in a folder with cases, nor in that of another sweep.

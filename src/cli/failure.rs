@@ -125,7 +125,7 @@ impl From<SweepError> for Failure {
         match &error {
             SweepError::File { .. } | SweepError::Read { .. } => Self::input(miette!(
                 code = "sweep",
-                help = "asperity sweep --help explains the file, asperity sweep slide_roll --print shows one",
+                help = "asperity sweep --help explains the file, asperity sweep slide_roll --show file prints one",
                 "{error}"
             )),
             SweepError::Case { .. } | SweepError::Plan { .. } => Self::input(miette!(

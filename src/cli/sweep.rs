@@ -13,7 +13,7 @@ use asperity::study::sweep::{
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::{SweepArgs, SweepCommand};
+use super::args::{Shown, SweepArgs, SweepCommand};
 use super::failure::Failure;
 use super::run::stop_on_signals;
 use super::scenes::print;
@@ -25,22 +25,8 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     }
     // clap has refused a line without one.
     let sweep = Sweep::load(args.sweep.as_deref().unwrap_or_default())?;
-    if args.print {
-        print(sweep.source());
-        return Ok(0);
-    }
-    if args.points {
-        print(&points_csv(&sweep)?);
-        return Ok(0);
-    }
-    if args.ride {
-        let Some(scene) = sweep.ride()? else {
-            return Err(Failure::input(miette::miette!(
-                help = "asperity sweep fzg_c --ride prints one",
-                "only a [gear] path has times to ride along"
-            )));
-        };
-        print(&scene.to_toml());
+    if let Some(shown) = args.show {
+        print(&show_of(&sweep, shown)?);
         return Ok(0);
     }
     let root = args
@@ -92,6 +78,21 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         }
     }
     Ok(code)
+}
+
+/// What is printed of a sweep in place of running it.
+fn show_of(sweep: &Sweep, shown: Shown) -> Result<String, Failure> {
+    match shown {
+        Shown::File => Ok(sweep.source().to_owned()),
+        Shown::Points => Ok(points_csv(sweep)?),
+        Shown::Ride => match sweep.ride()? {
+            Some(scene) => Ok(scene.to_toml()),
+            None => Err(Failure::input(miette::miette!(
+                help = "asperity sweep fzg_c --show ride prints one",
+                "only a [gear] path has times to ride along"
+            ))),
+        },
+    }
 }
 
 fn collect(folders: &[PathBuf], out: Option<&Path>) -> Result<u8, Failure> {
