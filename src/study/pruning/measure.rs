@@ -51,6 +51,13 @@ pub struct PruningRow {
     pub preset: String,
     /// Stage.
     pub stage: Forced,
+    /// What it changes and costs, or why the run with it did not finish.
+    pub found: Result<Gain, String>,
+}
+
+/// What a stage that is left out would change and cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gain {
     /// What it changes.
     pub difference: Difference,
     /// Time with the stage over time without.
@@ -64,7 +71,9 @@ pub struct PruningRow {
 impl PruningRow {
     /// Whether leaving it out changes no more than it may.
     pub fn is_harmless(&self) -> bool {
-        self.difference.greatest() <= self.stage.allowed().0
+        self.found
+            .as_ref()
+            .is_ok_and(|gain| gain.difference.greatest() <= self.stage.allowed().0)
     }
 }
 
@@ -84,42 +93,33 @@ pub(super) fn forced(
     stage: Forced,
     (scene, plan): (&Scene, &Plan),
     base: &Ran,
-) -> Option<Result<PruningRow, String>> {
+) -> Option<PruningRow> {
     let (other_scene, other_plan) = stage.apply(scene, plan)?;
-    let row = |difference, time_ratio, work_ratio, transform_ratio| PruningRow {
+    let found = match stage {
+        Forced::DeepWaves => deep_waves(scene, plan, base),
+        _ => {
+            let frames = match stage {
+                Forced::EveryFrame => Frames::Every(1),
+                _ => cadence(plan),
+            };
+            run(&other_scene, &other_plan, base.threads, frames).map(|other| gain(base, &other))
+        }
+    };
+    Some(PruningRow {
         preset: preset.to_owned(),
         stage,
-        difference,
-        time_ratio,
-        work_ratio,
-        transform_ratio,
-    };
-    if stage == Forced::DeepWaves {
-        let found = deep_waves(scene, plan, base);
-        return Some(found.map(|(error, ratio)| {
-            let difference = Difference {
-                pressure: 0.0,
-                film: 0.0,
-                life: Some(error),
-            };
-            row(difference, ratio, 1.0, 1.0)
-        }));
-    }
-    let frames = match stage {
-        Forced::EveryFrame => Frames::Every(1),
-        _ => cadence(plan),
-    };
-    let other = match run(&other_scene, &other_plan, base.threads, frames) {
-        Ok(other) => other,
-        Err(reason) => return Some(Err(reason)),
-    };
+        found,
+    })
+}
+
+fn gain(base: &Ran, other: &Ran) -> Gain {
     let ratio = |with: u64, without: u64| with as f64 / without.max(1) as f64;
-    Some(Ok(row(
-        difference(base, &other),
-        other.seconds / base.seconds,
-        ratio(other.stats.linear_iterations, base.stats.linear_iterations),
-        ratio(other.stats.ffts, base.stats.ffts),
-    )))
+    Gain {
+        difference: difference(base, other),
+        time_ratio: other.seconds / base.seconds,
+        work_ratio: ratio(other.stats.linear_iterations, base.stats.linear_iterations),
+        transform_ratio: ratio(other.stats.ffts, base.stats.ffts),
+    }
 }
 
 fn run(scene: &Scene, plan: &Plan, threads: usize, frames: Frames) -> Result<Ran, String> {
@@ -174,14 +174,11 @@ fn difference(one: &Ran, two: &Ran) -> Difference {
 
 /// The life integral of the last pressure with all waves in every layer against the truncated one: relative
 /// difference in the integral, and time of the one over the other.
-fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<(f64, f64), String> {
+fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<Gain, String> {
     /// ε that keeps what single precision can hold.
     const ALL_WAVES: f64 = 1e-8;
     const REPEATS: u32 = 4;
     let frame = &base.frame;
-    if scene.kind() == crate::scene::ContactKind::Line {
-        return Err("a line's layers are not truncated".to_owned());
-    }
     let (p_h, a_m) = (frame.p_hertz_pa as f32, frame.a_m);
     let p: Vec<f32> = frame.pressure_pa.iter().map(|p| p / p_h).collect();
     let stress = plan.stress.ok_or("no stress")?;
@@ -208,5 +205,14 @@ fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<(f64, f64), Stri
         }
     }
     let [(truncated, quick), (whole, slow)] = measured;
-    Ok(((truncated - whole).abs(), slow / quick))
+    Ok(Gain {
+        difference: Difference {
+            pressure: 0.0,
+            film: 0.0,
+            life: Some((truncated - whole).abs()),
+        },
+        time_ratio: slow / quick,
+        work_ratio: 1.0,
+        transform_ratio: 1.0,
+    })
 }
