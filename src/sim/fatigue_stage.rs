@@ -154,6 +154,14 @@ impl LifeStage {
         self.reference_cycles = self.calibrate(stress);
     }
 
+    /// Takes over the reference of a stage that [`Self::fits`].
+    pub(super) fn take_reference(&mut self, other: &Self) {
+        for (own, other) in self.variants.iter_mut().zip(&other.variants) {
+            own.take_reference(other);
+        }
+        self.reference_cycles = other.reference_cycles;
+    }
+
     /// Makes the room again that a copy or a file does not keep.
     pub(super) fn make_room(&mut self) {
         for variant in &mut self.variants {

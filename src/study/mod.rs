@@ -7,6 +7,7 @@ mod peers;
 pub mod pruning;
 mod scaling;
 pub mod stability;
+pub mod sweep;
 mod table;
 
 pub use machine::machine;
