@@ -166,6 +166,9 @@ const BISINUSOIDAL: [(f64, f64, f64); 3] = [
     (0.5, 1.47934, 0.70510),
 ];
 
+/// Deflection, solver, pressure, gap, H0.
+type Periodic = (Elastic, Dry, Vec<f64>, Vec<f64>, f64);
+
 fn bisinusoidal(
     n: usize,
     tolerance: f64,
@@ -181,8 +184,7 @@ fn bisinusoidal(
         let zero = vec![0.0; grid.len()];
         (elastic, dry, zero.clone(), zero, 0.0)
     };
-    type Prepared = (Elastic, Dry, Vec<f64>, Vec<f64>, f64);
-    let solve = |prepared: &mut Prepared| {
+    let solve = |prepared: &mut Periodic| {
         let (elastic, dry, p, h, h0) = prepared;
         let problem = DryProblem {
             grid: &grid,

@@ -58,6 +58,7 @@ fn variants(extent: Extent, only: Option<&str>) -> Vec<Variant> {
         let mut sets = vec![
             format!("time.passages={passages}"),
             "numerics.error_estimate=none".to_owned(),
+            "record.every_steps=16".to_owned(),
         ];
         sets.extend(nodes.map(|nodes| format!("grid.nodes={nodes}")));
         sets
@@ -130,7 +131,7 @@ pub fn pruning_table(rows: &[PruningRow]) -> Table {
         "stage forced in",
         "pressure",
         "film",
-        "ln life",
+        "ln stress factor",
         "allowed",
         "why",
         "time, with/without",
@@ -163,7 +164,7 @@ pub fn pruning_table(rows: &[PruningRow]) -> Table {
 /// The whole report as Markdown: the table, and each stage over all scenes.
 pub fn pruning_text(rows: &[PruningRow]) -> String {
     let mut text = String::from(
-        "Relative differences of the last step's fields and of life, with the stage against without; times and work of \
+        "Relative differences of the last step's fields and of life's stress factor, with the stage against without; times and work of \
          the whole run, start-up included.\n\n",
     );
     text.push_str(&pruning_table(rows).markdown());
