@@ -103,7 +103,7 @@ impl Sums {
 const LANES: usize = 8;
 
 dispatched! {
-/// Sums over one row; the boundary adds nothing, because F and P are zero there.
+/// Sums over the inner nodes of one row.
 pub(super) fn sum_row(
     f: &[f64],
     p: &[f64],
