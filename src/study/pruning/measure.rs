@@ -112,8 +112,12 @@ pub(super) fn forced(
         } else {
             cadence(plan)
         };
-        run(&other_scene, &other_plan, base.threads, frames)
-            .map(|other| gain(base, &other, least_m))
+        let mut other = run(&other_scene, &other_plan, base.threads, frames);
+        if let (Forced::Waves, Ok(other)) = (stage, &mut other) {
+            // Crests of no height still count, and may make the other body the weaker one.
+            other.stress_factor = None;
+        }
+        other.map(|other| gain(base, &other, least_m))
     };
     Some(PruningRow {
         preset: preset.to_owned(),
