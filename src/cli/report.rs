@@ -313,8 +313,15 @@ pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {
     }
     for step in outcome.unconverged.iter().take(NAMED) {
         list.push(format!(
-            "step {} at t = {:.4e} s did not converge: residual {:.2e}",
-            step.step, step.time_s, step.residual
+            "step {} at t = {:.4e} s did not converge: residual {:.2e}, {:.2e} of the film unbalanced{}",
+            step.step,
+            step.time_s,
+            step.residual,
+            step.film_error,
+            match 1e9 * step.overlap_m {
+                nm if nm > 0.0 => format!(", surfaces overlap by {nm:.2} nm"),
+                _ => String::new(),
+            }
         ));
     }
     if outcome.n_unconverged > NAMED as u64 {

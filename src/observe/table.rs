@@ -13,7 +13,7 @@ use crate::sim::{Frame, LifeEstimate, Metrics, Stage};
 
 /// Columns in the order of [`Row::write`], which destructures every field: a new metric that is
 /// not given a column does not compile.
-const COLUMNS: [&str; 51] = [
+const COLUMNS: [&str; 52] = [
     "step",
     "time_s",
     "passages",
@@ -43,6 +43,7 @@ const COLUMNS: [&str; 51] = [
     "load_error",
     "film_error",
     "mass_error",
+    "overlap_m",
     "friction_coefficient",
     "sigma_eff_max_pa",
     "sigma_eff_max_depth_m",
@@ -224,6 +225,7 @@ impl Row {
             load_error,
             film_error,
             mass_error,
+            overlap_m,
             friction_coefficient,
             sigma_eff_max_pa,
             sigma_eff_max_depth_m,
@@ -258,6 +260,7 @@ impl Row {
         self.cell(load_error);
         self.cell(film_error);
         self.cell(mass_error);
+        self.cell(overlap_m);
         self.cell(friction_coefficient);
         self.optional(*sigma_eff_max_pa);
         self.optional(*sigma_eff_max_depth_m);

@@ -2,8 +2,8 @@
 
 use super::LifeAsked;
 use super::{
-    Domain, FilmPlan, LeftOut, March, OtherFilms, Plan, StressPlan, Symmetry, TractionDeflection,
-    Warning, inlet_error, mesh_error,
+    Crests, Domain, FilmPlan, LeftOut, March, OtherFilms, Plan, StressPlan, Symmetry,
+    TractionDeflection, Warning, inlet_error, mesh_error,
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
@@ -63,6 +63,25 @@ pub(super) fn domain_warnings(
         });
     }
     warnings
+}
+
+/// Heights of both surfaces' crests together, m.
+pub(super) fn crest_m(scene: &Scene) -> f64 {
+    let heights = scene.surfaces().map(|surface| surface.amplitude_m().abs());
+    heights.iter().sum()
+}
+
+pub(super) fn crests(scene: &Scene, hertz: &Hertz) -> Crests {
+    let (rx_m, height) = (scene.contact.rx_m, crest_m(scene));
+    // A line has no side.
+    let across = scene
+        .contact
+        .ry_m
+        .map_or(0.0, |ry_m| ry_m / hertz.b_m.powi(2));
+    Crests {
+        along: height * rx_m / hertz.a_m.powi(2),
+        across: height * across,
+    }
 }
 
 pub(super) fn symmetry(scene: &Scene) -> Symmetry {

@@ -12,7 +12,7 @@ mod surfaces;
 mod warning;
 
 pub use cost::Cost;
-pub use domain::{Domain, inlet_error, mesh_error, side_error};
+pub use domain::{Crests, Domain, inlet_error, mesh_error, side_error};
 pub use life::{LifeAsked, LifePlan};
 pub use surfaces::WavePlan;
 pub use warning::{LeftOut, PlanError, Warning};
@@ -182,10 +182,12 @@ impl Plan {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
         let kind = scene.kind();
+        let crests = decide::crests(scene, &hertz);
         let domain = Domain::choose(
             kind,
             &scene.grid,
             film.map(|film| (film.central, film.groups.l)),
+            crests,
         );
         let dx_m = domain.dx_a() * hertz.a_m;
         let dy_m = match kind {
@@ -193,6 +195,11 @@ impl Plan {
             ContactKind::Line => 2.0 * LINE_HALF_WIDTH * hertz.a_m / (LINE_ROWS - 1) as f64,
         };
         let mut warnings = decide::domain_warnings(kind, &domain, film.as_ref());
+        if crests.meet_at_edge_of(kind, &domain) {
+            warnings.push(Warning::CrestsAtEdge {
+                crests_m: decide::crest_m(scene),
+            });
+        }
         let step_m = scene.time.step_nodes * dx_m;
         let waves = surfaces::plan(scene, [dx_m, dy_m], step_m, &mut warnings)?;
         let march = decide::march(scene);

@@ -31,6 +31,15 @@ pub enum Warning {
         /// Inlet edge, in a.
         x_min_a: f64,
     },
+    /// Crests can touch at the edge of the domain.
+    #[error(
+        "crests of {:.3} um together can meet at the edge of the domain, where contact is cut off; a higher load or a wider grid (grid.x_min_a, grid.x_max_a, grid.y_half_a) holds them",
+        1e6 * crests_m
+    )]
+    CrestsAtEdge {
+        /// Heights of both surfaces' crests together, m.
+        crests_m: f64,
+    },
     /// A wave has few nodes.
     #[error("body {body}: {nodes:.1} nodes a wave; 12 or more follow its deformation well")]
     CoarseWave {

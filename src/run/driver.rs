@@ -316,6 +316,8 @@ impl Driver {
                 step: sim.passage_steps(),
                 time_s: sim.time_s(),
                 residual,
+                film_error: metrics.film_error,
+                overlap_m: metrics.overlap_m,
             });
         }
         self.announce(sim, RunEventKind::NotConverged { residual });

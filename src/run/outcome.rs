@@ -22,8 +22,12 @@ pub struct Unconverged {
     pub step: u64,
     /// Simulated time, s.
     pub time_s: f64,
-    /// Residual reached.
+    /// Residual reached: last change of pressure.
     pub residual: f64,
+    /// Share of the film that is left unbalanced.
+    pub film_error: f64,
+    /// Deepest overlap of the surfaces, m.
+    pub overlap_m: f64,
 }
 
 /// Why a run ended.

@@ -199,6 +199,9 @@ pub struct Metrics {
     pub film_error: f64,
     /// The part of that which no step takes over: mass lost or made.
     pub mass_error: f64,
+    /// Deepest overlap of the surfaces in a step that did not converge, or at an edge of the domain, where
+    /// contact is cut off (a step that is then not called converged), m; else 0.
+    pub overlap_m: f64,
     /// Friction force over load, positive.
     pub friction_coefficient: f64,
     /// Greatest effective stress in the slice (or volume), Pa.

@@ -39,6 +39,8 @@ pub(super) struct Attempted {
     pub(super) mass_error: f64,
     /// Worst load error.
     pub(super) load_error: f64,
+    /// Deepest overlap of the surfaces, in H: at nodes that did not converge, or at an edge of the domain.
+    pub(super) overlap: f64,
     /// Newton iterations.
     pub(super) newton: u32,
     /// Krylov iterations.
@@ -93,6 +95,7 @@ impl Attempted {
                 t_s,
                 residual: self.residual,
                 tolerance,
+                film_error: self.film_error,
                 retries: self.retries,
                 x_m,
                 y_m,
@@ -257,6 +260,13 @@ impl Mover<'_> {
         done.keep(report);
         if report.verdict != Verdict::Converged {
             done.worst = Some(self.place_of(report.worst_node));
+            done.overlap = done.overlap.max(report.overlap);
+        }
+        if let Some((node, overlap)) = self.march.overlap_at_edge(self.tolerance.least_film) {
+            // Solved as it stands; but contact reaches beyond the domain, so it is not the scene's.
+            done.converged = false;
+            done.worst = Some(self.place_of(node));
+            done.overlap = done.overlap.max(overlap);
         }
         self.march.commit(nodes);
         done.nodes += nodes;

@@ -117,6 +117,7 @@ impl Simulation {
         m.film_error = attempted.film_error;
         m.mass_error = attempted.mass_error;
         m.load_error = attempted.load_error;
+        m.overlap_m = door.m_from_h(attempted.overlap);
         let load = door.load_knob();
         let (s, force) = (self.drive.get(Knob::SlideRoll), self.drive.get(load));
         (m.slide_roll, m.slide_roll_target) = (s.now, self.wanted.get(Knob::SlideRoll).target);

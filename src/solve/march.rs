@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::dry::Dry;
 use super::film::macroscopic_gap;
 use super::history::History;
-use super::newton::{CARRIED, Iterate, Newton, NewtonReport, Problem, Tolerance};
+use super::newton::{CARRIED, Iterate, Newton, NewtonReport, OVERLAP, Problem, Tolerance};
 use super::reynolds::Medium;
 use super::tangential::{Shear, Tangential};
 use super::traction::TractionLaw;
@@ -276,6 +276,22 @@ impl March {
             pressure, history, ..
         } = &self.state;
         history.path_error(&self.grid, (&self.mass, pressure), nodes)
+    }
+
+    /// Where the surfaces of the last attempt overlap beyond the tolerance at an edge of the domain, which has no
+    /// equation: the node and the overlap. There the contact is cut off.
+    pub fn overlap_at_edge(&self, least_film: f64) -> Option<(usize, f64)> {
+        let (grid, film) = (&self.grid, &self.state.film);
+        let rows = grid.interior_rows();
+        let deepest = (0..grid.ny)
+            .flat_map(|j| {
+                let whole = !rows.contains(&j);
+                let stride = if whole { 1 } else { grid.nx - 1 };
+                (0..grid.nx).step_by(stride).map(move |i| (j, i))
+            })
+            .map(|(j, i)| j * grid.nx + i)
+            .min_by(|&one, &two| film[one].total_cmp(&film[two]))?;
+        (film[deepest] < -OVERLAP * least_film).then_some((deepest, -film[deepest]))
     }
 
     /// Commits the step that was attempted last.
