@@ -301,7 +301,7 @@ fn style(curve: &Curve) -> ShapeStyle {
     RGBColor(r, g, b).stroke_width(2)
 }
 
-fn legend<'a>(series: &mut SeriesAnno<'a, BitMapBackend<'_>>, curve: &Curve) {
+fn legend(series: &mut SeriesAnno<'_, BitMapBackend<'_>>, curve: &Curve) {
     let style = style(curve);
     series
         .label(curve.name)
