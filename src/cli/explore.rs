@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use asperity::observe::Overwrite;
-use asperity::run::{Activity, Ending, Request, Session, Status, Switch};
+use asperity::run::{Activity, Ending, Ground, Request, Session, Status, Sweep, Switch};
 use asperity::tui::{
     Health, LeftOut, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
 };
@@ -39,7 +39,13 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
     let raised = Arc::clone(&interrupt);
     ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))
         .map_err(|error| Failure::stalled(miette!("signals cannot be watched: {error}")))?;
-    let shown = asperity::tui::explore(wiring(&prepared, &session, recording, interrupt));
+    let shown = asperity::tui::explore(wiring(
+        &prepared,
+        &session,
+        args.threads(),
+        recording,
+        interrupt,
+    ));
     session.send(asperity::run::Command::Stop);
     let outcome = session.join()?;
     let code = conclude(&prepared.scene, &outcome, None, outputs)?;
@@ -53,10 +59,13 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
 fn wiring(
     prepared: &Prepared,
     session: &Session,
+    threads: usize,
     recording: Option<(PathBuf, Switch)>,
     interrupt: Arc<AtomicBool>,
 ) -> Wiring {
     let plan = &prepared.plan;
+    let (settled, ground) = (session.settled_reader(), session.settled_reader());
+    let (scene, sweep_plan) = (prepared.scene.clone(), prepared.plan.clone());
     let status = session.status_reader();
     let recorded = recording.as_ref().map(|(path, _)| path.clone());
     let shown = recorded.clone();
@@ -78,6 +87,17 @@ fn wiring(
         frames: session.latest(),
         commands: session.commands(),
         status: Box::new(move || run_status(&status(), recorded.as_deref())),
+        settled: Box::new(settled),
+        start_sweep: Some(Box::new(move |values| {
+            let settled = ground()?;
+            let near = settled.frames.last()?.metrics.slide_roll;
+            let ground = Ground {
+                scene: scene.clone(),
+                plan: sweep_plan.clone(),
+                state: settled.state.clone()?,
+            };
+            Some(Sweep::start(ground, values, near, threads))
+        })),
         interrupt,
         toggle_recording: recording.map(|(_, switch)| {
             Box::new(move || {
@@ -107,7 +127,7 @@ fn run_status(status: &Status, recorded: Option<&Path>) -> RunStatus {
                 Activity::Failed => RecorderActivity::Stopped,
             },
             frames: output.frames,
-            skipped: 0,
+            skipped: output.skipped,
             bytes: std::fs::metadata(&output.output).map_or(0, |file| file.len()),
         });
     RunStatus {

@@ -196,6 +196,10 @@ pub trait Observer: Send {
     /// # Errors
     /// When the output failed.
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError>;
+    /// Frames that it could not keep up with so far.
+    fn skipped(&self) -> u64 {
+        0
+    }
     /// After the last frame: flush and close.
     ///
     /// # Errors

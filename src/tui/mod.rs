@@ -14,6 +14,7 @@ pub mod app;
 pub mod dial;
 pub mod estimate;
 pub mod lessons;
+pub mod replay;
 mod terminal;
 pub mod theme;
 pub mod trace;
@@ -30,15 +31,17 @@ use std::time::{Duration, Instant};
 use crossterm::event::Event;
 use ratatui::layout::Rect;
 
-use crate::run::Command;
+use crate::run::{Command, Sweep};
 use action::{Action, lookup};
 use app::{App, Effect, ErrandKind, Setup};
 use terminal::{Input, Panics, Stage};
 use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{Health, LeftOut, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring};
 
-/// Longest wait between two drawings.
-const FRAME_TIME: Duration = Duration::from_millis(33);
+/// Time from one drawing to the next.
+const FRAME_TIME: Duration = Duration::from_millis(25);
+/// Least pause between two drawings, for a terminal that is slower.
+const LEAST_WAIT: Duration = Duration::from_millis(5);
 
 /// Whether the loop goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,12 +108,18 @@ fn show(
     wiring: &mut Wiring,
 ) -> io::Result<()> {
     let start = Instant::now();
+    let mut sweep = None;
+    let mut last = start.elapsed();
     loop {
-        app.tick(start.elapsed());
-        take_news(app, wiring, panics);
+        let now = start.elapsed();
+        app.tick(now);
+        take_news(app, wiring, panics, &mut sweep, now.saturating_sub(last));
+        last = now;
+        let began = Instant::now();
         stage.terminal.draw(|frame| view::draw(app, frame))?;
         let drawn = Instant::now();
-        let mut wait = FRAME_TIME;
+        // Drawing counts: frames come every FRAME_TIME, not so long after each other.
+        let mut wait = FRAME_TIME.saturating_sub(drawn - began).max(LEAST_WAIT);
         loop {
             if wiring.interrupt.load(Ordering::Relaxed) {
                 return Ok(());
@@ -118,7 +127,7 @@ fn show(
             match input.events.recv_timeout(wait) {
                 Ok(event) => {
                     app.tick(start.elapsed());
-                    if take_event(stage, app, wiring, &event)? == Flow::Stop {
+                    if take_event(stage, app, wiring, &mut sweep, &event)? == Flow::Stop {
                         return Ok(());
                     }
                 }
@@ -140,18 +149,44 @@ fn show(
     }
 }
 
-fn take_news(app: &mut App, wiring: &mut Wiring, panics: &Panics) {
+fn take_news(
+    app: &mut App,
+    wiring: &mut Wiring,
+    panics: &Panics,
+    sweep: &mut Option<Sweep>,
+    wall: Duration,
+) {
     let mut status = (wiring.status)();
     if let Some(text) = panics.first() {
         status.health = Health::Failed(text);
     }
     app.take_status(status);
+    let mut effects = Vec::new();
     if let Some(frame) = wiring.frames.take() {
-        for effect in app.take_frame(frame) {
-            if let Effect::Send(command) = effect {
-                let _ = wiring.commands.send(command);
-            }
+        effects = app.take_frame(frame);
+    }
+    effects.extend(app.take_settled((wiring.settled)()));
+    effects.extend(app.advance(wall));
+    let found = sweep.as_ref().map_or_else(Vec::new, Sweep::take);
+    app.take_swept(found, sweep.as_ref().map(Sweep::progress));
+    for effect in effects {
+        match effect {
+            // A run that has ended hears nothing; its last frame can still be looked at.
+            Effect::Send(command) => drop(wiring.commands.send(command)),
+            other => sweep_on(wiring, sweep, other),
         }
+    }
+}
+
+fn sweep_on(wiring: &mut Wiring, sweep: &mut Option<Sweep>, effect: Effect) {
+    match effect {
+        Effect::Sweep(values) => {
+            // The old one ends first: its cores are wanted.
+            *sweep = None;
+            *sweep = wiring.start_sweep.as_mut().and_then(|start| start(values));
+        }
+        Effect::EndSweep => *sweep = None,
+        _ => {}
     }
 }
 
@@ -159,6 +194,7 @@ fn take_event(
     stage: &mut Stage,
     app: &mut App,
     wiring: &mut Wiring,
+    sweep: &mut Option<Sweep>,
     event: &Event,
 ) -> io::Result<Flow> {
     let action = match event {
@@ -170,12 +206,18 @@ fn take_event(
         _ => None,
     };
     match action {
-        Some(action) => act(stage, app, wiring, action),
+        Some(action) => act(stage, app, wiring, sweep, action),
         None => Ok(Flow::Go),
     }
 }
 
-fn act(stage: &mut Stage, app: &mut App, wiring: &mut Wiring, action: Action) -> io::Result<Flow> {
+fn act(
+    stage: &mut Stage,
+    app: &mut App,
+    wiring: &mut Wiring,
+    sweep: &mut Option<Sweep>,
+    action: Action,
+) -> io::Result<Flow> {
     for effect in app.apply(action) {
         match effect {
             // A run that has ended hears nothing; its last frame can still be looked at.
@@ -188,6 +230,7 @@ fn act(stage: &mut Stage, app: &mut App, wiring: &mut Wiring, action: Action) ->
             }
             Effect::Suspend => stage.suspend()?,
             Effect::Quit => return Ok(Flow::Stop),
+            other => sweep_on(wiring, sweep, other),
         }
     }
     Ok(Flow::Go)

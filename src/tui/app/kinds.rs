@@ -61,6 +61,28 @@ pub enum PointQuantity {
     Pressure,
     /// Orthogonal shear at its depth.
     Shear,
+    /// Effective stress at its depth.
+    Effective,
+}
+
+impl PointQuantity {
+    pub(super) fn next(self) -> Self {
+        match self {
+            Self::Pressure => Self::Shear,
+            Self::Shear => Self::Effective,
+            Self::Effective => Self::Pressure,
+        }
+    }
+}
+
+/// Whether a passage that repeats is replayed of itself, which leaves the cores to the sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AutoReplay {
+    /// It is.
+    #[default]
+    On,
+    /// The user went back to the live run; until a knob is turned.
+    Off,
 }
 
 /// What lies over the screen.

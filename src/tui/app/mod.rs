@@ -1,6 +1,7 @@
 //! The screen's state, and the reducer: (state, action) → state and effects. Nothing here draws,
 //! waits or reads a clock, so every screen can be made in a test.
 
+mod held;
 mod ingest;
 mod kinds;
 mod reduce;
@@ -10,17 +11,19 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, OperatingPoint};
-use crate::run::Command;
+use crate::run::{Command, Settled};
 use crate::scene::Scene;
 use crate::sim::{Frame, Knob, LifeEstimate};
 use crate::tui::dial::{Dial, dials};
 use crate::tui::estimate::{basis, life_at_pressure};
 use crate::tui::lessons::TourState;
+use crate::tui::replay::Replay;
 use crate::tui::theme::Theme;
-use crate::tui::trace::Trace;
+use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
 use crate::tui::wiring::{Health, LeftOut, RunStatus};
-pub use kinds::{Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
+pub use held::PointNow;
+pub use kinds::{AutoReplay, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
 /// What a key does outside of the screen and the run, where the program offers it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +43,10 @@ pub enum Effect {
     Send(Command),
     /// An errand.
     Errand(ErrandKind),
+    /// Compute life at these S beside the run, from where it has settled.
+    Sweep(Vec<f64>),
+    /// Call that off.
+    EndSweep,
     /// To the shell.
     Suspend,
     /// The end.
@@ -74,6 +81,19 @@ pub struct Ranges {
     pub stress_pa: f64,
     /// Shear of the material point to either side, Pa.
     pub shear_pa: f64,
+}
+
+/// A settled life at one S.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LifePoint {
+    /// S.
+    pub slide_roll: f64,
+    /// Relative life.
+    pub life_relative: f64,
+    /// Its band.
+    pub band: [f64; 2],
+    /// Friction coefficient.
+    pub friction: f64,
 }
 
 /// One point of the life's history.
@@ -127,8 +147,19 @@ pub struct App {
     pub(crate) ranges: Ranges,
     pub(crate) trace: Trace,
     pub(crate) history: VecDeque<LifeSample>,
-    /// Settled lives at other S, load and roughness as now.
-    pub(crate) settled: Vec<(f64, f64)>,
+    /// Settled lives at other S, all else as now.
+    pub(crate) settled: Vec<LifePoint>,
+    /// All else: load, roughness and speed for which they hold.
+    settled_at: Option<[f64; 4]>,
+    /// Values of S done and in all, while a sweep is under way.
+    pub(crate) sweep: Option<(usize, usize)>,
+    /// One period of the passage, once it repeats.
+    held: Option<Arc<Settled>>,
+    pub(crate) replay: Option<Replay>,
+    /// Whether a passage that repeats is replayed without being asked.
+    auto_replay: AutoReplay,
+    /// The material point of the replay.
+    pub(crate) point: Chosen,
     pub(crate) tour: Option<TourState>,
     pub(crate) estimate: Estimate,
     /// Whether the estimate has a simulated state to scale from.
@@ -170,6 +201,12 @@ impl App {
             trace: Trace::default(),
             history: VecDeque::new(),
             settled: Vec::new(),
+            settled_at: None,
+            sweep: None,
+            held: None,
+            replay: None,
+            auto_replay: AutoReplay::default(),
+            point: Chosen::default(),
             tour: None,
             estimate,
             anchor: None,
@@ -206,8 +243,11 @@ impl App {
         self.message = Some((text.into(), self.now + Duration::from_secs(5)));
     }
 
-    /// The frame on the screen: the newest, or one of the past.
+    /// The frame on the screen: the newest, one of the past, or one of the orbit that is replayed.
     pub fn frame(&self) -> Option<&Arc<Frame>> {
+        if let Some(replay) = &self.replay {
+            return Some(replay.frame());
+        }
         let place = self.past.len().checked_sub(1 + self.back)?;
         self.past.get(place)
     }

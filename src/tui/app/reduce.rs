@@ -2,7 +2,7 @@
 
 use crate::run::Command;
 use crate::tui::action::{Action, KEYS};
-use crate::tui::app::{App, Effect, ErrandKind, Overlay, Pace, Pinned, PointQuantity, Zoom};
+use crate::tui::app::{App, Effect, ErrandKind, Overlay, Pace, Pinned, Zoom};
 use crate::tui::dial::Life;
 use crate::tui::lessons::TourState;
 
@@ -33,6 +33,11 @@ impl App {
             Action::Record => self.errand(ErrandKind::Record),
             Action::View => self.errand(ErrandKind::View),
             Action::Save => self.errand(ErrandKind::Save),
+            Action::Replay => self.toggle_replay(),
+            Action::PointBody => self.other_body(),
+            Action::PointDepth(by) => self.point_depth(by),
+            Action::MovePoint(quarters) => self.move_point(quarters),
+            Action::PutPoint(x) => self.put_point(x),
             Action::Tour => self.toggle_tour(),
             Action::NextLesson => self.next_lesson(),
             shown => {
@@ -56,12 +61,8 @@ impl App {
             Action::Probe(x, y) => self.probe = Some((x, y)),
             Action::Pin => self.pin(),
             Action::Unpin => self.pinned = None,
-            Action::PointQuantity => {
-                self.quantity = match self.quantity {
-                    PointQuantity::Pressure => PointQuantity::Shear,
-                    PointQuantity::Shear => PointQuantity::Pressure,
-                }
-            }
+            Action::PointQuantity => self.quantity = self.quantity.next(),
+            Action::ReplayFaster(times) => self.replay_faster(times),
             Action::Units => self.units = self.units.next(),
             Action::Contrast => self.theme.next_contrast(),
             Action::Help => self.toggle(Overlay::Help),
@@ -129,10 +130,15 @@ impl App {
         self.set_at[place] = Some(self.now);
         self.back = 0;
         self.refresh_estimate();
-        vec![Effect::Send(command)]
+        let mut effects = vec![Effect::Send(command)];
+        effects.extend(self.unsettle());
+        effects
     }
 
     fn toggle_pause(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(0) {
+            return Vec::new();
+        }
         self.pace = match self.pace {
             Pace::Running => Pace::Paused,
             Pace::Paused => Pace::Running,
@@ -142,6 +148,9 @@ impl App {
     }
 
     fn step_forward(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(1) {
+            return Vec::new();
+        }
         if self.back > 0 {
             self.back -= 1;
             return Vec::new();
@@ -152,12 +161,15 @@ impl App {
     }
 
     fn step_back(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(-1) {
+            return Vec::new();
+        }
         let effects = self.paused_first();
         self.back = (self.back + 1).min(self.past.len().saturating_sub(1));
         effects
     }
 
-    fn paused_first(&mut self) -> Vec<Effect> {
+    pub(super) fn paused_first(&mut self) -> Vec<Effect> {
         match self.pace {
             Pace::Paused => Vec::new(),
             Pace::Running => {
@@ -230,7 +242,7 @@ impl App {
     }
 
     fn begin_lesson(&mut self, lesson: usize) -> Vec<Effect> {
-        let passages = self.frame().map_or(0.0, |frame| frame.passages);
+        let passages = self.passages();
         self.tour = TourState::begin(lesson, passages);
         let mut effects = self.apply(Action::HomeAll);
         if let Some(tour) = self.tour {

@@ -55,9 +55,19 @@ fn against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
         Span::styled(theme.pick("┄ ", ". "), theme.style(Role::Formula)),
         Span::styled("formula ", theme.style(Role::Dim)),
         Span::styled(theme.pick("• ", "o "), theme.style(Role::Good)),
-        Span::styled("simulated", theme.style(Role::Dim)),
+        Span::styled("simulated ", theme.style(Role::Dim)),
     ]);
     put(area, 0, &heading, buffer);
+    if let Some((done, all)) = app.sweep {
+        let text = format!("{}{done}/{all}", theme.pick("⟳ ", "@ "));
+        let line = Line::styled(text, theme.style(Role::Warn));
+        let room = (heading.width() + line.width()) as u16 <= area.width;
+        let corner = Rect {
+            y: area.y + u16::from(!room),
+            ..area
+        };
+        put_right(corner, 0, &line, buffer);
+    }
     let dial = &app.dials[0];
     let range = [dial.min, dial.max];
     let plot = Rect {
@@ -78,13 +88,18 @@ fn against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
     let settled: Vec<(f64, f64)> = app
         .settled
         .iter()
-        .map(|(slide_roll, life)| (*slide_roll, life.log10()))
+        .map(|point| (point.slide_roll, point.life_relative.log10()))
         .collect();
     let known = formula.iter().chain(&settled).map(|(_, decade)| *decade);
     let decades = decades(known);
     let mut chart = Chart::new(plot, range, decades);
     chart.upright(dial.target, pen(app, Role::Dim, ':'));
     chart.line(formula, pen(app, Role::Formula, '.'));
+    for point in &app.settled {
+        // The band: an upright bar through the point.
+        let ends = point.band.map(|life| (point.slide_roll, life.log10()));
+        chart.line(ends, pen(app, Role::Good, '|'));
+    }
     chart.render(theme.is_ascii(), buffer);
     let spot =
         |(slide_roll, decade): (f64, f64), symbol: &'static str, role, buffer: &mut Buffer| {

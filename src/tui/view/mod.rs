@@ -170,10 +170,10 @@ pub fn pointed(app: &App, screen: Rect, event: &MouseEvent) -> Option<Action> {
     match event.kind {
         MouseEventKind::Down(MouseButton::Left) => knobs::pressed(app, &areas, at)
             .or_else(|| map::pressed(app, &areas, at))
-            .or_else(|| areas.point.contains(at).then_some(Action::PointQuantity)),
-        MouseEventKind::Drag(MouseButton::Left) => {
-            knobs::dragged(app, &areas, at).or_else(|| map::pressed(app, &areas, at))
-        }
+            .or_else(|| point::pressed(&areas, at)),
+        MouseEventKind::Drag(MouseButton::Left) => knobs::dragged(app, &areas, at)
+            .or_else(|| map::pressed(app, &areas, at))
+            .or_else(|| point::dragged(&areas, at)),
         MouseEventKind::Down(MouseButton::Right) => Some(Action::Close),
         MouseEventKind::ScrollUp => wheel(app, &areas, at, 1),
         MouseEventKind::ScrollDown => wheel(app, &areas, at, -1),
