@@ -82,6 +82,10 @@ pub enum Action {
     Help,
     /// What is computed, what is left out, and why.
     Plan,
+    /// Another scene, lay, wave, oil, model.
+    Scene,
+    /// Run the scene that was put together.
+    Run,
     /// Close what lies over the screen, forget the probe, return to the present.
     Close,
 }

@@ -77,6 +77,10 @@ pub type SaveScene = Box<dyn FnMut(&str) -> Result<PathBuf, String>>;
 /// Starts a sweep over values of S from where the run has settled.
 pub type StartSweep = Box<dyn FnMut(Vec<f64>) -> Option<Sweep>>;
 
+/// Ends the run and starts one of another scene; what it gives replaces the whole wiring (but for
+/// [`Wiring::rebuild`] itself, which stays).
+pub type Rebuild = Box<dyn FnMut(&Scene) -> Result<Wiring, String>>;
+
 /// What the program itself fills in. An errand that is `None` has no key and no row in the help.
 pub struct Wiring {
     /// The scene that runs.
@@ -107,6 +111,8 @@ pub struct Wiring {
     pub toggle_recording: Option<Errand>,
     /// Opens the recording in the viewer.
     pub open_viewer: Option<Errand>,
+    /// Runs another scene.
+    pub rebuild: Option<Rebuild>,
     /// Saves the scene as it now is.
     pub save_scene: Option<SaveScene>,
 }

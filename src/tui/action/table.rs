@@ -194,6 +194,12 @@ pub const KEYS: &[Row] = &[
         Group::Show,
     ),
     row(
+        &[(ch('e'), Action::Scene), (key(KeyCode::Enter), Action::Run)],
+        "e ⏎",
+        "other scene, lay, wave, oil, model; run it",
+        Group::Program,
+    ),
+    row(
         &[(ch('r'), Action::Record)],
         "r",
         "recording on or off",

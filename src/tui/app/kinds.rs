@@ -95,6 +95,8 @@ pub enum Overlay {
     Help,
     /// The plan.
     Plan,
+    /// Another scene, and what of it only a new run can change.
+    Scene,
 }
 
 /// Whether the run steps.

@@ -5,6 +5,7 @@ mod held;
 mod ingest;
 mod kinds;
 mod reduce;
+mod staged;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -14,9 +15,10 @@ use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, OperatingPoint};
 use crate::run::{Command, Settled};
 use crate::scene::Scene;
 use crate::sim::{Frame, Knob, LifeEstimate};
+use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
 use crate::tui::estimate::{basis, life_at_pressure};
-use crate::tui::lessons::TourState;
+use crate::tui::lessons::{Staging, TourState};
 use crate::tui::replay::Replay;
 use crate::tui::theme::Theme;
 use crate::tui::trace::{Chosen, Trace};
@@ -34,6 +36,8 @@ pub enum ErrandKind {
     View,
     /// Saves the scene.
     Save,
+    /// Runs another scene.
+    Rebuild,
 }
 
 /// What the app asks of the loop around it.
@@ -47,6 +51,8 @@ pub enum Effect {
     Sweep(Vec<f64>),
     /// Call that off.
     EndSweep,
+    /// Run this scene in place of the present one.
+    Rebuild(Box<Scene>),
     /// To the shell.
     Suspend,
     /// The end.
@@ -161,6 +167,12 @@ pub struct App {
     /// The material point of the replay.
     pub(crate) point: Chosen,
     pub(crate) tour: Option<TourState>,
+    /// The lesson's scene that runs; `None`: the user's own.
+    staged: Option<Staging>,
+    /// The user's own scene, for the end of the tour.
+    own_scene: Arc<Scene>,
+    /// A scene in the making.
+    pub(crate) draft: Option<Draft>,
     pub(crate) estimate: Estimate,
     /// Whether the estimate has a simulated state to scale from.
     pub(crate) anchor: Option<Anchor>,
@@ -208,6 +220,9 @@ impl App {
             auto_replay: AutoReplay::default(),
             point: Chosen::default(),
             tour: None,
+            staged: None,
+            own_scene: Arc::clone(&setup.scene),
+            draft: None,
             estimate,
             anchor: None,
             basis,
@@ -334,11 +349,16 @@ impl App {
 
     /// The scene with the knobs where they are going, as TOML.
     pub fn scene_toml(&self) -> String {
+        self.scene_now().to_toml()
+    }
+
+    /// The scene with the knobs where they are going.
+    fn scene_now(&self) -> Scene {
         let mut scene = (*self.setup.scene).clone();
         for dial in &self.dials {
             put(&mut scene, dial);
         }
-        scene.to_toml()
+        scene
     }
 
     fn refresh_estimate(&mut self) {

@@ -4,11 +4,13 @@ use crate::run::Command;
 use crate::tui::action::{Action, KEYS};
 use crate::tui::app::{App, Effect, ErrandKind, Overlay, Pace, Pinned, Zoom};
 use crate::tui::dial::Life;
-use crate::tui::lessons::TourState;
 
 impl App {
     /// Does what an action asks, and says what the loop has to do about it.
     pub fn apply(&mut self, action: Action) -> Vec<Effect> {
+        if let Some(effects) = self.draft_takes(action) {
+            return effects;
+        }
         match action {
             Action::Quit => vec![Effect::Quit],
             Action::Suspend => vec![Effect::Suspend],
@@ -67,6 +69,7 @@ impl App {
             Action::Contrast => self.theme.next_contrast(),
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
+            Action::Scene => self.toggle_draft(),
             Action::Close => self.close(),
             _ => {}
         }
@@ -76,7 +79,7 @@ impl App {
     fn scroll(&mut self, action: Action) {
         let last = match self.overlay {
             Overlay::Plan => self.setup.plan_text.lines().count() + self.setup.left_out.len(),
-            Overlay::Help | Overlay::None => KEYS.len(),
+            Overlay::Help | Overlay::Scene | Overlay::None => KEYS.len(),
         };
         self.scroll = if action == Action::ChooseNext {
             (self.scroll + 1).min(last as u16)
@@ -189,6 +192,7 @@ impl App {
                 "no viewer is at hand; `asperity view FILE.rrd` says how to get one"
             }
             ErrandKind::Save => "this scene cannot be saved from here",
+            ErrandKind::Rebuild => "this run cannot be changed for another from here",
         });
         Vec::new()
     }
@@ -210,6 +214,7 @@ impl App {
 
     fn toggle(&mut self, overlay: Overlay) {
         self.scroll = 0;
+        self.draft = None;
         self.overlay = if self.overlay == overlay {
             Overlay::None
         } else {
@@ -225,47 +230,7 @@ impl App {
             self.back = 0;
         } else {
             self.overlay = Overlay::None;
+            self.draft = None;
         }
-    }
-
-    fn toggle_tour(&mut self) -> Vec<Effect> {
-        if self.tour.take().is_some() {
-            return self.apply(Action::HomeAll);
-        }
-        self.overlay = Overlay::None;
-        self.begin_lesson(0)
-    }
-
-    fn next_lesson(&mut self) -> Vec<Effect> {
-        self.tour
-            .map_or_else(Vec::new, |tour| self.begin_lesson(tour.lesson + 1))
-    }
-
-    fn begin_lesson(&mut self, lesson: usize) -> Vec<Effect> {
-        let passages = self.passages();
-        self.tour = TourState::begin(lesson, passages);
-        let mut effects = self.apply(Action::HomeAll);
-        if let Some(tour) = self.tour {
-            effects.extend(self.play(tour));
-        } else {
-            self.say("that was the last lesson");
-        }
-        effects
-    }
-
-    /// Sets what a beat of a lesson sets.
-    pub(super) fn play(&mut self, tour: TourState) -> Vec<Effect> {
-        let beat = tour.beat();
-        if let Some(map) = beat.map {
-            self.map = map;
-        }
-        let mut effects = Vec::new();
-        for (knob, setting) in beat.sets {
-            if let Some(place) = self.dials.iter().position(|dial| dial.answers(*knob)) {
-                let value = setting.value(&self.dials[place]);
-                effects.extend(self.set(place, value));
-            }
-        }
-        effects
     }
 }

@@ -149,6 +149,7 @@ pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
         (Some(reason), _) => overlay::fault(app, reason, body, buffer),
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
+        (None, Overlay::Scene) => overlay::scene(app, body, buffer),
         (None, Overlay::None) => {}
     }
 }
@@ -299,6 +300,9 @@ fn ascii_text(theme: Theme, text: &str) -> String {
             '±' => plain.push_str("+-"),
             '·' => plain.push('.'),
             '…' => plain.push_str("..."),
+            '⏎' => plain.push_str("CR"),
+            '◂' => plain.push('<'),
+            '▸' => plain.push('>'),
             other if other.is_ascii() => plain.push(other),
             _ => plain.push('?'),
         }
