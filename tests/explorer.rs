@@ -253,3 +253,81 @@ fn time_from_a_turn_of_s_to_its_life() {
         began.elapsed()
     );
 }
+
+/// What drawing costs the simulation: steps of the default scene in four seconds on two threads with and
+/// without a screen of 160 x 48 in true colour, in turn. Printed, for a quiet machine.
+#[cfg(feature = "tui")]
+#[test]
+#[ignore = "prints a ratio of times"]
+fn drawing_costs_the_simulation() {
+    use asperity::tui::app::{App, Setup};
+    use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
+    use asperity::tui::view;
+    use ratatui::backend::CrosstermBackend;
+    use ratatui::layout::Rect;
+    use ratatui::{Terminal, TerminalOptions, Viewport};
+
+    let scene = Arc::new(Scene::load("demonstration").unwrap());
+    let plan = Plan::new(&scene).unwrap();
+    let request = Request {
+        name: "test".to_owned(),
+        scene: scene.clone(),
+        plan: plan.clone(),
+        threads: 2,
+        watchers: Vec::new(),
+        ending: Ending::OnStop,
+    };
+    let session = Session::start(request).unwrap();
+    wait_for(&session, |session| session.status().steps > 8);
+    let mut app = App::new(Setup {
+        scene,
+        load_n: plan.force_n,
+        half_width_m: plan.hertz.a_m,
+        p_hertz_pa: plan.hertz.p_max_pa,
+        plan_text: plan.to_string(),
+        left_out: Vec::new(),
+        errands: Vec::new(),
+        theme: Theme::new(Capabilities {
+            depth: ColorDepth::True,
+            glyphs: Glyphs::Unicode,
+        }),
+    });
+    let options = TerminalOptions {
+        viewport: Viewport::Fixed(Rect::new(0, 0, 160, 48)),
+    };
+    let backend = CrosstermBackend::new(std::io::sink());
+    let mut terminal = Terminal::with_options(backend, options).unwrap();
+    let latest = session.latest();
+    let (mut steps, mut drawing, mut frames) = ([0, 0], Duration::ZERO, 0_u32);
+    let began = Instant::now();
+    for turn in 0..16 {
+        let watched = turn % 2;
+        let (from, until) = (
+            session.status().steps,
+            Instant::now() + Duration::from_millis(500),
+        );
+        while Instant::now() < until {
+            if watched == 1 {
+                let now = Instant::now();
+                app.tick(began.elapsed());
+                if let Some(frame) = latest.take() {
+                    app.take_frame(frame);
+                }
+                terminal.draw(|frame| view::draw(&app, frame)).unwrap();
+                drawing += now.elapsed();
+                frames += 1;
+            }
+            std::thread::sleep(Duration::from_millis(22));
+        }
+        steps[watched] += session.status().steps - from;
+    }
+    session.send(Command::Stop);
+    session.join().unwrap();
+    println!(
+        "steps in 4 s: {} unwatched, {} watched ({:+.1} %); {:.2} ms a frame, {frames} frames",
+        steps[0],
+        steps[1],
+        100.0 * (steps[1] as f64 / steps[0] as f64 - 1.0),
+        1e3 * drawing.as_secs_f64() / f64::from(frames)
+    );
+}

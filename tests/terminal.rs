@@ -271,3 +271,60 @@ fn a_terminal_that_vanishes_ends_it() {
         std::thread::sleep(Duration::from_millis(20));
     }
 }
+
+/// Printed for a quiet machine: frames a second of the screen at 160 x 48 with the default scene on all cores,
+/// and how long a key takes to the screen. A frame is a burst of bytes with a pause before it.
+#[test]
+#[ignore = "prints times"]
+fn frames_a_second_and_input_to_screen() {
+    let mut terminal = Terminal::open(&[("COLORTERM", "truecolor")]);
+    terminal.resize(160, 48);
+    let began = Instant::now();
+    terminal.explore("\"$ASPERITY\" explore --no-record");
+    println!(
+        "first frame after {:.0?} (a shell included)",
+        began.elapsed()
+    );
+    // No replay: the run keeps all cores busy.
+    terminal.wait("passage", |screen| screen.contents().contains("passage 0."));
+    let (mut frames, mut last, began) = (0, String::new(), Instant::now());
+    let mut longest = Duration::ZERO;
+    let mut since = Instant::now();
+    while began.elapsed() < Duration::from_secs(3) {
+        let now = terminal.text();
+        if now != last {
+            frames += 1;
+            longest = longest.max(since.elapsed());
+            since = Instant::now();
+            last = now;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    println!(
+        "frames that changed: {:.1} a second, longest pause {longest:.0?}",
+        f64::from(frames) / began.elapsed().as_secs_f64()
+    );
+    let mut waits: Vec<Duration> = Vec::new();
+    for press in 0..200 {
+        // The speed's dial, up and down, so that nothing is far from home.
+        let (key, shown) = if press % 2 == 0 {
+            ("l", "0.55")
+        } else {
+            ("h", "0.50")
+        };
+        let pressed = Instant::now();
+        terminal.press(key);
+        terminal.wait("value", |screen| {
+            let row = screen.contents();
+            row.lines().nth(2).is_some_and(|line| line.contains(shown))
+        });
+        waits.push(pressed.elapsed());
+        std::thread::sleep(Duration::from_millis(7 + press % 13));
+    }
+    waits.sort_unstable();
+    println!(
+        "key to screen: median {:.1?}, p99 {:.1?}, longest {:.1?}",
+        waits[100], waits[197], waits[199]
+    );
+    terminal.press("q");
+}

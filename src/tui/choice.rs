@@ -69,9 +69,21 @@ impl Choice {
 
     /// What a draft has chosen, in words.
     pub fn shown(self, draft: &Draft, units: Units) -> String {
-        let scene = &draft.scene;
         match self {
             Self::Preset => draft.preset.unwrap_or("as it is").to_owned(),
+            other => other.of_scene(&draft.scene, units),
+        }
+    }
+
+    /// Shortest wave of a body's roughness along x or y, m.
+    pub fn wave_m(scene: &Scene, body: usize) -> Option<f64> {
+        wavelength(surface(scene, body))
+    }
+
+    /// What a scene has, in words.
+    pub fn of_scene(self, scene: &Scene, units: Units) -> String {
+        match self {
+            Self::Preset => scene.title.clone(),
             Self::Lay(body) => match lay(surface(scene, body)) {
                 Lay::Smooth => "smooth",
                 Lay::Transverse => "transverse",
@@ -82,12 +94,8 @@ impl Choice {
             .to_owned(),
             Self::Wavelength(body) => match wavelength(surface(scene, body)) {
                 Some(wave_m) => {
-                    let a_m = scene.hertz().a_m;
-                    format!(
-                        "{}  W/a {}",
-                        units.length().show(wave_m, 3),
-                        sig(wave_m / a_m, 2)
-                    )
+                    let over_a = sig(wave_m / scene.hertz().a_m, 2);
+                    format!("{}  W/a {over_a}", units.length().show(wave_m, 3))
                 }
                 None => "no wave".to_owned(),
             },

@@ -152,7 +152,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('p'), Action::PointQuantity)],
         "p",
-        "point: pressure, shear, stress",
+        "point: p, shear, stress",
         Group::Show,
     ),
     row(
@@ -196,7 +196,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('e'), Action::Scene), (key(KeyCode::Enter), Action::Run)],
         "e ⏎",
-        "other scene, lay, wave, oil, model; run it",
+        "other scene, lay, oil, model",
         Group::Program,
     ),
     row(

@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::run::{Command, Settled, SweepPoint};
-use crate::sim::{Follow, Frame};
+use crate::sim::Follow;
 use crate::tui::app::{App, AutoReplay, Effect, LifePoint, Pace};
 use crate::tui::replay::{Motion, Replay};
-use crate::tui::trace::{Trace, TraceSample};
+use crate::tui::trace::{Chosen, Trace, TraceSample};
 
 /// Values of S that a sweep visits, of either sign: close where life falls fastest.
 const SWEPT: [f64; 10] = [0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
@@ -99,7 +99,6 @@ impl App {
             return Vec::new();
         };
         self.back = 0;
-        self.aim_point(replay.frame().clone().as_ref());
         self.replay = Some(replay);
         self.retrace();
         self.paused_first()
@@ -170,33 +169,37 @@ impl App {
             .is_some_and(|replay| replay.motion() == Motion::Frozen)
     }
 
-    /// The depth index that is nearest to what the run shows, before anything was chosen here.
-    fn aim_point(&mut self, frame: &Frame) {
-        let (Some(point), Some(slice)) = (&frame.material_point, &frame.slice) else {
-            return;
-        };
-        let nearest = |z: &&f64| **z < point.depth_m * (1.0 - 1e-6);
-        self.point.depth = slice.depths_m.iter().take_while(nearest).count();
-        self.point.body = point.body;
+    /// The point that was chosen; before that the one that the run shows.
+    fn aimed(&mut self) -> &mut Chosen {
+        let shown = self.frame().and_then(|frame| {
+            let (point, slice) = (frame.material_point?, frame.slice.as_ref()?);
+            let above = |z: &&f64| **z < point.depth_m * (1.0 - 1e-6);
+            Some(Chosen {
+                body: point.body,
+                depth: slice.depths_m.iter().take_while(above).count(),
+                place_m: 0.0,
+            })
+        });
+        self.point.get_or_insert(shown.unwrap_or_default())
     }
 
     fn retrace(&mut self) {
+        let point = *self.aimed();
         let Some(replay) = &self.replay else { return };
-        let trace = Trace::replayed(replay.settled(), self.point, replay.at_s());
+        let trace = Trace::replayed(replay.settled(), point, replay.at_s());
         self.trace = trace.unwrap_or_default();
     }
 
     pub(super) fn other_body(&mut self) -> Vec<Effect> {
-        self.follow_from_frame();
-        self.point.body = 3 - self.point.body;
+        let point = self.aimed();
+        point.body = 3 - point.body;
         self.followed(None)
     }
 
     pub(super) fn point_depth(&mut self, by: i32) -> Vec<Effect> {
-        self.follow_from_frame();
-        let depths = self.depths();
-        let last = depths.saturating_sub(1) as i32;
-        self.point.depth = (self.point.depth as i32 + by).clamp(0, last) as usize;
+        let last = self.depths().saturating_sub(1) as i32;
+        let point = self.aimed();
+        point.depth = (point.depth as i32 + by).clamp(0, last) as usize;
         self.followed(None)
     }
 
@@ -217,24 +220,13 @@ impl App {
     }
 
     fn put_point_m(&mut self, x_m: f64) -> Vec<Effect> {
-        self.follow_from_frame();
         let here = self.trace.current().last().map(|sample| sample.x_m);
         if let (Some(replay), Some(here)) = (&self.replay, here) {
             // Bodies that run towards −x enter on the other side.
             let heading = replay.frame().metrics.entrainment_m_s.signum();
-            self.point.place_m += heading * (x_m - here);
-            self.retrace();
+            self.aimed().place_m += heading * (x_m - here);
         }
         self.followed(Some(x_m))
-    }
-
-    /// What the run shows is where a choice begins.
-    fn follow_from_frame(&mut self) {
-        if self.replay.is_none()
-            && let Some(frame) = self.frame().cloned()
-        {
-            self.aim_point(&frame);
-        }
     }
 
     fn depths(&self) -> usize {
@@ -245,12 +237,13 @@ impl App {
     /// Tells the run which point is followed.
     fn followed(&mut self, x_m: Option<f64>) -> Vec<Effect> {
         self.retrace();
+        let point = *self.aimed();
         let slice = self.frame().and_then(|frame| frame.slice.as_ref());
-        let Some(depth_m) = slice.and_then(|s| s.depths_m.get(self.point.depth).copied()) else {
+        let Some(depth_m) = slice.and_then(|s| s.depths_m.get(point.depth).copied()) else {
             self.say("no stress is computed, so only the pressure can be followed");
             return Vec::new();
         };
-        let body = self.point.body;
+        let body = point.body;
         vec![Effect::Send(Command::Follow(Follow { body, depth_m, x_m }))]
     }
 

@@ -8,6 +8,8 @@ pub enum MapKind {
     Pressure,
     /// Film thickness.
     Film,
+    /// Film thickness as white light shows it between glass and steel.
+    Fringes,
     /// Contact spots over the pressure.
     Contact,
     /// Sum of both roughnesses.
@@ -18,9 +20,10 @@ pub enum MapKind {
 
 impl MapKind {
     /// All maps in the order of the key.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Pressure,
         Self::Film,
+        Self::Fringes,
         Self::Contact,
         Self::Roughness,
         Self::Stress,
@@ -31,6 +34,7 @@ impl MapKind {
         match self {
             Self::Pressure => "pressure",
             Self::Film => "film",
+            Self::Fringes => "interferogram",
             Self::Contact => "contact spots",
             Self::Roughness => "roughness",
             Self::Stress => "stress below",

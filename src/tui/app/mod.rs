@@ -164,8 +164,8 @@ pub struct App {
     pub(crate) replay: Option<Replay>,
     /// Whether a passage that repeats is replayed without being asked.
     auto_replay: AutoReplay,
-    /// The material point of the replay.
-    pub(crate) point: Chosen,
+    /// The material point that was chosen, or that a replay began with.
+    pub(crate) point: Option<Chosen>,
     pub(crate) tour: Option<TourState>,
     /// The lesson's scene that runs; `None`: the user's own.
     staged: Option<Staging>,
@@ -218,7 +218,7 @@ impl App {
             held: None,
             replay: None,
             auto_replay: AutoReplay::default(),
-            point: Chosen::default(),
+            point: None,
             tour: None,
             staged: None,
             own_scene: Arc::clone(&setup.scene),

@@ -209,6 +209,7 @@ fn hints(app: &App) -> Vec<(&'static str, &'static str)> {
         ("space", "pause"),
         ("b", "pin"),
         ("t", "tour"),
+        ("e", "scene"),
     ];
     if app.offers(ErrandKind::Record) {
         hints.push(("r", "record"));
