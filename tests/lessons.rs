@@ -65,7 +65,7 @@ fn check(lesson: usize) {
         for claim in beat.claims {
             let value = claim.figure.of(&run.frame);
             println!(
-                "    {} = {value:.3?}, claimed {} to {}",
+                "    {} = {value:?}, claimed {} to {}",
                 claim.figure.name(),
                 claim.least,
                 claim.most

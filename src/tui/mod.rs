@@ -171,6 +171,9 @@ impl Show<'_> {
         self.app.take_status(status);
         let mut effects = Vec::new();
         if let Some(frame) = self.wiring.frames.take() {
+            let mut points = Vec::new();
+            self.wiring.frames.take_points(&mut points);
+            self.app.take_points(&points, frame.a_m);
             effects = self.app.take_frame(frame);
         }
         effects.extend(self.app.take_settled((self.wiring.settled)()));

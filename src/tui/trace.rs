@@ -199,6 +199,9 @@ impl Trace {
             self.body = point.body;
             self.depth_m = point.depth_m;
         }
+        if self.current.last() == Some(&sample) {
+            return;
+        }
         if let Some(last) = self.current.last() {
             let jumped = (sample.x_m - last.x_m).abs() > half_width_m;
             if jumped || sample.cycles < last.cycles {

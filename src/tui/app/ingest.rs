@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::physics::estimate::{Anchor, OperatingPoint};
-use crate::sim::{Frame, Stage};
+use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::tui::app::held::SAME_S;
 use crate::tui::app::{App, Effect, LifePoint, LifeSample, Ranges};
 use crate::tui::dial::{Dial, knob_target, knob_value};
@@ -48,6 +48,16 @@ impl App {
         self.refresh_estimate();
         let passages = self.passages();
         self.tour_on(passages)
+    }
+
+    /// Takes the material points of all steps since the last frame: the screen is slower than the run, and a
+    /// crossing that is sampled by the screen would lose its teeth.
+    pub fn take_points(&mut self, points: &[MaterialPoint], a_m: f64) {
+        if self.replay.is_none() {
+            for point in points {
+                self.trace.push(point, a_m);
+            }
+        }
     }
 
     fn take_knobs(&mut self, frame: &Frame) {
