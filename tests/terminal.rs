@@ -116,7 +116,10 @@ impl Terminal {
 
     /// The shell has its terminal back: no second screen, a cursor, no mouse, lines that echo.
     fn is_given_back(&mut self, code: &str) {
-        self.wait("first screen", |screen| !screen.alternate_screen());
+        self.wait("prompt", |screen| {
+            let text = screen.contents();
+            !screen.alternate_screen() && text.trim_end().ends_with("READY>")
+        });
         // The words are put together by the shell, so that the line as typed does not hold them.
         self.press("stty -a | tr ' ;' '\\n\\n' | grep -xE -e '-?(icanon|echo)' | tr '\\n' ' '; echo en''d\n");
         self.wait("answer", |screen| {

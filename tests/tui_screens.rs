@@ -638,6 +638,9 @@ fn swept_lives_fill_the_curve_with_their_bands() {
     );
     assert_eq!(dots(&app), before + 3);
     insta::assert_snapshot!("swept_160x48", text(&app, 160, 48));
+    app.apply(Action::Curve);
+    insta::assert_snapshot!("friction_160x48", text(&app, 160, 48));
+    app.apply(Action::Curve);
     // Another load is another curve.
     let heavier = State {
         load_n: 900.0,

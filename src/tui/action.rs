@@ -60,6 +60,8 @@ pub enum Action {
     MovePoint(i32),
     /// The point that is now at x/a.
     PutPoint(f64),
+    /// Life against S, or friction against S.
+    Curve,
     /// Replay the period of a passage that repeats, or go on with the run.
     Replay,
     /// Replay twice as fast (1) or half as fast (−1).

@@ -219,6 +219,7 @@ impl TourState {
     }
 
     /// Same beat, which begins anew at so many passages.
+    #[must_use]
     pub fn anew(&self, passages: f64) -> Self {
         Self {
             since: passages,

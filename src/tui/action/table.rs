@@ -180,6 +180,12 @@ pub const KEYS: &[Row] = &[
         "pin to compare; forget it",
         Group::Show,
     ),
+    row(
+        &[(ch('y'), Action::Curve)],
+        "y",
+        "curve: life or friction",
+        Group::Show,
+    ),
     row(&[(ch('u'), Action::Units)], "u", "other units", Group::Show),
     row(
         &[(ch('c'), Action::Contrast)],

@@ -79,6 +79,25 @@ impl PointQuantity {
     }
 }
 
+/// What is drawn against S.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Curve {
+    /// Relative life, logarithmic.
+    #[default]
+    Life,
+    /// Friction coefficient.
+    Friction,
+}
+
+impl Curve {
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::Life => Self::Friction,
+            Self::Friction => Self::Life,
+        }
+    }
+}
+
 /// Whether a passage that repeats is replayed of itself, which leaves the cores to the sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AutoReplay {

@@ -25,7 +25,7 @@ use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
 use crate::tui::wiring::{Health, LeftOut, RunStatus};
 pub use held::PointNow;
-pub use kinds::{AutoReplay, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
+pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
 /// What a key does outside of the screen and the run, where the program offers it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -143,6 +143,7 @@ pub struct App {
     pub(crate) map: MapKind,
     pub(crate) zoom: Zoom,
     pub(crate) quantity: PointQuantity,
+    pub(crate) curve: Curve,
     pub(crate) overlay: Overlay,
     /// Rows that the plan has been moved up.
     pub(crate) scroll: u16,
@@ -203,6 +204,7 @@ impl App {
             map: MapKind::default(),
             zoom: Zoom::default(),
             quantity: PointQuantity::default(),
+            curve: Curve::default(),
             overlay: Overlay::default(),
             scroll: 0,
             pace: Pace::default(),

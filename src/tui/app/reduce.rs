@@ -65,6 +65,7 @@ impl App {
             Action::Unpin => self.pinned = None,
             Action::PointQuantity => self.quantity = self.quantity.next(),
             Action::ReplayFaster(times) => self.replay_faster(times),
+            Action::Curve => self.curve = self.curve.other(),
             Action::Units => self.units = self.units.next(),
             Action::Contrast => self.theme.next_contrast(),
             Action::Help => self.toggle(Overlay::Help),

@@ -17,6 +17,7 @@ impl App {
         self.units = old.units;
         (self.theme, self.now, self.message) = (old.theme, old.now, old.message);
         (self.map, self.zoom, self.quantity) = (old.map, old.zoom, old.quantity);
+        self.curve = old.curve;
         self.pinned = old.pinned.filter(|_| same_contact);
         (self.staged, self.own_scene) = (old.staged, old.own_scene);
         self.tour = old.tour.map(|tour| tour.anew(0.0));
@@ -91,12 +92,11 @@ impl App {
 
     fn begin_lesson(&mut self, lesson: usize) -> Vec<Effect> {
         self.tour = TourState::begin(lesson, self.passages());
-        match self.tour {
-            Some(tour) => self.play(tour),
-            None => {
-                self.say("that was the last lesson");
-                self.end_tour()
-            }
+        if let Some(tour) = self.tour {
+            self.play(tour)
+        } else {
+            self.say("that was the last lesson");
+            self.end_tour()
         }
     }
 

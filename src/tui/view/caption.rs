@@ -63,15 +63,11 @@ fn figures(app: &App, claims: &[Claim]) -> String {
     let Some(frame) = app.frame() else {
         return String::new();
     };
-    claims.iter().fold(String::new(), |mut text, claim| {
+    let shown = |claim: &Claim| {
         let value = claim.figure.of(frame);
-        text.push_str(&format!(
-            "   {} {}",
-            claim.figure.name(),
-            sig_or_dash(value, 3)
-        ));
-        text
-    })
+        format!("   {} {}", claim.figure.name(), sig_or_dash(value, 3))
+    };
+    claims.iter().map(shown).collect()
 }
 
 fn longest(beats: &[Beat]) -> usize {

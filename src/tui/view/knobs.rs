@@ -318,7 +318,7 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
         put_right(area, row, &Line::styled(value, theme.style(*role)), buffer);
     }
     let below = lines.len() as u16 + 1;
-    let below = below + fixed(app, &area, below, buffer);
+    let below = below + fixed(app, area, below, buffer);
     for (row, (name, meaning)) in SYMBOLS.iter().enumerate() {
         let line = Line::from(vec![
             Span::styled(
@@ -332,7 +332,7 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// What only a new run changes (`e`); the rows used.
-fn fixed(app: &App, area: &Rect, from: u16, buffer: &mut Buffer) -> u16 {
+fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
     let theme = app.theme;
     let scene = &app.setup.scene;
     let shown = |choice: Choice| choice.of_scene(scene, app.units);
@@ -350,9 +350,9 @@ fn fixed(app: &App, area: &Rect, from: u16, buffer: &mut Buffer) -> u16 {
             Span::styled("e ", theme.style(Role::Key)),
             Span::styled(*name, theme.style(Role::Dim)),
         ]);
-        put(*area, row, &name, buffer);
+        put(area, row, &name, buffer);
         let value = Line::styled(ascii_text(theme, value), theme.style(*role));
-        put_right(*area, row, &value, buffer);
+        put_right(area, row, &value, buffer);
     }
     lines.len() as u16 + 1
 }
