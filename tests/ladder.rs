@@ -131,10 +131,8 @@ fn run(stiff: Stiff, steps: u64, more: &[&str]) -> Outcome {
     outcome
 }
 
-/// Deepest overlap that the film's tolerance leaves at a node, nm. Films are judged against one nanometre where
-/// they are thinner, half a per cent of it in the mean; single nodes of waves of 8 nodes are found at up to
-/// 0.22 nm, a seven-thousandth of their amplitude. Half of that nanometre is too much.
-const OVERLAP_NM: f64 = 0.5;
+/// Deepest overlap that the film's tolerance leaves, nm: a fifteen-thousandth of the waves' amplitude.
+const OVERLAP_NM: f64 = 0.1;
 
 fn table(cases: &[Stiff], steps: u64) {
     println!(

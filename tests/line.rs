@@ -1,5 +1,7 @@
 //! Line contacts: one row, logarithmic kernel, against closed forms and computed values.
 
+mod contact;
+
 use std::f64::consts::{PI, TAU};
 
 use asperity::math::grid::{Grid, Symmetry};
@@ -11,6 +13,7 @@ use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{NewtonReport, Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
 use asperity::solve::stress::{LineStress, SliceOut};
+use contact::Fluid;
 
 /// κ = 2 p_h R/(π E' b) with p_h = E' b/(4R).
 const LINE: Shape = Shape {
@@ -81,14 +84,6 @@ fn dry_hertz() {
     assert!(errors[0] < 1e-3 && errors[2] < 2e-4, "{errors:?}");
 }
 
-/// Fluids of the reference table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Fluid {
-    BarusIncompressible,
-    /// η0 = 0.04 Pa s, α = 2.2e-8 1/Pa.
-    RoelandsDowsonHigginson,
-}
-
 const TOLERANCE: Tolerance = Tolerance {
     pressure: 1e-4,
     film: 1e-4,
@@ -106,26 +101,8 @@ struct Case {
 
 impl Case {
     fn moes(m: f64, l: f64, fluid: Fluid, domain: (f64, f64)) -> Self {
-        let alpha = 2.2e-8;
-        let p_hertz = l * (m / TAU).sqrt() / alpha;
-        let (viscosity, density) = match fluid {
-            Fluid::BarusIncompressible => {
-                (Viscosity::barus(alpha, p_hertz), Density::Incompressible)
-            }
-            Fluid::RoelandsDowsonHigginson => (
-                Viscosity::roelands(0.04, alpha, p_hertz),
-                Density::DowsonHigginson {
-                    p_hertz_gpa: p_hertz * 1e-9,
-                },
-            ),
-        };
         Self {
-            medium: Medium {
-                viscosity,
-                density,
-                lambda: 3.0 * PI * PI / (8.0 * m * m),
-                sliding: 0.0,
-            },
+            medium: fluid.medium(l * (m / TAU).sqrt(), 3.0 * PI * PI / (8.0 * m * m)),
             domain,
         }
     }

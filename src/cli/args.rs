@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::scene::presets;
+use asperity::study::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
 const ABOUT: &str =
@@ -35,6 +36,35 @@ Examples:
 Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not converge (they are named);
 3 it stalled; 4 an output failed.";
 
+const SWEEP_ABOUT: &str = "\
+Run many cases of a scene, and write one table with a row each, and pictures.
+
+A sweep file names a scene and what varies: [vary] takes any keys of a scene, each with a list of values or a
+range { from, to, n, spacing = \"linear\" or \"log\" }. Several keys make a grid (every combination; the default)
+or, with combine = \"list\", go side by side. Instead of [vary], [gear] follows a tooth along its line of action,
+[race] a ball through its loaded zone, [cam] a cam's flank. asperity sweep slide_roll --print shows a file.
+
+Cases that differ only in S or an amplitude start from each other's end, along chains of [chain] longest cases; a
+chain begins cold. Chains are fixed by the file alone and are what shards are made of, so the table is the same byte
+for byte whatever --shard, --threads and interruptions. Every case is written whole or not at all: after a kill,
+--resume goes on.";
+
+const SWEEP_EXAMPLES: &str = "\
+Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.
+
+Examples:
+  asperity sweep slide_roll                      21 values of S of the default scene, into ./slide_roll.sweep/
+  asperity sweep slide_roll --print > mine.toml  a file to edit
+  asperity sweep mine.toml --resume              goes on after a kill
+  asperity sweep mine.toml --shard 3/8           the third of eight parts, on this machine or another
+  asperity sweep collect mine.sweep              the table of parts that share a folder
+  asperity sweep collect one.sweep two.sweep --out all.sweep
+  asperity sweep slide_roll --compare-cold       what the chains save, and what they cost in accuracy
+  asperity sweep fzg_c --points                  R, U1, U2, S, load, p_h, film along the path; no simulation
+
+Exit codes: 0 all converged; 1 bad input; 2 some cases did not converge; 3 some stalled, or cases are missing;
+4 an output failed.";
+
 /// The whole command line.
 #[derive(Debug, Parser)]
 #[command(
@@ -65,6 +95,7 @@ Examples:
   asperity run --passages 1 --save-state half.state
   asperity run --passages 2 --from-state half.state        goes on as if it had never stopped
   asperity run --export fields --export-every 32           pressure, film, stress for numpy
+  asperity run --export pictures --export-as png           the maps and the centre line as pictures
   asperity run --no-record --spawn                         shows it live in a viewer that it starts
   asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit")]
     Run(HeadlessArgs),
@@ -75,12 +106,22 @@ Examples:
         /// Preset to print
         name: Option<String>,
     },
-    /// Measure what results cost
+    /// Measure what results cost, what they are worth and where they end
     #[command(after_long_help = "\
+Each study prints its table and, with --out, writes it as Markdown and CSV, with plots as SVG where there are any.
+
 Examples:
-  asperity study scaling           cost of a step by grid, symmetry, threads and regime, some minutes
-  asperity study scaling --quick   half a minute")]
+  asperity study accuracy --out report      error against run time, part by part: CSV, Markdown, SVG
+  asperity study stability --quick          stiff and extreme cases, a part of them, within a minute
+  asperity study stability --only jump      the cases whose name or group says jump
+  asperity study pruning                    what leaving out stages gains, preset by preset
+  asperity study scaling                    cost of a step by grid, symmetry, threads and regime
+
+Exit codes: 0 as it must be; 2 something did not converge or lies beyond its bound (the table says what).")]
     Study(StudyArgs),
+    /// Run many cases of a scene: life maps, operating paths; one table, pictures
+    #[command(long_about = SWEEP_ABOUT, after_long_help = SWEEP_EXAMPLES)]
+    Sweep(SweepArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
         /// Recording, as written by run and explore
@@ -101,13 +142,86 @@ pub(crate) struct StudyArgs {
     /// The largest set of cases
     #[arg(long)]
     pub(crate) full: bool,
+    /// Folder for the report's files, made where it is missing
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Cases whose name or group holds this text only
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) only: Option<String>,
+    /// Cores to use [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+}
+
+impl StudyArgs {
+    /// Cores to use.
+    pub(crate) fn threads(&self) -> usize {
+        threads(self.threads)
+    }
 }
 
 /// The studies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum StudyKind {
+    /// Error against run time, part by part
+    Accuracy,
+    /// Stiff and extreme cases: converged or named
+    Stability,
+    /// What each stage that a plan leaves out would cost and change
+    Pruning,
+    /// Our side of the comparison with public codes, as CSV (tests/peers has the others')
+    Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
+}
+
+/// Which sweep, and how to run it.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub(crate) struct SweepArgs {
+    #[command(subcommand)]
+    pub(crate) command: Option<SweepCommand>,
+    /// Built-in sweep, or TOML file
+    #[arg(required = true)]
+    pub(crate) sweep: Option<String>,
+    /// Part of the sweep to run: i of n, from 1
+    #[arg(long, value_name = "I/N", default_value = "1/1")]
+    pub(crate) shard: Shard,
+    /// Folder for cases, table and pictures [default: ./NAME.sweep]
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Go on where the folder's cases end
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Throw away the cases that the folder holds
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Chains at a time, one thread each [default: all cores]; the table does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+    /// Then run every case cold as well, as asperity run would, and print what the chains save
+    #[arg(long, conflicts_with = "shard")]
+    pub(crate) compare_cold: bool,
+    /// Print the sweep's file and do nothing
+    #[arg(long)]
+    pub(crate) print: bool,
+    /// Print what is known of every case by closed forms, as CSV, and do nothing
+    #[arg(long)]
+    pub(crate) points: bool,
+}
+
+/// What else there is to do with a sweep.
+#[derive(Debug, Subcommand)]
+pub(crate) enum SweepCommand {
+    /// Merge the cases of shards into one table, and name what is missing
+    Collect {
+        /// Folders that shards have filled
+        #[arg(required = true, value_name = "FOLDER")]
+        folders: Vec<PathBuf>,
+        /// Folder for table and pictures [default: the first]
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
+    },
 }
 
 /// Which scene.
@@ -135,9 +249,19 @@ pub(crate) struct RunArgs {
     /// Table to write: every scalar of every step, as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) table: Option<PathBuf>,
-    /// Folder for fields of chosen steps as numpy archives (step_000016.npz, ...), with the scene beside them
+    /// Folder for fields of chosen steps (step_000016.npz, ... or pictures), with the scene beside them
     #[arg(long, value_name = "FOLDER")]
     pub(crate) export: Option<PathBuf>,
+    /// What to export of a step: fields as numpy archives, maps and centre line as pictures, or both
+    #[arg(
+        long,
+        value_name = "FORMATS",
+        value_enum,
+        value_delimiter = ',',
+        default_value = "npz",
+        requires = "export"
+    )]
+    pub(crate) export_as: Vec<ExportAs>,
     /// Steps between two exported ones
     #[arg(long, value_name = "N", default_value_t = 16, requires = "export",
         value_parser = clap::value_parser!(u64).range(1..))]
@@ -165,6 +289,15 @@ pub(crate) struct RunArgs {
     /// Replace output files that exist
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+/// What is exported of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ExportAs {
+    /// Fields as numpy archives
+    Npz,
+    /// Maps and centre line as pictures
+    Png,
 }
 
 /// A run without a screen, which may be saved and taken up again.
@@ -207,6 +340,7 @@ impl RunArgs {
             out: None,
             table: None,
             export: None,
+            export_as: vec![ExportAs::Npz],
             export_every: 16,
             summary: None,
             threads: None,
@@ -231,11 +365,16 @@ impl RunArgs {
 
     /// Worker threads.
     pub(crate) fn threads(&self) -> usize {
-        self.threads.map_or_else(
-            || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-            usize::from,
-        )
+        threads(self.threads)
     }
+}
+
+/// As many as asked for, or one for each core.
+fn threads(asked: Option<u16>) -> usize {
+    asked.map_or_else(
+        || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+        usize::from,
+    )
 }
 
 #[cfg(test)]

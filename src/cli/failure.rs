@@ -7,6 +7,7 @@ use asperity::observe::ObserveError;
 use asperity::plan::PlanError;
 use asperity::run::{CheckpointError, RunError};
 use asperity::scene::SceneError;
+use asperity::study::sweep::SweepError;
 use miette::{MietteHandlerOpts, Report, miette};
 
 /// An error with its exit code.
@@ -116,6 +117,30 @@ impl From<CheckpointError> for Failure {
             help = "a run goes on with the scene and settings that it was saved with; only --passages and outputs may differ",
             "{error}"
         ))
+    }
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        match &error {
+            SweepError::File { .. } => Self::input(miette!(
+                code = "sweep",
+                help = "asperity sweep --help explains the file, asperity sweep slide_roll --print shows one",
+                "{error}"
+            )),
+            SweepError::Case { .. } | SweepError::Plan { .. } => Self::input(miette!(
+                code = "sweep",
+                help = "every case is checked before the first runs; asperity check SCENE prints the plan of one",
+                "{error}"
+            )),
+            SweepError::Incomplete { .. } => Self::stalled(miette!(
+                code = "sweep",
+                help = "asperity sweep SWEEP --resume computes what is missing",
+                "{error}"
+            )),
+            SweepError::Folder { .. } => Self::output(miette!(code = "output", "{error}")),
+            SweepError::Threads(_) => Self::stalled(miette!(code = "run", "{error}")),
+        }
     }
 }
 

@@ -12,6 +12,7 @@ mod report;
 mod run;
 mod scenes;
 mod study;
+mod sweep;
 mod view;
 
 use std::io::IsTerminal as _;
@@ -48,6 +49,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
         Some(Command::Check(args)) => scenes::check(&args),
         Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
         Some(Command::Study(args)) => study::study(&args),
+        Some(Command::Sweep(args)) => sweep::sweep(&args),
         Some(Command::View { file }) => view::view(&file),
     }
 }

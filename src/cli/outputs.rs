@@ -4,11 +4,11 @@ use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use asperity::observe::{Export, ObserveError, Overwrite, Queue, Table, WhenFull};
+use asperity::observe::{Export, Format, ObserveError, Overwrite, Queue, Table, WhenFull};
 use asperity::run::{Switch, Watcher};
 use asperity::sim::Summary;
 
-use super::args::RunArgs;
+use super::args::{ExportAs, RunArgs};
 use super::failure::Failure;
 #[cfg(feature = "rerun")]
 use super::live;
@@ -76,7 +76,12 @@ impl Outputs {
                 .push(Watcher::new(name, Box::new(table), 1));
         }
         if let Some(folder) = &args.export {
-            let export = Export::create(folder, overwrite)?;
+            let formats = args.export_as.iter().map(|format| match format {
+                ExportAs::Npz => Format::Npz,
+                ExportAs::Png => Format::Png,
+            });
+            let formats: Vec<Format> = formats.collect();
+            let export = Export::create(folder, overwrite, &formats)?;
             let name = folder.display().to_string();
             let queue = Queue::spawn("export", FILES_WAITING, pace.when_full(), Box::new(export))?;
             let every = args.export_every;

@@ -41,6 +41,9 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
             report.output, report.frames
         );
         line(&mut text, "written", &what);
+        if let Some(queue) = &report.queue {
+            line(&mut text, "", &queue.to_string());
+        }
     }
     text
 }

@@ -164,7 +164,7 @@ fn refuse_recording_without_recorder(args: &RunArgs) -> Result<(), Failure> {
 }
 
 /// Ctrl-C or a request to end stops the run after its step; a second one ends the program at once.
-fn stop_on_signals() -> Result<Arc<AtomicBool>, Failure> {
+pub(crate) fn stop_on_signals() -> Result<Arc<AtomicBool>, Failure> {
     let asked = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&asked);
     ctrlc::set_handler(move || {

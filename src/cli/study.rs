@@ -1,39 +1,165 @@
-//! `asperity study`: progress on stderr, the table on stdout.
+//! `asperity study`: progress on stderr, the report on stdout and, where asked for, in files.
 
-use asperity::study::{Extent, scaling, scaling_text};
+use std::path::Path;
+
+use asperity::study::accuracy::{
+    accuracy, accuracy_table, accuracy_text, life_plot, work_precision_plot,
+};
+use asperity::study::pruning::{PruningRow, pruning, pruning_table, pruning_text};
+use asperity::study::stability::{stability, stability_table, stability_text};
+use asperity::study::{Extent, StudyError, machine, peers, scaling, scaling_text};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::{StudyArgs, StudyKind};
 use super::failure::Failure;
 use super::scenes::print;
 
-/// Runs a study and prints its report.
+/// What a study leaves: files by name, the report first.
+struct Report {
+    files: Vec<(String, String)>,
+    passes: bool,
+}
+
+/// Runs a study, prints its report and writes its files.
 pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
-    match args.kind {
-        StudyKind::Scaling => {
-            let extent = match (args.quick, args.full) {
-                (true, _) => Extent::Quick,
-                (_, true) => Extent::Full,
-                _ => Extent::Usual,
-            };
-            let bar = ProgressBar::new(0);
-            if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}")
-            {
-                bar.set_style(style);
-            }
-            let rows = scaling(extent, &mut |name, n, all| {
-                bar.set_length(all as u64);
-                bar.set_position(n as u64);
-                bar.set_message(name.to_owned());
-            });
-            bar.finish_and_clear();
-            let rows = rows.map_err(|error| Failure::input(miette::miette!("{error}")))?;
-            print(&scaling_text(&rows));
-            Ok(if rows.iter().any(|row| row.failed > 0) {
-                2
-            } else {
-                0
-            })
+    let bar = Bar::new();
+    let report = match args.kind {
+        StudyKind::Accuracy => accurate(args, &bar),
+        StudyKind::Peers => compares(args, &bar),
+        StudyKind::Pruning => prunes(args, &bar),
+        StudyKind::Stability => stable(args, &bar),
+        StudyKind::Scaling => scales(args, &bar),
+    };
+    bar.0.finish_and_clear();
+    let report = report.map_err(|error| Failure::input(miette::miette!("{error}")))?;
+    if let Some((_, text)) = report.files.first() {
+        print(text);
+    }
+    if let Some(folder) = &args.out {
+        write(folder, &report.files)?;
+    }
+    Ok(if report.passes { 0 } else { 2 })
+}
+
+fn accurate(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let result = accuracy(extent(args), args.threads(), &mut |name, n, all| {
+        bar.tell(name, n, all);
+    })?;
+    let text = headed("Accuracy", args, &accuracy_text(&result));
+    let mut files = vec![
+        ("accuracy.md".to_owned(), text),
+        ("accuracy.csv".to_owned(), accuracy_table(&result).csv()),
+    ];
+    for (name, plot) in [
+        ("work_precision.svg", work_precision_plot(&result)),
+        ("life_error.svg", life_plot(&result)),
+    ] {
+        files.push((name.to_owned(), plot.map_err(StudyError::Plot)?));
+    }
+    Ok(Report {
+        files,
+        passes: result.passes(),
+    })
+}
+
+fn compares(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let table = peers(extent(args), &mut |name, n, all| bar.tell(name, n, all))?;
+    Ok(Report {
+        files: vec![("peers_asperity.csv".to_owned(), table.csv())],
+        passes: true,
+    })
+}
+
+fn prunes(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let only = args.only.as_deref();
+    let rows = pruning(extent(args), only, args.threads(), &mut |name, n, all| {
+        bar.tell(name, n, all);
+    })?;
+    let text = headed("Pruning", args, &pruning_text(&rows));
+    Ok(Report {
+        files: vec![
+            ("pruning.md".to_owned(), text),
+            ("pruning.csv".to_owned(), pruning_table(&rows).csv()),
+        ],
+        passes: rows.iter().all(PruningRow::is_harmless),
+    })
+}
+
+fn stable(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let only = args.only.as_deref();
+    let result = stability(extent(args), only, args.threads(), &mut |name, n, all| {
+        bar.tell(name, n, all);
+    })?;
+    let text = stability_text(&result);
+    Ok(Report {
+        files: vec![
+            ("stability.md".to_owned(), headed("Stability", args, &text)),
+            ("stability.csv".to_owned(), stability_table(&result).csv()),
+        ],
+        passes: result.passes(),
+    })
+}
+
+fn scales(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let rows = scaling(extent(args), &mut |name, n, all| bar.tell(name, n, all))?;
+    let text = headed("Scaling", args, &scaling_text(&rows));
+    Ok(Report {
+        files: vec![("scaling.md".to_owned(), text)],
+        passes: rows.iter().all(|row| row.failed == 0),
+    })
+}
+
+fn extent(args: &StudyArgs) -> Extent {
+    match (args.quick, args.full) {
+        (true, _) => Extent::Quick,
+        (_, true) => Extent::Full,
+        _ => Extent::Usual,
+    }
+}
+
+/// The report under its title, with the command that makes it and the machine that made it.
+fn headed(title: &str, args: &StudyArgs, text: &str) -> String {
+    let form = match extent(args) {
+        Extent::Quick => " --quick",
+        Extent::Usual => "",
+        Extent::Full => " --full",
+    };
+    format!(
+        "# {title}\n\n`asperity study {}{form}`, asperity {}, on {}, {} threads.\n\n{text}",
+        title.to_lowercase(),
+        env!("CARGO_PKG_VERSION"),
+        machine(),
+        args.threads(),
+    )
+}
+
+fn write(folder: &Path, files: &[(String, String)]) -> Result<(), Failure> {
+    let failed = |path: &Path, error: &std::io::Error| {
+        Failure::output(miette::miette!("{}: {error}", path.display()))
+    };
+    std::fs::create_dir_all(folder).map_err(|error| failed(folder, &error))?;
+    for (name, text) in files {
+        let path = folder.join(name);
+        std::fs::write(&path, text).map_err(|error| failed(&path, &error))?;
+    }
+    Ok(())
+}
+
+/// The progress bar; it draws on a terminal only.
+struct Bar(ProgressBar);
+
+impl Bar {
+    fn new() -> Self {
+        let bar = ProgressBar::new(0);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}") {
+            bar.set_style(style);
         }
+        Self(bar)
+    }
+
+    fn tell(&self, name: &str, done: usize, all: usize) {
+        self.0.set_length(all as u64);
+        self.0.set_position(done as u64);
+        self.0.set_message(name.to_owned());
     }
 }

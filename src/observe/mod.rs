@@ -5,15 +5,17 @@
 //! * [`FramePool`]: frames that are filled, shared and filled again without allocating.
 //! * [`Queue`]: runs an observer that may block on a thread of its own.
 //! * [`Table`]: every scalar of every step as CSV.
-//! * [`Export`]: fields of chosen steps as numpy archives.
+//! * [`Export`]: fields of chosen steps as numpy archives and pictures.
 //! * `rerun::Recorder` (feature `rerun`): the recording. No other folder names that crate.
 
 mod export;
 mod latest;
 mod pool;
 mod queue;
+mod ramp;
 #[cfg(feature = "rerun")]
 pub mod rerun;
+mod scales;
 mod table;
 
 use std::path::Path;
@@ -22,7 +24,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use export::Export;
+pub use export::{Export, Format};
 pub use latest::Latest;
 pub use pool::FramePool;
 pub use queue::{Queue, QueueStats, WhenFull};
@@ -177,6 +179,8 @@ pub struct ObserverReport {
     pub bytes: u64,
     /// What else is to be said, such as that a viewer was closed.
     pub note: String,
+    /// How the queue before it was used, if there was one.
+    pub queue: Option<QueueStats>,
 }
 
 /// Watches a run. Called on the simulation's thread (wrap in a queue what may block).
@@ -199,6 +203,13 @@ pub trait Observer: Send {
     /// Frames that it could not keep up with so far.
     fn skipped(&self) -> u64 {
         0
+    }
+    /// Nothing has come for a second (a queue calls it): what is held back may go on.
+    ///
+    /// # Errors
+    /// When the output failed.
+    fn idle(&mut self) -> Result<(), ObserveError> {
+        Ok(())
     }
     /// After the last frame: flush and close.
     ///

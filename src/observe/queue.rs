@@ -10,13 +10,16 @@ use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
 use crate::sim::Frame;
 
 /// Events that may wait besides the frames before they are treated like frames.
 const EVENT_CAPACITY: usize = 1024;
+
+/// After so long without a message the observer is told that it is idle.
+const IDLE: Duration = Duration::from_secs(1);
 
 /// How long the end of a run waits for an observer that may stall.
 const LAST_WAIT: Duration = Duration::from_secs(5);
@@ -37,10 +40,37 @@ pub struct QueueStats {
     pub max_depth: usize,
     /// Times that the sender had to wait for room.
     pub waits: u64,
+    /// How long it waited, all waits together.
+    pub waited: Duration,
     /// Frames that were not delivered because the queue was full.
     pub skipped: u64,
     /// Frames that were handed to the observer's thread.
     pub frames: u64,
+    /// Frames that the observer is done with.
+    pub done: u64,
+    /// How long the observer worked on them, by the clock.
+    pub busy: Duration,
+    /// Frames that may wait.
+    pub capacity: usize,
+}
+
+impl std::fmt::Display for QueueStats {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let busy = self.busy.as_secs_f64();
+        write!(
+            f,
+            "{} frames offered, {} taken, {} skipped; at most {} of {} waited; the run waited {} times, {:.2} s; \
+             {:.2} ms of work a frame",
+            self.frames + self.skipped,
+            self.done,
+            self.skipped,
+            self.max_depth,
+            self.capacity,
+            self.waits,
+            self.waited.as_secs_f64(),
+            1e3 * busy / self.done.max(1) as f64,
+        )
+    }
 }
 
 enum Message {
@@ -99,7 +129,11 @@ impl Queue {
         mut observer: Box<dyn Observer>,
     ) -> Result<Self, ObserveError> {
         let shared = Arc::new(Shared::default());
-        shared.lock().waiting.reserve(capacity.max(1) + 1);
+        let capacity = capacity.max(1);
+        let mut state = shared.lock();
+        state.waiting.reserve(capacity + 1);
+        state.stats.capacity = capacity;
+        drop(state);
         let on_thread = Arc::clone(&shared);
         let label = name.to_owned();
         let thread = std::thread::Builder::new()
@@ -112,7 +146,7 @@ impl Queue {
             shared,
             thread: Some(thread),
             name: name.to_owned(),
-            capacity: capacity.max(1),
+            capacity,
             when_full,
             patience: None,
         })
@@ -142,21 +176,24 @@ impl Queue {
     /// the queue counts as full for it.
     fn put(&self, message: Message, limit: usize, when_full: WhenFull) -> Result<(), ObserveError> {
         let mut state = self.shared.lock();
-        let mut waited = false;
+        let mut waits_since = None;
         while state.error.is_none() && !state.closed && state.waiting.len() >= limit {
             if when_full == WhenFull::Skip {
                 state.stats.skipped += u64::from(matches!(message, Message::Frame(_)));
                 return Ok(());
             }
-            if !waited {
+            if waits_since.is_none() {
                 state.stats.waits += 1;
-                waited = true;
+                waits_since = Some(Instant::now());
             }
             state = self
                 .shared
                 .emptied
                 .wait(state)
                 .unwrap_or_else(PoisonError::into_inner);
+        }
+        if let Some(since) = waits_since {
+            state.stats.waited += since.elapsed();
         }
         if let Some(error) = &state.error {
             return Err(error.clone());
@@ -195,6 +232,7 @@ impl Queue {
                 skipped: state.stats.skipped + waiting,
                 bytes: 0,
                 note: "it no longer took anything and was left alone".to_owned(),
+                queue: Some(state.stats),
             }
         })
     }
@@ -265,6 +303,7 @@ impl Observer for Queue {
             })
         })?;
         report.skipped += state.stats.skipped;
+        report.queue = Some(state.stats);
         Ok(report)
     }
 }
@@ -280,12 +319,23 @@ impl Drop for Queue {
     }
 }
 
+/// Whether the observer knows that it is idle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Told {
+    NotYet,
+    Idle,
+}
+
 /// The observer's thread: works off messages until it finishes, fails or panics.
 fn serve(shared: &Shared, observer: &mut dyn Observer, name: &str) {
+    let mut told = Told::NotYet;
     loop {
-        let message = next(shared);
-        let last = matches!(message, Message::Finish);
-        let outcome = catch_unwind(AssertUnwindSafe(|| deliver(shared, observer, message)));
+        let message = next(shared, &mut told);
+        let last = matches!(message, Some(Message::Finish));
+        let outcome = catch_unwind(AssertUnwindSafe(|| match message {
+            Some(message) => deliver(shared, observer, message),
+            None => observer.idle(),
+        }));
         let result = outcome.unwrap_or_else(|_| {
             Err(ObserveError::new(
                 name,
@@ -307,18 +357,34 @@ fn serve(shared: &Shared, observer: &mut dyn Observer, name: &str) {
     }
 }
 
-fn next(shared: &Shared) -> Message {
+/// The next message, or `None` when none has come for a while. A long pause is told once.
+fn next(shared: &Shared, told: &mut Told) -> Option<Message> {
     let mut state = shared.lock();
     loop {
         if let Some(message) = state.waiting.pop_front() {
             drop(state);
             shared.emptied.notify_all();
-            return message;
+            *told = Told::NotYet;
+            return Some(message);
         }
-        state = shared
-            .filled
-            .wait(state)
-            .unwrap_or_else(PoisonError::into_inner);
+        let nothing = |state: &mut State| state.waiting.is_empty();
+        state = match told {
+            Told::NotYet => {
+                let (state, wait) = shared
+                    .filled
+                    .wait_timeout_while(state, IDLE, nothing)
+                    .unwrap_or_else(PoisonError::into_inner);
+                if wait.timed_out() {
+                    *told = Told::Idle;
+                    return None;
+                }
+                state
+            }
+            Told::Idle => shared
+                .filled
+                .wait_while(state, nothing)
+                .unwrap_or_else(PoisonError::into_inner),
+        };
     }
 }
 
@@ -334,7 +400,14 @@ fn deliver(
             shared.emptied.notify_all();
             Ok(())
         }
-        Message::Frame(frame) => observer.frame(&frame),
+        Message::Frame(frame) => {
+            let since = Instant::now();
+            let written = observer.frame(&frame);
+            let stats = &mut shared.lock().stats;
+            stats.busy += since.elapsed();
+            stats.done += 1;
+            written
+        }
         Message::Event(event) => observer.event(&event),
         Message::Finish => {
             let report = observer.finish()?;
@@ -441,6 +514,45 @@ mod tests {
         assert_eq!(seen, expected);
         assert!(queue.stats().max_depth <= 3, "{:?}", queue.stats());
         assert_eq!(queue.stats().frames, 50);
+        let stats = report.queue.expect("a queue tells");
+        assert_eq!((stats.done, stats.capacity), (50, 3));
+        assert!(
+            stats
+                .to_string()
+                .starts_with("50 frames offered, 50 taken, 0 skipped")
+        );
+    }
+
+    /// Tells when it is idle.
+    struct Idler(Sender<()>);
+
+    impl Observer for Idler {
+        fn begin(&mut self, _context: &RunContext) -> Result<(), ObserveError> {
+            Ok(())
+        }
+        fn frame(&mut self, _frame: &Arc<Frame>) -> Result<(), ObserveError> {
+            Ok(())
+        }
+        fn event(&mut self, _event: &RunEvent) -> Result<(), ObserveError> {
+            Ok(())
+        }
+        fn idle(&mut self) -> Result<(), ObserveError> {
+            let _ = self.0.send(());
+            Ok(())
+        }
+        fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+            Ok(ObserverReport::default())
+        }
+    }
+
+    #[test]
+    fn a_pause_is_told_to_the_observer() {
+        let (idle, told) = channel();
+        let queue = Queue::spawn("record", 2, WhenFull::Wait, Box::new(Idler(idle)));
+        let mut queue = queue.expect("thread starts");
+        assert_eq!(queue.frame(&frame(1)), Ok(()));
+        assert_eq!(told.recv(), Ok(()));
+        assert!(queue.finish().is_ok());
     }
 
     #[test]

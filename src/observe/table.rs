@@ -146,6 +146,7 @@ impl Observer for Table {
             skipped: 0,
             bytes,
             note: String::new(),
+            queue: None,
         })
     }
 }

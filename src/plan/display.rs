@@ -199,14 +199,15 @@ impl Plan {
         }
         if let Some(record) = self.record {
             lines.push(format!(
-                "recording: scalars every step, fields every {} ({} frames, about {})",
+                "recording: scalars every step, fields every {} ({} frames, about {} of at most {})",
                 if record.every_steps == 1 {
                     "step".to_owned()
                 } else {
                     format!("{} steps", record.every_steps)
                 },
                 record.frames,
-                size(record.bytes)
+                size(record.bytes),
+                size(record.budget_bytes)
             ));
         }
         lines

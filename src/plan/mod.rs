@@ -159,6 +159,8 @@ pub struct RecordPlan {
     pub frames: u64,
     /// Estimated size, bytes.
     pub bytes: u64,
+    /// Most that the scene allows, bytes.
+    pub budget_bytes: u64,
 }
 
 /// Rows by which frames show a line contact, all alike: enough for a map or a mesh.
@@ -258,6 +260,7 @@ impl Plan {
             every_steps,
             frames,
             bytes: (frames as f64 * frame + scalars) as u64,
+            budget_bytes: (record.budget_mb * 1e6) as u64,
         }
     }
 

@@ -266,7 +266,7 @@ impl Driver {
         match command {
             Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
             Command::Follow(follow) => {
-                sim.follow(follow);
+                sim.show_point(follow);
                 self.log(sim, Command::Follow(follow), SetBy::Hand);
             }
             Command::Say(text) => {

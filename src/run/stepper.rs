@@ -17,7 +17,7 @@ pub trait Stepper {
     /// When the value is out of range.
     fn set(&mut self, knob: Knob, value: f64) -> Result<(), SimError>;
     /// Shows another material point.
-    fn follow(&mut self, _follow: Follow) {}
+    fn show_point(&mut self, _follow: Follow) {}
     /// Writes the last step into a frame.
     fn fill(&self, frame: &mut Frame);
     /// Scalars of the last step.
@@ -47,8 +47,8 @@ impl Stepper for Simulation {
     fn set(&mut self, knob: Knob, value: f64) -> Result<(), SimError> {
         self.set(knob, value)
     }
-    fn follow(&mut self, follow: Follow) {
-        self.follow(follow);
+    fn show_point(&mut self, follow: Follow) {
+        self.show_point(follow);
     }
     fn fill(&self, frame: &mut Frame) {
         self.fill(frame);

@@ -81,6 +81,22 @@ impl SceneError {
 }
 
 impl SceneError {
+    /// A key of another kind of file that is none of the few that it may have.
+    pub(crate) fn unknown_among(key: &str, known: &[&str]) -> Self {
+        let last = key.rsplit('.').next().unwrap_or(key);
+        let guess = nearest(last, known.iter().copied());
+        Self::value(
+            shortened(key),
+            "given",
+            format!("only the keys {}{}", known.join(", "), suggestion(guess)),
+        )
+    }
+
+    /// A key that no scene has.
+    pub(crate) fn unknown_key(key: &str) -> Self {
+        super::check::unknown(key)
+    }
+
     /// A file that is refused: `found` is at most a path and a reason, both shortened already.
     pub(super) fn map(key: String, found: String, allowed: String) -> Self {
         Self::Value {

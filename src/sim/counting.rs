@@ -104,6 +104,11 @@ impl Counting {
         self.reference = [ranges, peak].map(|s| f64::from(s).powf(exponent));
     }
 
+    /// Takes over the unit of damage of counts of the same contact.
+    pub(super) fn take_reference(&mut self, other: &Self) {
+        self.reference = other.reference;
+    }
+
     /// Makes the room again that a copy or a file does not keep.
     pub(super) fn make_room(&mut self) {
         for tracker in &mut self.trackers {

@@ -7,15 +7,17 @@ use thiserror::Error;
 pub enum StepError {
     /// The step did not converge even after smaller retries.
     #[error(
-        "step at t = {t_s:.4e} s stalled after {retries} retries: residual {residual:.2e} in place of {tolerance:.1e}, worst at x = {x_m:.3e} m, y = {y_m:.3e} m"
+        "step at t = {t_s:.4e} s stalled after {retries} retries: the last iteration changed the pressure by {residual:.2e} (asked {tolerance:.1e}) and left {film_error:.2e} of the film unbalanced, worst at x = {x_m:.3e} m, y = {y_m:.3e} m"
     )]
     Stalled {
         /// Simulated time, s.
         t_s: f64,
-        /// Residual reached.
+        /// Σ|dP|/ΣP of the last iteration.
         residual: f64,
-        /// Residual asked for.
+        /// The change asked for.
         tolerance: f64,
+        /// Σ|F|/Σρ̄H that is left.
+        film_error: f64,
         /// Retries made.
         retries: u32,
         /// Where the residual is greatest, m.

@@ -127,8 +127,12 @@ impl LifeStage {
         }
     }
 
-    /// Takes the smooth contact as the reference.
-    pub(super) fn set_reference(&mut self, stress: &mut StressStage) {
+    /// Passes over the surface loaded last and hands its sums to every model.
+    fn each(
+        &mut self,
+        stress: &mut StressStage,
+        mut take: impl FnMut(&mut Variant, &mut StressStage, &mut Shared),
+    ) {
         self.pass(stress);
         let mut shared = Shared {
             law: self.law,
@@ -137,10 +141,25 @@ impl LifeStage {
             scratch: &mut self.scratch,
         };
         for variant in &mut self.variants {
-            variant.set_reference(stress, &mut shared);
+            take(variant, stress, &mut shared);
         }
+    }
+
+    /// Takes the smooth contact as the reference.
+    pub(super) fn set_reference(&mut self, stress: &mut StressStage) {
+        self.each(stress, |variant, stress, shared| {
+            variant.set_reference(stress, shared);
+        });
         self.sweep.restart();
         self.reference_cycles = self.calibrate(stress);
+    }
+
+    /// Takes over the reference of a stage that [`Self::fits`].
+    pub(super) fn take_reference(&mut self, other: &Self) {
+        for (own, other) in self.variants.iter_mut().zip(&other.variants) {
+            own.take_reference(other);
+        }
+        self.reference_cycles = other.reference_cycles;
     }
 
     /// Makes the room again that a copy or a file does not keep.
@@ -184,16 +203,9 @@ impl LifeStage {
 
     /// Takes the surface loaded last, which stands for a `way` (in a).
     pub(super) fn push(&mut self, way: f64, stress: &mut StressStage) {
-        self.pass(stress);
-        let mut shared = Shared {
-            law: self.law,
-            laws: &self.laws,
-            sweep: &self.sweep,
-            scratch: &mut self.scratch,
-        };
-        for variant in &mut self.variants {
-            variant.push(way, stress, &mut shared);
-        }
+        self.each(stress, |variant, stress, shared| {
+            variant.push(way, stress, shared);
+        });
     }
 
     /// Risk by depth of a body by the scene's model, p_h; `None` for models that integrate.

@@ -6,6 +6,7 @@ mod drive;
 mod error;
 mod fatigue_stage;
 mod fill;
+mod follow;
 mod frame;
 mod knob;
 mod measure;

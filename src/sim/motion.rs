@@ -20,6 +20,9 @@ pub(super) struct Motion {
     launched_at: Option<[f64; 2]>,
     /// Time (a/U) that must pass until a steady contact is steady again.
     unsettled: f64,
+    /// Ways that the surfaces still have to be led beside their own, in a, and over which time (a/U).
+    #[serde(default)]
+    lead: ([f64; 2], f64),
 }
 
 /// How far a body has come, in a.
@@ -40,6 +43,7 @@ impl Motion {
             shear_rate: 0.0,
             launched_at: None,
             unsettled: 0.0,
+            lead: ([0.0; 2], 0.0),
         }
     }
 
@@ -49,6 +53,21 @@ impl Motion {
         self.travelled[0] += (1.0 - 0.5 * s) * dt;
         self.travelled[1] += (1.0 + 0.5 * s) * dt;
         self.unsettled = (self.unsettled - dt).max(0.0);
+        let (lead, over) = &mut self.lead;
+        if *over > 0.0 {
+            let share = (dt / *over).min(1.0);
+            for (way, lead) in self.travelled.iter_mut().zip(lead) {
+                let moved = share * *lead;
+                *way += moved;
+                *lead -= moved;
+            }
+            *over = (*over - dt).max(0.0);
+        }
+    }
+
+    /// Leads the surfaces by so much (in a) beside their own ways, evenly over a time `over` (a/U).
+    pub(super) fn lead(&mut self, ways: [f64; 2], over: f64) {
+        self.lead = (ways, over);
     }
 
     /// The passage begins: what stands on a body once is let go.

@@ -37,6 +37,8 @@ pub(super) const DEVELOP: f64 = 4.0;
 pub(super) enum Phase {
     /// Smooth, with this many steps to go on the present grid.
     Smooth { left: u64 },
+    /// In the wake of a neighbour: this many steps of twice the length, then `then` of the usual one.
+    Settle { left: u64, then: u64 },
     /// Sliding and roughness come up.
     Develop { left: u64 },
     /// The passage.
@@ -97,6 +99,20 @@ impl Simulation {
             Phase::Smooth { left } => {
                 self.advance()?;
                 self.phase = Phase::Smooth { left: left - 1 };
+                self.start_up_steps.0 += 1;
+                Ok(())
+            }
+            Phase::Settle { left: 0, then } => {
+                self.phase = Phase::Develop { left: then };
+                self.stats.steps -= 1;
+                self.step()
+            }
+            Phase::Settle { left, then } => {
+                self.advance()?;
+                self.phase = Phase::Settle {
+                    left: left - 1,
+                    then,
+                };
                 self.start_up_steps.0 += 1;
                 Ok(())
             }
@@ -184,6 +200,10 @@ impl Simulation {
 
     /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
     fn next_step(&self) -> (Stepping, f64) {
+        if let Phase::Settle { .. } = self.phase {
+            let nodes = super::follow::COARSE * self.motion.nodes;
+            return (Stepping::Fixed(nodes), nodes);
+        }
         if self.phase != Phase::Passage {
             return (Stepping::Fixed(self.motion.nodes), self.motion.nodes);
         }

@@ -83,6 +83,20 @@ impl Simulation {
         (share * length / (self.motion.nodes * dx)).ceil() as u64
     }
 
+    /// Way of both bodies, in a, in the smooth part of the start-up.
+    pub(super) fn smooth_way(&self) -> f64 {
+        let finest = self.plan.domain.nodes;
+        let length = self.plan.domain.x_max_a - self.plan.domain.x_min_a;
+        let grids = std::iter::successors(Some(COARSEST.min(finest)), |n| Some(2 * (n - 1) + 1));
+        grids
+            .take_while(|nodes| *nodes <= finest)
+            .map(|nodes| {
+                let dx = length / (nodes - 1) as f64;
+                self.smooth_steps(nodes) as f64 * self.motion.nodes * dx
+            })
+            .sum()
+    }
+
     pub(super) fn all_start_up_steps(&self, first: usize) -> u64 {
         let (mut nodes, mut total) = (first, 0);
         while nodes <= self.plan.domain.nodes {

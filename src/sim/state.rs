@@ -51,6 +51,16 @@ pub struct State {
     start_up_steps: (u64, u64),
 }
 
+/// What a neighbour leaves to the run that follows it.
+pub(super) struct HandedOver {
+    /// Its contact on the finest grid.
+    pub(super) march: March,
+    /// Its knobs.
+    pub(super) drive: Drive,
+    /// Ways of both bodies, in a.
+    pub(super) travelled: [f64; 2],
+}
+
 impl State {
     /// Time steps since the start-up.
     pub fn passage_steps(&self) -> u64 {
@@ -180,8 +190,61 @@ impl Simulation {
         Ok(())
     }
 
+    /// What a neighbour hands over to [`Simulation::follow`]; its reference is taken over at once.
+    ///
+    /// # Errors
+    /// As [`Simulation::restore`].
+    pub(super) fn handed_over(&mut self, neighbour: &State) -> Result<HandedOver, SimError> {
+        self.check(neighbour)?;
+        let State {
+            nodes,
+            contact,
+            drive,
+            wanted: _,
+            motion,
+            watched: _,
+            counting,
+            life,
+            phase,
+            metrics,
+            stats: _,
+            totals: _,
+            coarser,
+            smooth_film,
+            orbit: _,
+            pace: _,
+            way: _,
+            next_volume: _,
+            step: _,
+            time_s: _,
+            start_up_steps: _,
+        } = neighbour;
+        if *nodes != self.plan.domain.nodes || *phase != Phase::Passage {
+            let early = "its passage has not begun".to_owned();
+            return Err(SimError::State(early));
+        }
+        let grid = grid_of(&self.plan, *nodes, self.door.b_over_a);
+        let mut march = self
+            .pool
+            .install(|| March::from_hertz(grid, &self.shape, 0.0, motion.nodes, self.flow));
+        march.state = contact.clone();
+        if let (Some(own), Some(other)) = (&mut self.life, life) {
+            own.take_reference(other);
+        }
+        if let (Some(own), Some(other)) = (&mut self.counting, counting) {
+            own.take_reference(other);
+        }
+        (self.coarser, self.smooth_film) = (*coarser, *smooth_film);
+        self.metrics.errors = metrics.errors;
+        Ok(HandedOver {
+            march,
+            drive: drive.clone(),
+            travelled: motion.travelled,
+        })
+    }
+
     /// Roughness, traction and slice of the restored step, which follow from the state.
-    fn see_again(&mut self) {
+    pub(super) fn see_again(&mut self) {
         place_surfaces(
             &mut self.march,
             &mut self.terrain,

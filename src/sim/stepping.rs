@@ -93,6 +93,7 @@ impl Attempted {
                 t_s,
                 residual: self.residual,
                 tolerance,
+                film_error: self.film_error,
                 retries: self.retries,
                 x_m,
                 y_m,

@@ -64,6 +64,11 @@ impl Variant {
         self.restart();
     }
 
+    /// Takes over the reference of a stage of the same make.
+    pub(super) fn take_reference(&mut self, other: &Self) {
+        self.reference.clone_from(&other.reference);
+    }
+
     /// ln J of the reference.
     pub(super) fn ln_reference(&self, body: BodyId, form: VolumeIntegral) -> f64 {
         self.reference[2 * body.index() + form_index(form)]

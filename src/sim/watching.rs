@@ -52,7 +52,7 @@ impl Simulation {
     }
 
     /// Shows another material point; nothing that is computed changes.
-    pub fn follow(&mut self, follow: Follow) {
+    pub fn show_point(&mut self, follow: Follow) {
         let Some(counting) = &mut self.counting else {
             return;
         };

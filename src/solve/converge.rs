@@ -6,11 +6,15 @@
 //! mass error        Σ (|F| − carried·max(ρ̄H, h_least))⁺ / Σ max(ρ̄H, h_least)
 //! ```
 //! `h_least` is the film below which oil is no continuum: thinner films are not resolved to a share of
-//! themselves. Sums run by rows in fixed order.
+//! themselves. Means over the contact leave single nodes free, so none may overlap by more than a share of
+//! `h_least` ([`OVERLAP`]). Sums run by rows in fixed order.
 
 /// Part of a node's film that a step may leave unbalanced and hand on to the next one. Steps that leave
 /// more are not trusted with their own residual: a loose step that hands on all of it blows up near dry.
 pub const CARRIED: f64 = 0.1;
+
+/// Least films that the bodies may overlap by at a node.
+pub const OVERLAP: f64 = 0.05;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,6 +63,8 @@ pub struct NewtonReport {
     pub mass_error: f64,
     /// |ΣP − load|/load.
     pub load_error: f64,
+    /// Deepest overlap max(−H), 0 where the bodies are apart everywhere.
+    pub overlap: f64,
     /// Node of the largest |φ|.
     pub worst_node: usize,
 }
@@ -78,6 +84,8 @@ pub(super) struct Sums {
     pub(super) load: f64,
     /// Largest |φ|.
     pub(super) largest: f64,
+    /// Largest −H.
+    pub(super) overlap: f64,
 }
 
 impl Sums {
@@ -87,6 +95,7 @@ impl Sums {
         self.lost += weight * row.lost;
         self.mass += weight * row.mass;
         self.load += weight * row.load;
+        self.overlap = self.overlap.max(row.overlap);
     }
 }
 
@@ -103,7 +112,7 @@ pub(super) fn sum_row(
     h: &[f64],
     least_film: f64,
 ) -> Sums {
-    let mut lanes = [[0.0_f64; LANES]; 6];
+    let mut lanes = [[0.0_f64; LANES]; 7];
     let n = f.len();
     let (p, reference, rho, h) = (&p[..n], &reference[..n], &rho[..n], &h[..n]);
     let mut take = |i: usize, k: usize| {
@@ -116,6 +125,7 @@ pub(super) fn sum_row(
         lanes[3][k] += pressed * full;
         lanes[4][k] += p[i];
         lanes[5][k] = if phi.abs() > lanes[5][k] { phi.abs() } else { lanes[5][k] };
+        lanes[6][k] = if -h[i] > lanes[6][k] { -h[i] } else { lanes[6][k] };
     };
     let blocks = n / LANES;
     for b in 0..blocks {
@@ -134,6 +144,7 @@ pub(super) fn sum_row(
         mass: sum(&lanes[3]),
         load: sum(&lanes[4]),
         largest: lanes[5].iter().copied().fold(0.0, f64::max),
+        overlap: lanes[6].iter().copied().fold(0.0, f64::max),
     }
 }
 }

@@ -359,6 +359,7 @@ impl NewtonReport {
             film_error: 0.0,
             mass_error: 0.0,
             load_error: 0.0,
+            overlap: 0.0,
             worst_node: 0,
         }
     }

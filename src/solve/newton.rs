@@ -12,7 +12,7 @@
 //! [`CARRIED`] of the film is not lost: the next step takes it over (`march.rs`), so the mass error counts
 //! only what lies beyond. Not converging is a verdict, never a panic; nothing is committed by this file.
 
-pub use super::converge::{CARRIED, NewtonReport, Tolerance, Verdict};
+pub use super::converge::{CARRIED, NewtonReport, OVERLAP, Tolerance, Verdict};
 use super::converge::{Sums, sum_row};
 use super::film::Elastic;
 use super::jacobian::Jacobian;
@@ -88,6 +88,7 @@ struct Evaluation {
     film_error: f64,
     mass_error: f64,
     load: f64,
+    overlap: f64,
     worst_row: usize,
     finite: bool,
 }
@@ -128,6 +129,7 @@ impl Newton {
             film_error: f64::INFINITY,
             mass_error: f64::INFINITY,
             load_error: f64::INFINITY,
+            overlap: f64::INFINITY,
             worst_node: 0,
         };
         let mut now = self.evaluate(problem, iterate, &mut report);
@@ -139,6 +141,7 @@ impl Newton {
                 (0.0, 0.0)
             };
             report.load_error = (now.load / problem.load - 1.0).abs();
+            report.overlap = now.overlap;
             report.worst_node = self.worst_node(problem.grid, iterate.p, now.worst_row);
             if !now.finite {
                 report.verdict = Verdict::NotFinite;
@@ -162,6 +165,7 @@ impl Newton {
             && report.film_error <= tolerance.film
             && report.mass_error <= tolerance.mass
             && report.load_error <= tolerance.load
+            && report.overlap <= OVERLAP * tolerance.least_film
     }
 
     /// Film, properties, F and D of the iterate; the merit uses the frozen D in `reference`.
@@ -219,6 +223,7 @@ impl Newton {
             film_error: total.film / mass,
             mass_error: total.lost / mass,
             load: total.load,
+            overlap: total.overlap,
             worst_row,
             finite: total.merit.is_finite() && total.load.is_finite(),
         }

@@ -1,10 +1,35 @@
 //! Studies: what results cost, and what they are worth. Every number is measured in the run that prints it.
 
+pub mod accuracy;
+mod crew;
+mod machine;
+mod peers;
+pub mod pruning;
 mod scaling;
+pub mod stability;
+pub mod sweep;
+mod table;
 
-pub use scaling::{Extent, ScalingRow, scaling, scaling_text};
+pub use machine::machine;
+pub use peers::peers;
+pub use scaling::{ScalingRow, scaling, scaling_text};
+pub use table::Table;
 
 use thiserror::Error;
+
+/// How much to measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// The least that shows every part: within about a minute.
+    Quick,
+    /// Some minutes.
+    Usual,
+    /// Everything.
+    Full,
+}
+
+/// Hears the name of what is done next, how many are done, and how many there are.
+pub type Progress<'a> = dyn FnMut(&str, usize, usize) + 'a;
 
 /// A study that could not be done.
 #[derive(Debug, Clone, Error)]
@@ -12,6 +37,9 @@ pub enum StudyError {
     /// A scene of the study is not accepted: a fault of the study.
     #[error("the study's own scene is refused: {0}")]
     Scene(String),
+    /// A picture could not be drawn.
+    #[error("a plot could not be drawn: {0}")]
+    Plot(String),
     /// A run of the study failed.
     #[error("{case}: {reason}")]
     Run {

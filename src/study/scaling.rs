@@ -7,28 +7,18 @@
 //! units mean the same on any machine. Steps are those of the default scene's passage (rough on both bodies,
 //! mixed lubrication, converged to the scene's tolerance) without stress, life and recording; medians. The
 //! whole grid is had by turning body 2's waves by a hundredth of a degree, which breaks the symmetry and
-//! nothing else.
+//! nothing else. A second run with all stages on, of the mirrored grid on one thread, splits what a step costs:
+//! whatever it takes beyond the bare one goes to stress, counting and life; a frame is filled apart.
 
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use super::StudyError;
+use super::{Extent, Progress, StudyError};
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
 use crate::plan::Plan;
 use crate::scene::{Override, Scene, presets};
-use crate::sim::{Simulation, Stage};
-
-/// How much to measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// 65² and 129²: half a minute.
-    Quick,
-    /// Up to 257², and regimes: some minutes.
-    Usual,
-    /// Up to 513².
-    Full,
-}
+use crate::sim::{Frame, Simulation, Stage};
 
 /// One measured case.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +39,21 @@ pub struct ScalingRow {
     pub krylov: f64,
     /// Steps that did not converge.
     pub failed: u32,
+    /// Memory by the plan's account, bytes.
+    pub memory_bytes: u64,
+    /// What the other stages take; `None`: not measured in this case.
+    pub split: Option<Split>,
+}
+
+/// What a step takes beside the solution, s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Split {
+    /// Mean of stress, counting and life over steps: volumes are due in some of them only.
+    pub stress_and_life_s: f64,
+    /// A frame of it.
+    pub frame_s: f64,
+    /// Memory with them, bytes.
+    pub memory_bytes: u64,
 }
 
 impl ScalingRow {
@@ -124,10 +129,7 @@ fn cases(extent: Extent) -> Vec<Case> {
 ///
 /// # Errors
 /// [`StudyError`] when a case cannot be made or fails.
-pub fn scaling(
-    extent: Extent,
-    progress: &mut dyn FnMut(&str, usize, usize),
-) -> Result<Vec<ScalingRow>, StudyError> {
+pub fn scaling(extent: Extent, progress: &mut Progress) -> Result<Vec<ScalingRow>, StudyError> {
     let cases = cases(extent);
     let mut rows = Vec::with_capacity(cases.len());
     for (n, case) in cases.iter().enumerate() {
@@ -139,16 +141,51 @@ pub fn scaling(
 }
 
 fn measure(case: &Case) -> Result<ScalingRow, String> {
+    let bare = run(case, &["stress=none", "life=none"])?;
+    let pair_s = bare.pair_s;
+    let splits = case.keys == MIRRORED && case.threads == 1;
+    let split = if splits {
+        let whole = run(case, &[])?;
+        Some(Split {
+            stress_and_life_s: (whole.mean_s - bare.mean_s).max(0.0),
+            frame_s: whole.frame_s,
+            memory_bytes: whole.memory_bytes,
+        })
+    } else {
+        None
+    };
+    Ok(ScalingRow {
+        case: case.name.to_owned(),
+        nodes: case.nodes,
+        threads: case.threads,
+        pair_s,
+        step_s: bare.median_s,
+        newton: bare.newton,
+        krylov: bare.krylov,
+        failed: bare.failed,
+        memory_bytes: bare.memory_bytes,
+        split,
+    })
+}
+
+/// Times and work of a case's steps.
+struct Timings {
+    pair_s: f64,
+    median_s: f64,
+    mean_s: f64,
+    frame_s: f64,
+    newton: f64,
+    krylov: f64,
+    failed: u32,
+    memory_bytes: u64,
+}
+
+fn run(case: &Case, more: &[&str]) -> Result<Timings, String> {
     let nodes = format!("grid.nodes={}", case.nodes);
-    let common = [
-        "stress=none",
-        "life=none",
-        "record=none",
-        "time.passages=4",
-        &nodes,
-    ];
+    let common = ["record=none", "time.passages=4", &nodes];
     let overrides = common
         .iter()
+        .chain(more)
         .chain(case.keys)
         .map(|text| text.parse::<Override>())
         .collect::<Result<Vec<_>, _>>()
@@ -156,6 +193,7 @@ fn measure(case: &Case) -> Result<ScalingRow, String> {
     let scene =
         Scene::load_with(presets::DEFAULT, &overrides).map_err(|error| error.to_string())?;
     let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
+    let memory_bytes = plan.cost.memory_bytes;
     let mut sim = Simulation::new(&scene, plan, case.threads).map_err(|error| error.to_string())?;
     while sim.stage() != Stage::Passage {
         sim.step().map_err(|error| error.to_string())?;
@@ -170,19 +208,34 @@ fn measure(case: &Case) -> Result<ScalingRow, String> {
         times.push(clock.elapsed().as_secs_f64());
         failed += u32::from(!sim.metrics().converged);
     }
+    let mut frame = Frame::default();
+    let frame_s = best(|| sim.fill(&mut frame));
     let pair_s = before.min(pair_s(case.nodes)?);
+    let mean_s = times.iter().sum::<f64>() / times.len() as f64;
     times.sort_by(f64::total_cmp);
     let per_step = |count: u64| count as f64 / case.steps as f64;
-    Ok(ScalingRow {
-        case: case.name.to_owned(),
-        nodes: case.nodes,
-        threads: case.threads,
+    Ok(Timings {
         pair_s,
-        step_s: times[times.len() / 2],
+        median_s: times[times.len() / 2],
+        mean_s,
+        frame_s,
         newton: per_step(sim.stats().newton_iterations - start.newton_iterations),
         krylov: per_step(sim.stats().linear_iterations - start.linear_iterations),
         failed,
+        memory_bytes,
     })
+}
+
+/// Best time of some calls, s.
+fn best(mut call: impl FnMut()) -> f64 {
+    const CALLS: u32 = 40;
+    (0..CALLS)
+        .map(|_| {
+            let clock = Instant::now();
+            call();
+            clock.elapsed().as_secs_f64()
+        })
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Best time of one padded double-precision transform pair on the whole grid, one thread.
@@ -196,27 +249,19 @@ fn pair_s(nodes: usize) -> Result<f64, String> {
     filter.set_symbol(0, |_, _| 1.0);
     let input = vec![1.0; grid.len()];
     let mut out = vec![0.0; grid.len()];
-    Ok(pool.install(|| {
-        (0..40)
-            .map(|_| {
-                let clock = Instant::now();
-                filter.apply(&input, &mut out);
-                clock.elapsed().as_secs_f64()
-            })
-            .fold(f64::INFINITY, f64::min)
-    }))
+    Ok(pool.install(|| best(|| filter.apply(&input, &mut out))))
 }
 
 /// The rows as a Markdown table, with the ratios that the rows give.
 pub fn scaling_text(rows: &[ScalingRow]) -> String {
     let mut text = String::from(
-        "| grid | case | threads | pair, ms | step, ms | units (pairs) | steps/s | Newton | Krylov | not converged |\n\
-         |---|---|---|---|---|---|---|---|---|---|\n",
+        "| grid | case | threads | pair, ms | step, ms | units (pairs) | steps/s | Newton | Krylov | MB | not converged |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for row in rows {
         let _ = writeln!(
             text,
-            "| {n}² | {} | {} | {:.3} | {:.2} | {:.0} | {:.1} | {:.1} | {:.1} | {} |",
+            "| {n}² | {} | {} | {:.3} | {:.2} | {:.0} | {:.1} | {:.1} | {:.1} | {:.0} | {} |",
             row.case,
             row.threads,
             row.pair_s * 1e3,
@@ -225,13 +270,38 @@ pub fn scaling_text(rows: &[ScalingRow]) -> String {
             1.0 / row.step_s,
             row.newton,
             row.krylov,
+            row.memory_bytes as f64 * 1e-6,
             row.failed,
             n = row.nodes,
         );
     }
     text.push('\n');
     push_ratios(&mut text, rows);
+    push_splits(&mut text, rows);
     text
+}
+
+/// What each stage takes, in pairs.
+fn push_splits(text: &mut String, rows: &[ScalingRow]) {
+    text.push_str(
+        "\n| grid | case | solution, pairs | stress, counting and life, pairs | frame, pairs | MB with them |\n\
+         |---|---|---|---|---|---|\n",
+    );
+    for (row, split) in rows
+        .iter()
+        .filter_map(|row| row.split.map(|split| (row, split)))
+    {
+        let _ = writeln!(
+            text,
+            "| {n}² | {} | {:.1} | {:.1} | {:.1} | {:.0} |",
+            row.case,
+            row.units(),
+            split.stress_and_life_s / row.pair_s,
+            split.frame_s / row.pair_s,
+            split.memory_bytes as f64 * 1e-6,
+            n = row.nodes,
+        );
+    }
 }
 
 fn push_ratios(text: &mut String, rows: &[ScalingRow]) {

@@ -19,6 +19,31 @@ pub(crate) enum Fluid {
     RoelandsDowsonHigginson,
 }
 
+impl Fluid {
+    /// The fluid of α p_h = `alpha_p` without sliding, with the group `lambda`.
+    pub(crate) fn medium(self, alpha_p: f64, lambda: f64) -> Medium {
+        let alpha = 2.2e-8;
+        let p_hertz = alpha_p / alpha;
+        let (viscosity, density) = match self {
+            Self::BarusIncompressible => {
+                (Viscosity::barus(alpha, p_hertz), Density::Incompressible)
+            }
+            Self::RoelandsDowsonHigginson => (
+                Viscosity::roelands(0.04, alpha, p_hertz),
+                Density::DowsonHigginson {
+                    p_hertz_gpa: p_hertz * 1e-9,
+                },
+            ),
+        };
+        Medium {
+            viscosity,
+            density,
+            lambda,
+            sliding: 0.0,
+        }
+    }
+}
+
 /// A circular contact.
 pub(crate) struct Case {
     pub(crate) medium: Medium,
@@ -58,26 +83,8 @@ impl Case {
     /// Moes M, L: λ = (128π³/(3M⁴))^{1/3}, α p_h = (L/π)(3M/2)^{1/3}.
     pub(crate) fn moes(m: f64, l: f64, fluid: Fluid, domain: (f64, f64, f64)) -> Self {
         let lambda = (128.0 * PI.powi(3) / (3.0 * m.powi(4))).cbrt();
-        let alpha = 2.2e-8;
-        let p_hertz = l / PI * (1.5 * m).cbrt() / alpha;
-        let (viscosity, density) = match fluid {
-            Fluid::BarusIncompressible => {
-                (Viscosity::barus(alpha, p_hertz), Density::Incompressible)
-            }
-            Fluid::RoelandsDowsonHigginson => (
-                Viscosity::roelands(0.04, alpha, p_hertz),
-                Density::DowsonHigginson {
-                    p_hertz_gpa: p_hertz * 1e-9,
-                },
-            ),
-        };
         Self {
-            medium: Medium {
-                viscosity,
-                density,
-                lambda,
-                sliding: 0.0,
-            },
+            medium: fluid.medium(l / PI * (1.5 * m).cbrt(), lambda),
             lambda,
             domain,
         }

@@ -1,12 +1,14 @@
 """What becomes of a recording when things go wrong, with the release binary and the real reader.
 
     python3 -m venv venv && venv/bin/pip install rerun-sdk==0.36.3 numpy
-    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|memory|cost|table ...]
+    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|live|memory|cost|table ...]
 
 kill    twenty runs ended by SIGKILL at random moments: every file opens and holds all but the last second
 disk    a full disk (a small tmpfs where that may be mounted) and a folder that may not be written: a clear
         message, exit code 4, no panic, what was written before can be read
-memory  ten thousand steps: resident memory after the first tenth and at the end
+live    a real viewer (without a screen) that is closed or freezes in mid-run: the run goes on and tells what was
+        skipped
+memory  ten thousand steps, recorded and not: resident memory after the first tenth and at the end
 cost    the default scene with and without a recording in turns; ratio of the steps per second
 table   recorded h_min and life against the CSV of the same run, to rounding
 
@@ -15,9 +17,12 @@ ends with code 1 when something does not hold.
 """
 
 import csv
+import os
 import pathlib
 import random
 import re
+import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -36,8 +41,8 @@ def check(holds, what):
         failures.append(what)
 
 
-def scalars(path, entity):
-    """Values of an entity by step, as far as the file can be read."""
+def scalars(path, entity, column="Scalars:scalars"):
+    """Values of an entity by step (column None: just the steps), as far as the file can be read."""
     found = {}
     try:
         for chunk in rx.RrdReader(path).stream():
@@ -45,7 +50,10 @@ def scalars(path, entity):
                 continue
             batch = chunk.to_record_batch()
             steps = batch.column(batch.schema.get_field_index("step")).to_pylist()
-            name = next(n for n in batch.schema.names if n.endswith("Scalars:scalars"))
+            if column is None:
+                found.update((step, None) for step in steps)
+                continue
+            name = next(n for n in batch.schema.names if n.endswith(column))
             found.update(zip(steps, batch.column(name).to_pylist()))
     except Exception as error:  # a file that breaks off is read up to there
         print("      reader:", error)
@@ -63,21 +71,23 @@ def kill(program, folder):
         out, table = folder / f"{number}.rrd", folder / f"{number}.csv"
         command = [program, "run", *SMALL, "--passages", "1000", "--out", out, "--table", table]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        # From the start-up's end on, so that there is something to lose.
-        while not (table.exists() and table.read_text().count("\n") > 1):
-            time.sleep(0.02)
-        until = time.monotonic() + random.uniform(0.0, 4.0)
-        rows = []  # (moment, last step in the table)
+        # At any moment, the start-up of half a second included.
+        until = time.monotonic() + random.uniform(0.3, 6.0)
+        rows = [(0.0, 0)]  # (moment, last step in the table)
         while time.monotonic() < until:
-            rows.append((time.monotonic(), table.read_text().count("\n") - 1))
-            time.sleep(0.05)
+            if table.exists():
+                rows.append((time.monotonic(), max(0, table.read_text().count("\n") - 1)))
+            time.sleep(0.02)
         process.kill()
         moment = time.monotonic()
         process.wait()
-        # A second for the tick, half a one for a busy machine.
-        due = max((steps for when, steps in rows if when < moment - 1.5), default=0)
         held = max(scalars(out, "series/film_um"), default=0)
-        check(held >= due, f"kill {number + 1:2}: holds step {held}, {due} were due, table has {rows[-1][1] if rows else 0}")
+        shown = max(scalars(out, "maps/pressure_GPa/image", None), default=0)
+        least = min(held, shown)
+        # What is not in the file was not in the table either a second before.
+        lost = moment - max((when for when, steps in rows if steps <= least), default=moment)
+        what = f"kill {number + 1:2}: holds step {held}, pictures to step {shown}, of {rows[-1][1]}; {max(lost, 0):.2f} s are lost"
+        check(lost < 1.0, what)
 
 
 def disk(program, folder):
@@ -100,23 +110,59 @@ def disk(program, folder):
 
 
 def memory(program, folder):
-    command = [program, "run", *SMALL, "--set", "record.budget_mb=30"]
-    command += ["--passages", "313", "--out", folder / "long.rrd", "--table", folder / "long.csv"]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    seen = []
-    table = folder / "long.csv"
-    while process.poll() is None:
-        time.sleep(0.5)
-        status = pathlib.Path(f"/proc/{process.pid}/status")
-        if table.exists() and status.exists():
-            found = re.search(r"VmRSS:\s+(\d+)", status.read_text())
-            steps = table.read_text().count("\n") - 1
-            if found and steps > 0:
-                seen.append((steps, int(found[1]) / 1024))
-    last = seen[-1]
-    early = next(rss for steps, rss in seen if steps >= 0.1 * last[0])
-    growth = last[1] / early - 1
-    check(abs(growth) < 0.05, f"memory: {early:.1f} MB after a tenth, {last[1]:.1f} MB after {last[0]} steps: {100 * growth:+.1f} %")
+    for name, record in (("recorded", ["--set", "record.budget_mb=30", "--out", folder / "long.rrd"]), ("not recorded", ["--no-record"])):
+        table = folder / f"{name}.csv"
+        command = [program, "run", *SMALL, *record, "--passages", "157", "--table", table]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        seen = []
+        while process.poll() is None:
+            time.sleep(0.5)
+            status = pathlib.Path(f"/proc/{process.pid}/status")
+            if table.exists() and status.exists():
+                found = re.search(r"VmRSS:\s+(\d+)", status.read_text())
+                steps = table.read_text().count("\n") - 1
+                if found and steps > 0:
+                    seen.append((steps, int(found[1]) / 1024))
+        last = seen[-1]
+        early = next(rss for steps, rss in seen if steps >= 0.1 * last[0])
+        growth = last[1] / early - 1
+        what = f"{early:.1f} MB after a tenth, {last[1]:.1f} MB after {last[0]} steps: {100 * growth:+.1f} %"
+        check(abs(growth) < 0.05, f"memory, {name}: {what}")
+
+
+def live(program, folder):
+    """A real viewer that is closed, or freezes, in mid-run."""
+    viewer = pathlib.Path(sys.executable).parent / "rerun"
+    ends = (("closed", signal.SIGKILL), ("frozen", signal.SIGSTOP))
+    for port, (name, end) in enumerate(ends, 9971):
+        shown = subprocess.Popen(
+            [viewer, "--headless", "--bind", "127.0.0.1", "--port", str(port), "--memory-limit", "1GB"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        try:
+            wait_for(port)
+            table = folder / f"{name}.csv"
+            command = [program, "run", *SMALL, "--passages", "40", "--no-record", f"--connect=127.0.0.1:{port}"]
+            done = subprocess.Popen([*command, "--table", table], stdout=subprocess.PIPE, text=True)
+            while not (table.exists() and table.read_text().count("\n") > 200):
+                time.sleep(0.05)
+            os.killpg(shown.pid, end)
+            text = done.communicate()[0]
+            rows = table.read_text().count("\n") - 1
+            line = next((line for line in text.splitlines() if "viewer at" in line), "").strip()
+            check(done.returncode == 0 and rows == 2560, f"viewer {name}: all {rows} steps were made")
+            check("skipped" in line, f"viewer {name}: {line}")
+        finally:
+            os.killpg(shown.pid, signal.SIGKILL)
+            shown.wait()
+
+
+def wait_for(port):
+    for _ in range(600):
+        with socket.socket() as probe:
+            if probe.connect_ex(("127.0.0.1", port)) == 0:
+                return
+        time.sleep(0.1)
+    sys.exit("the viewer did not start")
 
 
 def cost(program, folder):
@@ -151,7 +197,7 @@ def table(program, folder):
 
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
-    parts = {"kill": kill, "disk": disk, "memory": memory, "cost": cost, "table": table}
+    parts = {"kill": kill, "disk": disk, "live": live, "memory": memory, "cost": cost, "table": table}
     for name in sys.argv[2:] or parts:
         with tempfile.TemporaryDirectory() as folder:
             parts[name](program, pathlib.Path(folder))

@@ -15,8 +15,10 @@ viewer (`src/observe/rerun/layout.rs`): if a picture shows the default camera, i
 """
 
 import argparse
+import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -90,6 +92,8 @@ def activate(application, chunks, root, tab, url):
     stream.set_time("blueprint", sequence=1)
     change = blueprint_archetypes.ContainerBlueprint.from_fields(active_tab=tab)
     stream.log(root, change)
+    # Stands still on the last step.
+    stream.log("/time_panel", blueprint_archetypes.TimePanelBlueprint.from_fields(play_state="Following", loop_mode="Off"))
     bindings.connect_grpc_blueprint(url, True, True, stream.to_native())
 
 
@@ -114,7 +118,9 @@ def main():
     viewer = pathlib.Path(sys.executable).parent / "rerun"
     command = [viewer, "--headless", "--bind", "127.0.0.1", "--port", str(arguments.port)]
     command += ["--window-size", arguments.size, "--memory-limit", "2GB", arguments.recording]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    # A group of its own: the command is a script that starts the viewer proper.
+    process = subprocess.Popen(command, start_new_session=True, **quiet)
     url = f"rerun+http://127.0.0.1:{arguments.port}/proxy"
     try:
         client = connect(url, arguments.wait)
@@ -126,7 +132,7 @@ def main():
             client.save_screenshot(str(file.resolve()))
             print(file)
     finally:
-        process.terminate()
+        os.killpg(process.pid, signal.SIGTERM)
         process.wait()
 
 

@@ -1,9 +1,12 @@
-//! Fields at chosen steps as `.npz` files that numpy, Julia and MATLAB read, with the scene beside them.
+//! Chosen steps as `.npz` files that numpy, Julia and MATLAB read, and as pictures, with the scene beside them.
 //!
 //! One file a step: `step_000128.npz` with arrays named as the frame's fields, units in the names, `[y, x]`
-//! with x the rolling direction, the slice `[depth, x]`. Beside them `scene.toml`, which repeats the run.
+//! with x the rolling direction, the slice `[depth, x]`. Pictures are `step_000128_pressure.png` and so on. Beside them `scene.toml`, which
+//! repeats the run.
 
+mod drawing;
 mod npz;
+mod png;
 
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
@@ -11,14 +14,26 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use self::npz::Npz;
+use self::png::Pictures;
 use super::{ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent};
 use crate::sim::{Frame, Stage};
 
-/// Writes fields.
+/// What is written of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// All fields as a numpy archive.
+    Npz,
+    /// Maps and centre line as pictures.
+    Png,
+}
+
+/// Writes fields and pictures.
 #[derive(Debug)]
 pub struct Export {
     folder: PathBuf,
     overwrite: Overwrite,
+    formats: Vec<Format>,
+    pictures: Pictures,
     frames: u64,
     bytes: u64,
 }
@@ -28,7 +43,11 @@ impl Export {
     ///
     /// # Errors
     /// When the folder cannot be made, or holds something and may not be written over.
-    pub fn create(folder: &Path, overwrite: Overwrite) -> Result<Self, ObserveError> {
+    pub fn create(
+        folder: &Path,
+        overwrite: Overwrite,
+        formats: &[Format],
+    ) -> Result<Self, ObserveError> {
         let failed = |reason: String| ObserveError::new(folder.display().to_string(), reason);
         std::fs::create_dir_all(folder)
             .map_err(|error| failed(format!("the folder cannot be made: {error}")))?;
@@ -41,6 +60,8 @@ impl Export {
         Ok(Self {
             folder: folder.to_owned(),
             overwrite,
+            formats: formats.to_vec(),
+            pictures: Pictures::default(),
             frames: 0,
             bytes: 0,
         })
@@ -51,6 +72,18 @@ impl Export {
             self.folder.display().to_string(),
             format!("the fields could not be written ({error}); files written before are kept"),
         )
+    }
+
+    fn draw(&mut self, frame: &Frame) -> Result<u64, ObserveError> {
+        let mut bytes = 0;
+        for (subject, path) in Pictures::files(frame, &self.folder) {
+            // Made here, so that nothing is overwritten unasked and an error has its path.
+            drop(self.overwrite.create(&path)?);
+            let drawn = self.pictures.draw(frame, subject, &path);
+            drawn.map_err(|reason| ObserveError::new(path.display().to_string(), reason))?;
+            bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
+        }
+        Ok(bytes)
     }
 
     fn write(&self, frame: &Frame) -> Result<u64, ObserveError> {
@@ -111,12 +144,19 @@ impl Observer for Export {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
         let mut file = self.overwrite.create(&self.folder.join("scene.toml"))?;
         file.write_all(context.scene_toml.as_bytes())
-            .map_err(|error| self.failed(&error))
+            .map_err(|error| self.failed(&error))?;
+        self.pictures = Pictures::new(&context.scene.title);
+        Ok(())
     }
 
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
         if frame.stage == Stage::Passage {
-            self.bytes += self.write(frame)?;
+            if self.formats.contains(&Format::Npz) {
+                self.bytes += self.write(frame)?;
+            }
+            if self.formats.contains(&Format::Png) {
+                self.bytes += self.draw(frame)?;
+            }
             self.frames += 1;
         }
         Ok(())
@@ -133,6 +173,7 @@ impl Observer for Export {
             skipped: 0,
             bytes: self.bytes,
             note: String::new(),
+            queue: None,
         })
     }
 }

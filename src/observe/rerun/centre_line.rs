@@ -3,11 +3,11 @@
 use rerun::{LineStrips2D, Radius};
 
 use super::colour::{GREY, ORANGE, SKY, faded};
-use super::geometry::{Geometry, MM, divisions, ticks};
-use super::maps::GPA;
+use super::geometry::Geometry;
 use super::plot::{PlotBox, points, ticks_at};
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{GPA, MM, divisions, ticks};
 use crate::sim::Frame;
 
 pub(super) const CENTRE_LINE: &str = "centre_line_y0";
@@ -66,11 +66,11 @@ impl CentreLine {
         self.log_hertz(stream, frame)?;
         let pressure = self.curves(&frame.pressure_pa[row.clone()], self.pressure_top_pa);
         stream.log(
-            &format!("{CENTRE_LINE}/pressure_GPa"),
+            format!("{CENTRE_LINE}/pressure_GPa"),
             &line(&pressure, ORANGE, 1.5),
         )?;
         let film = self.curves(&frame.film_m[row], self.film_top_m);
-        stream.log(&format!("{CENTRE_LINE}/film_um"), &line(&film, SKY, 1.5))
+        stream.log(format!("{CENTRE_LINE}/film_um"), &line(&film, SKY, 1.5))
     }
 
     /// Hertz's ellipse, logged when the load has changed.
@@ -87,7 +87,7 @@ impl CentreLine {
             .map(|[x, p]| [x, self.plot.y[0] * p / self.pressure_top_pa])
             .collect();
         let hertz = line(&[points(&strip)], GREY, 1.0);
-        stream.log(&format!("{CENTRE_LINE}/hertz_pressure_GPa"), &hertz)
+        stream.log(format!("{CENTRE_LINE}/hertz_pressure_GPa"), &hertz)
     }
 
     /// The parts of a curve that lie inside the axes; what is above them is left out, not bent.

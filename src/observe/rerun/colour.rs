@@ -1,10 +1,10 @@
 //! Colours that colour-blind people can tell apart, for what the viewer does not colour itself.
 //!
-//! The maps are the perceptually uniform ones of the viewer (matplotlib's inferno, magma), given
-//! here at 17 points so that meshes have the same colours as maps; lines use the palette of Okabe
-//! and Ito (2008).
+//! Meshes take the colours of the viewer's maps from [`Ramp`]; lines use the palette of Okabe and Ito (2008).
 
 use rerun::Color;
+
+pub(super) use crate::observe::ramp::Ramp;
 
 /// Lines and text.
 pub(super) const ORANGE: [u8; 3] = [230, 159, 0];
@@ -18,47 +18,6 @@ pub(super) const WHITE: [u8; 3] = [235, 235, 235];
 pub(super) const GREY: [u8; 3] = [150, 155, 165];
 /// Background of spatial views: light enough for the dark end of the colour maps to show.
 pub(super) const BACKGROUND: [u8; 3] = [38, 42, 50];
-
-const INFERNO: [u32; 17] = [
-    0x000004, 0x0b0724, 0x210c4a, 0x3d0965, 0x57106e, 0x71196e, 0x8a226a, 0xa32c61, 0xbc3754,
-    0xd24644, 0xe45a31, 0xf1731d, 0xf98e09, 0xfcac11, 0xf9cb35, 0xf2ea69, 0xfcffa4,
-];
-const MAGMA: [u32; 17] = [
-    0x000004, 0x0a0822, 0x1d1147, 0x36106b, 0x51127c, 0x6a1c81, 0x832681, 0x9c2e7f, 0xb73779,
-    0xd0416f, 0xe75263, 0xf56b5c, 0xfc8961, 0xfea772, 0xfec488, 0xfde2a3, 0xfcfdbf,
-];
-
-/// A colour map of the meshes.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Ramp {
-    /// Pressure.
-    Inferno,
-    /// Stress.
-    Magma,
-}
-
-impl Ramp {
-    /// The colour at `t` of [0, 1] (clamped), times `shade`.
-    pub(super) fn colour(self, t: f32, shade: f32) -> [u8; 3] {
-        let points = match self {
-            Self::Inferno => &INFERNO,
-            Self::Magma => &MAGMA,
-        };
-        let t = if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) } * 16.0;
-        let k = (t as usize).min(15);
-        let (low, high) = (rgb(points[k]), rgb(points[k + 1]));
-        let weight = t - k as f32;
-        std::array::from_fn(|c| {
-            let value = f32::from(low[c]) * (1.0 - weight) + f32::from(high[c]) * weight;
-            (value * shade).round() as u8
-        })
-    }
-}
-
-fn rgb(hex: u32) -> [u8; 3] {
-    let [_, r, g, b] = hex.to_be_bytes();
-    [r, g, b]
-}
 
 /// With an opacity.
 pub(super) fn faded(colour: [u8; 3], alpha: u8) -> Color {
@@ -92,22 +51,6 @@ pub(super) fn interference(h_um: f64) -> [u8; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ramps_start_dark_and_brighten() {
-        for ramp in [Ramp::Inferno, Ramp::Magma] {
-            let luma = |t: f32| {
-                let [r, g, b] = ramp.colour(t, 1.0).map(f32::from);
-                0.2126 * r + 0.7152 * g + 0.0722 * b
-            };
-            for k in 0..100 {
-                assert!(luma(k as f32 / 100.0) < luma((k + 1) as f32 / 100.0) + 0.5);
-            }
-            assert_eq!(ramp.colour(-1.0, 1.0), ramp.colour(0.0, 1.0));
-            assert_eq!(ramp.colour(f32::NAN, 1.0), ramp.colour(0.0, 1.0));
-            assert_eq!(ramp.colour(2.0, 1.0), ramp.colour(1.0, 1.0));
-        }
-    }
 
     #[test]
     fn contact_is_dark_and_the_first_green_fringe_is_at_a_quarter_wave() {

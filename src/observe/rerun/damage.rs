@@ -9,12 +9,12 @@ use rerun::components::Colormap;
 use rerun::{Points2D, Radius};
 
 use super::colour::{GREEN, WHITE, faded};
-use super::geometry::{MM, ticks};
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Pixels, Raster, Scale, Sign};
+use super::raster::{Height, Pixels, Raster, Scale, Sign};
 use super::slice::Rows;
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{MM, ticks};
 use crate::sim::{DamageBlock, Frame};
 
 /// Entities of body 1 and 2.
@@ -25,7 +25,7 @@ pub(super) const DAMAGE: [&str; 2] = [
 /// Powers of ten above and below the reference that colours tell apart.
 const DECADES: f64 = 3.0;
 const WIDTH: f64 = 2.0;
-const HEIGHT: f64 = 1.0;
+const HEIGHT: f64 = 1.5;
 /// Rows of the picture.
 const ROWS: f64 = 96.0;
 const UM: f64 = 1e6;
@@ -117,7 +117,14 @@ impl Block {
         };
         Ok(Some(Self {
             entity,
-            raster: Raster::new(stream, entity, scale, pixels, &plot, "log10 D")?,
+            raster: Raster::new(
+                stream,
+                entity,
+                scale,
+                pixels,
+                &plot,
+                ("log10 D", Height::Fixed),
+            )?,
             rows,
             columns: damage.columns,
             length_m: damage.length_m,
@@ -144,13 +151,8 @@ impl Block {
             .map(|at| damage.damage[at % columns * depths + at / columns])
             .map(|value| value.log10().max(least))
             .collect();
-        let image: Vec<f32> = (0..self.rows.len() * columns)
-            .map(|at| {
-                let (row, column) = (at / columns, at % columns);
-                self.rows.value(&powers, columns, row, column)
-            })
-            .collect();
-        self.raster.log(stream, image.into_iter())?;
+        let image = self.rows.image(&powers, columns);
+        self.raster.log(stream, std::iter::once(image.as_slice()))?;
         self.log_pit(stream, damage)
     }
 
@@ -164,12 +166,14 @@ impl Block {
             damage.pit_damage,
             damage.pit_depth_m * UM
         );
-        let pit = Points2D::new([at])
-            .with_radii([Radius::new_ui_points(5.0)])
-            .with_colors([faded(GREEN, 255)])
-            .with_labels([label])
+        // In the middle below, where it hides little and is not cut off.
+        let label_at = [0.5 * WIDTH, 0.86 * HEIGHT].map(|v| v as f32);
+        let pit = Points2D::new([at, label_at])
+            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
+            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
+            .with_labels([String::new(), label])
             .with_show_labels(true)
             .with_draw_order(26.0);
-        stream.log(&format!("{}/worst_point", self.entity), &pit)
+        stream.log(format!("{}/worst_point", self.entity), &pit)
     }
 }

@@ -13,6 +13,11 @@ use rerun::external::re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
 use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
+/// Messages from which on the file gets no footer: an index for partial loading, 1.6 kB a message, which would be
+/// kept in memory until the end. Without it a viewer reads the file from its beginning, as it does after a kill.
+/// Recordings of some minutes stay below.
+const MOST_INDEXED: u64 = 4096;
+
 /// A recording's file, shared by the library's thread, which writes, and the recorder, which asks.
 #[derive(Clone)]
 pub(super) struct RecordingFile(Arc<Mutex<State>>);
@@ -24,6 +29,7 @@ struct State {
     file: File,
     /// Length up to the last whole message.
     bytes: u64,
+    messages: u64,
     error: Option<String>,
 }
 
@@ -32,6 +38,10 @@ impl State {
         let Some(encoder) = &mut self.encoder else {
             return;
         };
+        self.messages += 1;
+        if self.messages == MOST_INDEXED {
+            encoder.do_not_emit_footer();
+        }
         match encoder.append(message) {
             Ok(_) => self.bytes = self.length(),
             Err(error) => self.fail(&error.to_string()),
@@ -73,6 +83,7 @@ impl RecordingFile {
             encoder: Some(encoder),
             file: for_length,
             bytes: 0,
+            messages: 0,
             error: None,
         };
         state.bytes = state.length();

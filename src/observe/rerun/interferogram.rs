@@ -6,15 +6,18 @@
 //! the thickness.
 
 use rerun::components::{ImageBuffer, ImageFormat};
-use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
+use rerun::{
+    AnnotationContext, AnnotationInfo, ChannelDatatype, EntityPath, Rgba32, SegmentationImage,
+};
 
 use super::colour::{GREY, LIGHTS_NM, REFRACTIVE_INDEX, WHITE, interference};
-use super::geometry::{Geometry, number, ticks};
+use super::geometry::Geometry;
 use super::maps::classes;
 use super::plot::{Labels, PlotBox, ticks_at};
 use super::raster::Pixels;
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{number, ticks};
 use crate::sim::Frame;
 
 pub(super) const INTERFEROGRAM: &str = "maps/film_interferogram";
@@ -35,6 +38,7 @@ pub(super) struct Interferogram {
     nodes: [usize; 2],
     finer: usize,
     plot: PlotBox,
+    image: EntityPath,
 }
 
 impl Interferogram {
@@ -58,6 +62,7 @@ impl Interferogram {
             nodes: [nodes_x, nodes_y],
             finer,
             plot: PlotBox::default(),
+            image: EntityPath::from(format!("{INTERFEROGRAM}/image")),
         };
         picture.plot = picture.plot_box();
         picture.log_static(stream)?;
@@ -72,29 +77,35 @@ impl Interferogram {
     pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let pixels = self.pixels();
         let mut bytes = Vec::with_capacity(pixels.columns * pixels.rows);
+        let mut nodes = Vec::with_capacity(self.nodes[0]);
         for row in (0..pixels.rows).rev() {
-            for column in 0..pixels.columns {
-                bytes.push(class(self.film(&frame.film_m, column, row)));
-            }
+            self.nodes_of(&frame.film_m, row, &mut nodes);
+            bytes.extend(nodes.windows(2).flat_map(|pair| {
+                let [low, high] = [pair[0], pair[1]];
+                let step = (high - low) / self.finer as f32;
+                (0..self.finer).map(move |part| class(low + step * part as f32))
+            }));
+            // The last pixel lies on a node.
+            bytes.extend(nodes.last().map(|&last| class(last)));
         }
-        stream.log(&format!("{INTERFEROGRAM}/image"), &classes(bytes))
+        stream.log(self.image.clone(), &classes(bytes))
     }
 
-    /// The film at a pixel, m; rows count from the least y.
-    fn film(&self, film_m: &[f32], column: usize, row: usize) -> f32 {
-        let part = |pixel: usize| (pixel % self.finer) as f32 / self.finer as f32;
-        let (i, j) = (
-            self.from[0] + column / self.finer,
-            self.from[1] + row / self.finer,
-        );
-        let (u, v) = (part(column), part(row));
-        let nx = self.geometry.nx;
-        // The last pixel lies on a node: nothing beyond it is read.
-        let (next, above) = (usize::from(u > 0.0), nx * usize::from(v > 0.0));
-        let at = j * nx + i;
-        let low = film_m[at] * (1.0 - u) + film_m[at + next] * u;
-        let high = film_m[at + above] * (1.0 - u) + film_m[at + above + next] * u;
-        low * (1.0 - v) + high * v
+    /// The film at the nodes' x on a row of pixels, m; rows count from the least y.
+    fn nodes_of(&self, film_m: &[f32], row: usize, nodes: &mut Vec<f32>) {
+        let (j, part) = (self.from[1] + row / self.finer, row % self.finer);
+        let at = j * self.geometry.nx + self.from[0];
+        let low = &film_m[at..at + self.nodes[0]];
+        nodes.clear();
+        if part == 0 {
+            // Also of the last row, beyond which nothing may be read.
+            nodes.extend_from_slice(low);
+            return;
+        }
+        let high = &film_m[at + self.geometry.nx..][..self.nodes[0]];
+        let weight = part as f32 / self.finer as f32;
+        let pairs = low.iter().zip(high);
+        nodes.extend(pairs.map(|(low, high)| low + (high - low) * weight));
     }
 
     fn pixels(&self) -> Pixels {
@@ -141,9 +152,8 @@ impl Interferogram {
 
     fn log_static(&self, stream: &Stream) -> Result<(), ObserveError> {
         let pixels = self.pixels();
-        let image = format!("{INTERFEROGRAM}/image");
-        stream.log_static(&image, &styled(&pixels))?;
-        stream.log_static(&image, &pixels.transform())?;
+        stream.log_static(self.image.clone(), &styled(&pixels))?;
+        stream.log_static(self.image.clone(), &pixels.transform())?;
         let context = AnnotationContext::new((0..256_u16).map(|class| {
             let [r, g, b] = interference(thickness_um(class));
             AnnotationInfo {
@@ -171,8 +181,8 @@ impl Interferogram {
         let entity = format!("{INTERFEROGRAM}/legend/bar");
         let ramp: Vec<u8> = (1..=255).rev().collect();
         let image = styled(&bar).with_buffer(ImageBuffer::from(ramp));
-        stream.log_static(&entity, &image)?;
-        stream.log_static(&entity, &bar.transform())?;
+        stream.log_static(entity.as_str(), &image)?;
+        stream.log_static(entity.as_str(), &bar.transform())?;
         let mut labels = Labels::default();
         let top = 255.0 * STEP_UM;
         for value in ticks(0.0, top, 5) {
@@ -194,7 +204,7 @@ fn styled(pixels: &Pixels) -> SegmentationImage {
 /// The colour of a film: class 1 is no film, 255 the thickest. Class 0 is left out because viewers
 /// may draw it transparent.
 fn class(film_m: f32) -> u8 {
-    (f64::from(film_m) * 1e6 / STEP_UM + 1.0).clamp(1.0, 255.0) as u8
+    (film_m * (1e6 / STEP_UM) as f32 + 1.0).clamp(1.0, 255.0) as u8
 }
 
 fn thickness_um(class: u16) -> f64 {

@@ -8,12 +8,12 @@
 use rerun::components::Colormap;
 
 use super::colour::WHITE;
-use super::geometry::{Geometry, number, ticks};
-use super::maps::{GPA, UM};
+use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Pixels, Raster, Scale, Sign};
+use super::raster::{Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{GPA, UM, number, ticks};
 use crate::sim::Frame;
 
 pub(super) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
@@ -119,7 +119,14 @@ impl Kymograph {
         Ok(Self {
             shown,
             geometry,
-            raster: Raster::new(stream, entity, shown.scale(), pixels, &plot, title)?,
+            raster: Raster::new(
+                stream,
+                entity,
+                shown.scale(),
+                pixels,
+                &plot,
+                (title, Height::Growing),
+            )?,
             plot,
             values: vec![0.0; geometry.nx * rows],
             rows: 0,
@@ -165,6 +172,7 @@ impl Kymograph {
             return Ok(());
         }
         self.rows_logged = self.rows;
-        self.raster.log(stream, self.values.iter().copied())
+        let values = &self.values[..self.rows * self.geometry.nx];
+        self.raster.log_upper(stream, values)
     }
 }

@@ -8,7 +8,7 @@
 mod views;
 
 use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
-use rerun::blueprint::components::{LoopMode, PanelState, PlayState};
+use rerun::blueprint::components::{Corner2D, LoopMode, PanelState, PlayState};
 use rerun::blueprint::{
     Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Grid, Horizontal,
     SelectionPanel, Tabs, TextLogView, TimePanel, Vertical,
@@ -179,6 +179,9 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         &shown.kymograph,
         Margin::Legend,
     ));
+    if all.len() % 4 == 3 {
+        all.push(views.document("Now", text::NOW));
+    }
     Grid::new(all).with_grid_columns(4).with_name("Maps").into()
 }
 
@@ -196,12 +199,16 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         let contents = [slice::EFFECTIVE, slice::POINT];
         upper.push(views.plot("Where it is", &contents, plot, Margin::Legend));
     }
+    let cycles = views.series("Cycles in this crossing", &["material_point/cycles"]);
+    // The count climbs from the lower left to the formula's line.
+    let lower_right = PlotLegend::new().with_corner(Corner2D::RightBottom);
+    views.set(&cycles, "PlotLegend", lower_right);
     let lower = vec![
         views.series(
             "Stress at the point against time, GPa",
             &["material_point/stress_GPa"],
         ),
-        views.series("Cycles in this crossing", &["material_point/cycles"]),
+        cycles,
         views.series("Where it is, mm", &["material_point/position_mm"]),
     ];
     let shares = if upper.len() > 1 {

@@ -4,12 +4,13 @@ use rerun::components::{Colormap, ImageBuffer, ImageFormat};
 use rerun::{AnnotationContext, ChannelDatatype, Rgba32, SegmentationImage};
 
 use super::colour::WHITE;
-use super::geometry::{Geometry, ticks};
+use super::geometry::Geometry;
 use super::interferogram::Interferogram;
 use super::plot::{PlotBox, log_hertz, ticks_at};
-use super::raster::{Pixels, Raster, Scale, Sign};
+use super::raster::{Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{GPA, MPA, Ranges, UM, ticks};
 use crate::sim::Frame;
 
 /// Entities of the maps, each with its unit.
@@ -22,11 +23,6 @@ pub(super) const ROUGHNESS_2: &str = "maps/roughness_body_2_um";
 pub(super) const CONTACT: &str = "maps/contact_spots";
 /// Hertz's contact, drawn over every map.
 pub(super) const HERTZ: &str = "maps/hertz_contact";
-
-/// GPa, MPa, um from SI.
-pub(super) const GPA: (&str, f64) = ("GPa", 1e-9);
-const MPA: (&str, f64) = ("MPa", 1e-6);
-pub(super) const UM: (&str, f64) = ("µm", 1e6);
 
 /// Classes of the picture over the film map.
 const CLASS_FILM: u8 = 0;
@@ -45,31 +41,18 @@ pub(super) struct Maps {
 }
 
 impl Maps {
-    /// Sets up the maps from the first frame, which fixes the ranges.
+    /// Sets up the maps.
     pub(super) fn new(
         stream: &Stream,
         geometry: Geometry,
-        first: &Frame,
+        ranges: &Ranges,
     ) -> Result<Self, ObserveError> {
-        let metrics = &first.metrics;
-        let pressure_top = (1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa);
-        // The film range starts from what the middle of the contact is like; the bath around the
-        // contact is ten to a hundred times thicker and shows as the top colour.
-        let film_top = 2.5 * metrics.h_central_m.max(metrics.h_mean_m).max(1e-9);
-        let traction_top = greatest(&first.traction_pa).max(0.01 * first.p_hertz_pa);
-        let rough = [&first.roughness_1_m, &first.roughness_2_m].map(|field| greatest(field));
-
         let up_to = Scale::up_to;
-        let inferno = up_to(pressure_top, GPA, Sign::Positive, Colormap::Inferno, 8.0);
-        let viridis = up_to(film_top, UM, Sign::Positive, Colormap::Viridis, 16.0);
-        let signed = up_to(traction_top, MPA, Sign::Both, Colormap::CyanToYellow, 4.0);
-        let rough_top = up_to(
-            rough[0].max(rough[1]),
-            UM,
-            Sign::Both,
-            Colormap::CyanToYellow,
-            4.0,
-        );
+        let (positive, both) = (Sign::Positive, Sign::Both);
+        let inferno = up_to(ranges.pressure_pa, GPA, positive, Colormap::Inferno, 8.0);
+        let viridis = up_to(ranges.film_m, UM, positive, Colormap::Viridis, 16.0);
+        let signed = up_to(ranges.traction_pa, MPA, both, Colormap::CyanToYellow, 4.0);
+        let rough_top = up_to(ranges.roughness_m, UM, both, Colormap::CyanToYellow, 4.0);
         let scales = vec![
             (PRESSURE, inferno.clone()),
             (FILM, viridis.clone()),
@@ -79,11 +62,17 @@ impl Maps {
         let map = |entity, scale: Scale, title: &str| {
             let title = format!("{title}, {}", scale.unit);
             let (pixels, plot) = (pixels(geometry), plot_box(geometry));
-            Raster::new(stream, entity, scale, pixels, &plot, &title)
+            Raster::new(
+                stream,
+                entity,
+                scale,
+                pixels,
+                &plot,
+                (&title, Height::Fixed),
+            )
         };
-        let smooth = |k: usize| rough[k] == 0.0;
         let rough_map = |k: usize, entity| {
-            (!smooth(k))
+            ranges.rough[k]
                 .then(|| map(entity, rough_top.clone(), "height"))
                 .transpose()
         };
@@ -125,11 +114,28 @@ impl Maps {
         [self.roughness[0].is_some(), self.roughness[1].is_some()]
     }
 
-    /// Logs one frame's maps.
+    /// Logs one frame's pressure, film and contact spots.
     pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let g = self.geometry;
         self.pressure.log(stream, top_down(g, &frame.pressure_pa))?;
         self.film.log(stream, top_down(g, &frame.film_m))?;
+        let top = self.film_top_m() as f32;
+        let mut spots = Vec::with_capacity(g.nx * g.ny);
+        let films = top_down(g, &frame.film_m);
+        for (touches, film) in top_down(g, &frame.contact).zip(films) {
+            let pairs = touches.iter().zip(film);
+            spots.extend(pairs.map(|(&touches, &film)| match (touches, film > top) {
+                (0, false) => CLASS_FILM,
+                (0, true) => CLASS_THICK,
+                _ => CLASS_CONTACT,
+            }));
+        }
+        stream.log(CONTACT, &classes(spots))
+    }
+
+    /// Logs what stands beside them in a tab of its own: interferogram, shear, roughness.
+    pub(super) fn log_beside(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        let g = self.geometry;
         self.traction.log(stream, top_down(g, &frame.traction_pa))?;
         let fields = [&frame.roughness_1_m, &frame.roughness_2_m];
         for (raster, field) in self.roughness.iter().zip(fields) {
@@ -137,32 +143,17 @@ impl Maps {
                 raster.log(stream, top_down(g, field))?;
             }
         }
-        let top = self.film_top_m() as f32;
-        let film = top_down(g, &frame.film_m);
-        let spots: Vec<u8> = top_down(g, &frame.contact)
-            .zip(film)
-            .map(|(touches, film)| match (touches, film > top) {
-                (0, false) => CLASS_FILM,
-                (0, true) => CLASS_THICK,
-                _ => CLASS_CONTACT,
-            })
-            .collect();
-        stream.log(CONTACT, &classes(spots))?;
         self.interferogram.log(stream, frame)
     }
-}
-
-fn greatest(field: &[f32]) -> f64 {
-    field.iter().fold(0.0_f32, |top, v| top.max(v.abs())).into()
 }
 
 pub(super) fn classes(bytes: Vec<u8>) -> SegmentationImage {
     SegmentationImage::update_fields().with_buffer(ImageBuffer::from(bytes))
 }
 
-/// A field's values from the upper row (greatest y) down.
-fn top_down<T: Copy>(g: Geometry, field: &[T]) -> impl ExactSizeIterator<Item = T> {
-    (0..g.nx * g.ny).map(move |at| field[(g.ny - 1 - at / g.nx) * g.nx + at % g.nx])
+/// A field's rows from the upper one (greatest y) down.
+fn top_down<T>(g: Geometry, field: &[T]) -> impl Iterator<Item = &[T]> {
+    field.chunks_exact(g.nx).rev()
 }
 
 fn pixels(g: Geometry) -> Pixels {

@@ -6,9 +6,10 @@
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREY, WHITE, faded};
-use super::geometry::{Geometry, number};
+use super::geometry::Geometry;
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::number;
 use crate::scene::ContactKind;
 
 /// A tick: where, in units of the view, and its text.
@@ -87,7 +88,7 @@ impl PlotBox {
             .with_colors([Color::from(GREY)])
             .with_radii([Radius::new_ui_points(0.75)])
             .with_draw_order(20.0);
-        stream.log_static(&format!("{entity}/frame"), &lines)?;
+        stream.log_static(format!("{entity}/frame"), &lines)?;
 
         let left_colour = self.left_colour.unwrap_or(WHITE);
         let right_colour = self.right_colour.unwrap_or(WHITE);

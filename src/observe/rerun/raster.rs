@@ -6,13 +6,13 @@
 //! scripts get the value back in the unit of the entity's name.
 
 use rerun::components::{Colormap, ImageBuffer, ImageFormat, MagnificationFilter};
-use rerun::{ChannelDatatype, DepthImage, Transform3D};
+use rerun::{ChannelDatatype, DepthImage, EntityPath, Transform3D};
 
 use super::colour::WHITE;
-use super::geometry::{divisions, nice_up, number};
 use super::plot::{Labels, PlotBox};
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{divisions, nice_up, number};
 
 /// Values of which sign an image holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,18 +97,26 @@ impl Scale {
         }
     }
 
-    /// Quantises SI values, little-endian as the viewer wants them.
-    fn quantise(&self, values_si: impl ExactSizeIterator<Item = f32>) -> Vec<u8> {
+    /// Quantises rows of SI values, little-endian as the viewer wants them. Values beyond the stored range take
+    /// its end.
+    fn quantise<'a>(&self, rows_si: impl Iterator<Item = &'a [f32]>, n: usize) -> Vec<u8> {
         let factor = (self.per_si * self.levels()) as f32;
-        let mut bytes = Vec::with_capacity(2 * values_si.len());
-        // `as` saturates at the ends of the stored range.
-        match self.sign {
-            Sign::Positive => values_si.for_each(|value| {
-                bytes.extend_from_slice(&((value * factor).round() as u16).to_le_bytes());
-            }),
-            Sign::Both => values_si.for_each(|value| {
-                bytes.extend_from_slice(&((value * factor).round() as i16).to_le_bytes());
-            }),
+        let [low, high] = match self.sign {
+            Sign::Positive => [0.0, f32::from(u16::MAX)],
+            Sign::Both => [f32::from(i16::MIN), f32::from(i16::MAX)],
+        };
+        let mut bytes = vec![0; 2 * n];
+        let mut rest = bytes.as_mut_slice();
+        for row in rows_si {
+            let (out, after) = rest.split_at_mut(2 * row.len());
+            for (pair, value) in out.chunks_exact_mut(2).zip(row) {
+                // Half away from zero, without a call of the library's `round`; both signs have the same low
+                // sixteen bits.
+                let level = value * factor;
+                let level = (level + 0.5_f32.copysign(level)).clamp(low, high);
+                pair.copy_from_slice(&(level as i32 as u16).to_le_bytes());
+            }
+            rest = after;
         }
         bytes
     }
@@ -141,11 +149,22 @@ impl Pixels {
     }
 }
 
+/// Whether a picture has all its rows from the beginning.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Height {
+    /// It has.
+    Fixed,
+    /// Rows are added below.
+    Growing,
+}
+
 /// An image of a field that changes.
 #[derive(Debug, Clone)]
 pub(super) struct Raster {
-    image: String,
+    image: EntityPath,
     scale: Scale,
+    columns: usize,
+    rows: usize,
 }
 
 impl Raster {
@@ -156,26 +175,49 @@ impl Raster {
         scale: Scale,
         pixels: Pixels,
         plot: &PlotBox,
-        title: &str,
+        (title, height): (&str, Height),
     ) -> Result<Self, ObserveError> {
-        let image = format!("{entity}/image");
+        let image = EntityPath::from(format!("{entity}/image"));
         let format = ImageFormat::depth(pixels.resolution(), scale.datatype());
-        stream.log_static(&image, &styled(&scale).with_format(format))?;
-        stream.log_static(&image, &pixels.transform())?;
+        // What is logged once holds for ever, so the size of a growing picture may not be.
+        let fixed = match height {
+            Height::Fixed => styled(&scale).with_format(format),
+            Height::Growing => styled(&scale),
+        };
+        stream.log_static(image.clone(), &fixed)?;
+        stream.log_static(image.clone(), &pixels.transform())?;
         plot.log(stream, &format!("{entity}/axes"))?;
         log_legend(stream, &format!("{entity}/legend"), &scale, plot, title)?;
-        Ok(Self { image, scale })
+        Ok(Self {
+            image,
+            scale,
+            columns: pixels.columns,
+            rows: pixels.rows,
+        })
     }
 
     /// One frame's values in SI, row by row from the top.
-    pub(super) fn log(
+    pub(super) fn log<'a>(
         &self,
         stream: &Stream,
-        values_si: impl ExactSizeIterator<Item = f32>,
+        rows_si: impl Iterator<Item = &'a [f32]>,
     ) -> Result<(), ObserveError> {
-        let bytes = self.scale.quantise(values_si);
+        let bytes = self.scale.quantise(rows_si, self.columns * self.rows);
         let data = DepthImage::update_fields().with_buffer(ImageBuffer::from(bytes));
-        stream.log(&self.image, &data)
+        stream.log(self.image.clone(), &data)
+    }
+
+    /// The upper rows of a growing picture: as many as there are values for.
+    pub(super) fn log_upper(&self, stream: &Stream, values_si: &[f32]) -> Result<(), ObserveError> {
+        let rows = values_si.len() / self.columns.max(1);
+        let resolution = [self.columns as u32, rows as u32];
+        let bytes = self
+            .scale
+            .quantise(std::iter::once(values_si), values_si.len());
+        let data = DepthImage::update_fields()
+            .with_buffer(ImageBuffer::from(bytes))
+            .with_format(ImageFormat::depth(resolution, self.scale.datatype()));
+        stream.log(self.image.clone(), &data)
     }
 }
 
@@ -201,7 +243,7 @@ fn log_legend(
     let left = plot.x[1] + 0.04 * w;
     let wide = 0.035 * w;
     let span = scale.top - scale.low();
-    let ramp = (0..ROWS).map(|row| {
+    let ramp: [f32; ROWS] = std::array::from_fn(|row| {
         let value = scale.top - span * (row as f64 + 0.5) / ROWS as f64;
         (value / scale.per_si) as f32
     });
@@ -214,9 +256,11 @@ fn log_legend(
     let bar = format!("{entity}/bar");
     let image = styled(scale)
         .with_format(ImageFormat::depth(pixels.resolution(), scale.datatype()))
-        .with_buffer(ImageBuffer::from(scale.quantise(ramp)));
-    stream.log_static(&bar, &image)?;
-    stream.log_static(&bar, &pixels.transform())?;
+        .with_buffer(ImageBuffer::from(
+            scale.quantise(std::iter::once(ramp.as_slice()), ROWS),
+        ));
+    stream.log_static(bar.as_str(), &image)?;
+    stream.log_static(bar.as_str(), &pixels.transform())?;
 
     let mut labels = Labels::default();
     let values = match scale.sign {
@@ -249,7 +293,7 @@ mod tests {
         let scale = scale(Sign::Positive);
         assert!((scale.top - 2.0).abs() < 1e-12);
         let values = [0.0, 1.234_567e9, 1.9e9, 15.9e9];
-        let bytes = scale.quantise(values.into_iter());
+        let bytes = scale.quantise(std::iter::once(values.as_slice()), 4);
         for (pair, value) in bytes.chunks_exact(2).zip(values) {
             let stored = f64::from(u16::from_le_bytes([pair[0], pair[1]]));
             let back = stored / scale.levels();
@@ -262,10 +306,15 @@ mod tests {
 
     #[test]
     fn the_ends_saturate_and_signs_are_kept() {
-        let top = scale(Sign::Positive).quantise([1e12_f32, -1.0].into_iter());
-        assert_eq!(top, [255, 255, 0, 0]);
-        let both = scale(Sign::Both);
-        let bytes = both.quantise([-1.0e9_f32, 1.0e9].into_iter());
+        let two = |sign, values: [f32; 2]| {
+            let row = values.as_slice();
+            scale(sign).quantise(std::iter::once(row), 2)
+        };
+        assert_eq!(two(Sign::Positive, [1e12, -1.0]), [255, 255, 0, 0]);
+        assert_eq!(two(Sign::Positive, [f32::NAN, 0.0]), [0; 4]);
+        let ends = two(Sign::Both, [-1e12, 1e12]);
+        assert_eq!(ends, [0x00, 0x80, 0xff, 0x7f]);
+        let bytes = two(Sign::Both, [-1.0e9, 1.0e9]);
         let low = i16::from_le_bytes([bytes[0], bytes[1]]);
         let high = i16::from_le_bytes([bytes[2], bytes[3]]);
         assert_eq!(low, -high);

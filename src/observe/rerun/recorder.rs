@@ -13,16 +13,22 @@ use super::kymograph::{self, Kymograph};
 use super::layout::{self, Shown};
 use super::live::Live;
 use super::maps::{self, Maps};
+use super::series::Series;
 use super::slice::Slice;
 use super::space::{Space, Tops};
-use super::stream::Stream;
+use super::stream::{Moment, Stream};
+use super::text;
 use super::trace::Trace;
-use super::{series, text};
+use crate::observe::scales::Ranges;
 use crate::observe::{
     ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent, RunEventKind,
 };
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
+
+/// The maps of the second tab are recorded in every so-many-th picture: they cost as much as all the
+/// others, and for looking at textures half the pace does.
+const BESIDE_EVERY: u64 = 2;
 
 /// Writes a recording.
 pub struct Recorder {
@@ -42,6 +48,7 @@ pub struct Recorder {
 struct Views {
     geometry: Geometry,
     cadence: Cadence,
+    series: Series,
     maps: Maps,
     slice: Option<Slice>,
     space: Option<Space>,
@@ -51,6 +58,8 @@ struct Views {
     damage: Damage,
     /// Bodies whose damage is mapped.
     damaged: [bool; 2],
+    /// Frames whose fields were logged.
+    pictures: u64,
 }
 
 impl Recorder {
@@ -90,8 +99,8 @@ impl Recorder {
 
     /// Logs one frame.
     fn log_frame(&mut self, frame: &Frame) -> Result<(), ObserveError> {
-        self.stream
-            .set_time(frame.step, frame.time_s, frame.passages);
+        let now = Moment::new(frame.step, frame.time_s, frame.passages);
+        self.stream.set_time(now);
         let views = match &mut self.views {
             Some(views) => views,
             empty => {
@@ -112,13 +121,24 @@ impl Recorder {
         let stream = &self.stream;
         let due = views.cadence.due(frame.step);
         if due.scalars {
-            series::log(stream, frame)?;
+            views.series.follow(frame);
         }
         views.follow(frame);
         if due.fields {
             text::log_now(stream, frame, &self.caption)?;
             views.log(stream, frame)?;
         }
+        Ok(())
+    }
+}
+
+impl Recorder {
+    /// Hands what waits on to the file or the viewer.
+    fn send_on(&mut self) -> Result<(), ObserveError> {
+        if let Some(views) = &mut self.views {
+            views.series.send(&self.stream)?;
+        }
+        self.stream.send_on();
         Ok(())
     }
 }
@@ -137,8 +157,9 @@ impl Views {
                 "the first frame's fields have not the sizes of its grid",
             ));
         }
-        let maps = Maps::new(stream, geometry, first)?;
-        let slice = Slice::new(stream, geometry, first, maps.pressure_top_pa())?;
+        let ranges = Ranges::of(first);
+        let maps = Maps::new(stream, geometry, &ranges)?;
+        let slice = Slice::new(stream, geometry, first, &ranges)?;
         let tops = Tops {
             pressure_pa: maps.pressure_top_pa(),
             effective_pa: slice.as_ref().map(Slice::effective_top_pa),
@@ -163,7 +184,6 @@ impl Views {
                 top_m: maps.film_top_m(),
             })?,
         ];
-        series::log_styles(stream)?;
         let cadence = Cadence::new(record, steps, frame_bytes(geometry));
         let exaggeration = space.as_ref().map(Space::note).unwrap_or_default();
         let slice_scales = slice.as_ref().map(Slice::scales).unwrap_or_default();
@@ -172,6 +192,7 @@ impl Views {
         let views = Self {
             geometry,
             cadence,
+            series: Series::new(stream)?,
             maps,
             slice,
             space,
@@ -182,6 +203,7 @@ impl Views {
             damaged: scene
                 .and_then(|scene| scene.life.as_ref())
                 .map_or([false; 2], crate::scene::Life::maps),
+            pictures: 0,
         };
         layout::send(stream, &views.shown(first))?;
         Ok(views)
@@ -219,6 +241,13 @@ impl Views {
         if let Some(slice) = &self.slice {
             slice.log(stream, frame)?;
         }
+        if self.pictures.is_multiple_of(BESIDE_EVERY) {
+            self.maps.log_beside(stream, frame)?;
+            if let Some(slice) = &self.slice {
+                slice.log_shear(stream, frame)?;
+            }
+        }
+        self.pictures += 1;
         if let Some(space) = &mut self.space {
             space.log(stream, frame)?;
         }
@@ -237,6 +266,9 @@ impl Observer for Recorder {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
         self.scene = Some(Arc::clone(&context.scene));
         text::log_context(&self.stream, context)?;
+        self.stream.set_time(Moment::new(0, 0.0, 0.0));
+        let first = format!("recorded by {}; {}", context.program, text::CAUTION);
+        text::log_line(&self.stream, &first, TextLogLevel::INFO)?;
         // What repeats the run is on the disk before it starts.
         self.stream.send_on();
         Ok(())
@@ -253,7 +285,10 @@ impl Observer for Recorder {
         }
         self.passages = frame.passages;
         self.log_frame(frame)?;
-        self.stream.send_on_if_due();
+        let full = |views: &Views| views.series.is_full();
+        if self.stream.is_due() || self.views.as_ref().is_some_and(full) {
+            self.send_on()?;
+        }
         self.stream.check()?;
         self.frames += 1;
         let on_disk = self.stream.bytes();
@@ -271,12 +306,21 @@ impl Observer for Recorder {
         if self.stream.is_gone() {
             return Ok(());
         }
-        self.stream
-            .set_time(event.step, event.time_s, self.passages);
+        let now = Moment::new(event.step, event.time_s, self.passages);
+        self.stream.set_time(now);
         if let RunEventKind::Caption(caption) = &event.kind {
             self.caption.clone_from(caption);
         }
         text::log_event(&self.stream, event)
+    }
+
+    /// A run that pauses keeps nothing back.
+    fn idle(&mut self) -> Result<(), ObserveError> {
+        if self.stream.is_gone() {
+            return Ok(());
+        }
+        self.send_on()?;
+        self.stream.check()
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
@@ -286,6 +330,9 @@ impl Observer for Recorder {
             for kymograph in &mut views.kymographs {
                 kymograph.log(&self.stream)?;
             }
+            views.series.send(&self.stream)?;
+            let last = format!("the recording ends after {} steps", self.frames);
+            text::log_line(&self.stream, &last, TextLogLevel::INFO)?;
         }
         self.stream.close()?;
         Ok(ObserverReport {
@@ -298,7 +345,20 @@ impl Observer for Recorder {
             } else {
                 String::new()
             },
+            queue: None,
         })
+    }
+}
+
+impl Drop for Recorder {
+    /// A recording that nobody finished holds what it was given.
+    fn drop(&mut self) {
+        if let Some(views) = &mut self.views
+            && !self.stream.is_gone()
+        {
+            // Nobody is left to tell; `finish` was the place to see errors.
+            drop(views.series.send(&self.stream));
+        }
     }
 }
 
@@ -318,7 +378,7 @@ fn expected_steps(scene: Option<&Scene>, first: &Frame) -> f64 {
 /// Raw bytes of one frame's fields, roughly: what the first cadence is decided from.
 fn frame_bytes(g: Geometry) -> u64 {
     let nodes = (g.nx * g.ny) as u64;
-    // Five maps of two bytes and one of one; the interferogram of four; the slice's two images; the
-    // sheets of the 3-D view.
-    (11 + 4 + 3) * nodes + 130_000
+    // Two maps of two bytes and one of one, the slice; of every second frame three maps more, the
+    // interferogram and another slice; the sheets of the 3-D view.
+    (5 + 2 + (6 + 4 + 2) / 2) * nodes + 100_000
 }

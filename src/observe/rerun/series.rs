@@ -1,12 +1,13 @@
 //! Scalars against time, each with its unit in the name.
 //!
 //! Values that are known in every step share an entity (45 bytes in place of 223); values that may
-//! be unknown have their own and are left out while they are.
+//! be unknown have their own and are left out while they are. Steps are collected and sent as columns once a
+//! second: row by row they would cost more than all the pictures.
 
-use rerun::{Color, Scalars, SeriesLines};
+use rerun::{Color, EntityPath, SeriesLines};
 
 use super::colour::{BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE, YELLOW};
-use super::stream::Stream;
+use super::stream::{Moment, Stream};
 use crate::observe::ObserveError;
 use crate::sim::{Frame, Metrics};
 
@@ -233,13 +234,13 @@ fn log_life(metrics: &Metrics, part: fn(&crate::sim::LifeEstimate) -> f64) -> Op
 }
 
 /// Names and colours, once for the whole recording.
-pub(super) fn log_styles(stream: &Stream) -> Result<(), ObserveError> {
+fn log_styles(stream: &Stream) -> Result<(), ObserveError> {
     for Group { entity, lines, .. } in &GROUPS {
         let style = SeriesLines::new()
             .with_names(lines.iter().map(|(name, _)| *name))
             .with_colors(lines.iter().map(|(_, colour)| Color::from(*colour)))
             .with_widths(lines.iter().map(|_| 1.8));
-        stream.log_static(entity, &style)?;
+        stream.log_static(*entity, &style)?;
     }
     for Single {
         entity,
@@ -252,23 +253,90 @@ pub(super) fn log_styles(stream: &Stream) -> Result<(), ObserveError> {
             .with_names([*name])
             .with_colors([Color::from(*colour)])
             .with_widths([1.8]);
-        stream.log_static(entity, &style)?;
+        stream.log_static(*entity, &style)?;
     }
     Ok(())
 }
 
-/// One step's scalars.
-pub(super) fn log(stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-    let mut values = Vec::with_capacity(4);
-    for group in &GROUPS {
-        values.clear();
-        (group.values)(frame, &mut values);
-        stream.log(group.entity, &Scalars::new(values.iter().copied()))?;
-    }
-    for single in &SINGLES {
-        if let Some(value) = (single.value)(frame) {
-            stream.log(single.entity, &Scalars::single(value))?;
+/// Steps that are collected at most before they are sent: a few hundred kilobytes.
+const MOST_WAITING: usize = 1024;
+
+/// The series of a recording, with what waits to be sent.
+pub(super) struct Series {
+    columns: Vec<Column>,
+    waiting: usize,
+    scratch: Vec<f64>,
+}
+
+struct Column {
+    entity: EntityPath,
+    width: usize,
+    moments: Vec<Moment>,
+    values: Vec<f64>,
+}
+
+impl Column {
+    fn new(entity: &str, width: usize) -> Self {
+        Self {
+            entity: EntityPath::from(entity),
+            width,
+            moments: Vec::new(),
+            values: Vec::new(),
         }
     }
-    Ok(())
+}
+
+impl Series {
+    /// Logs names and colours and collects from there on.
+    pub(super) fn new(stream: &Stream) -> Result<Self, ObserveError> {
+        log_styles(stream)?;
+        let groups = GROUPS
+            .iter()
+            .map(|group| Column::new(group.entity, group.lines.len()));
+        let singles = SINGLES.iter().map(|single| Column::new(single.entity, 1));
+        Ok(Self {
+            columns: groups.chain(singles).collect(),
+            waiting: 0,
+            scratch: Vec::new(),
+        })
+    }
+
+    /// Takes up a step's scalars.
+    pub(super) fn follow(&mut self, frame: &Frame) {
+        let now = Moment::new(frame.step, frame.time_s, frame.passages);
+        let (groups, singles) = self.columns.split_at_mut(GROUPS.len());
+        for (group, column) in GROUPS.iter().zip(groups) {
+            self.scratch.clear();
+            (group.values)(frame, &mut self.scratch);
+            column.moments.push(now);
+            column.values.extend_from_slice(&self.scratch);
+        }
+        for (single, column) in SINGLES.iter().zip(singles) {
+            if let Some(value) = (single.value)(frame) {
+                column.moments.push(now);
+                column.values.push(value);
+            }
+        }
+        self.waiting += 1;
+    }
+
+    /// Whether so many steps wait that they should not wait for the next tick.
+    pub(super) fn is_full(&self) -> bool {
+        self.waiting >= MOST_WAITING
+    }
+
+    /// Sends what waits.
+    pub(super) fn send(&mut self, stream: &Stream) -> Result<(), ObserveError> {
+        self.waiting = 0;
+        for column in &mut self.columns {
+            if column.moments.is_empty() {
+                continue;
+            }
+            let entity = column.entity.clone();
+            stream.log_columns(entity, &column.moments, &column.values, column.width)?;
+            column.moments.clear();
+            column.values.clear();
+        }
+        Ok(())
+    }
 }

@@ -9,12 +9,12 @@ use rerun::components::Colormap;
 use rerun::{LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREEN, WHITE, faded};
-use super::geometry::{Geometry, MM, number, ticks};
-use super::maps::GPA;
+use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Pixels, Raster, Scale, Sign};
+use super::raster::{Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{GPA, MM, Ranges, number, ticks};
 use crate::sim::{Frame, StressSlice};
 
 pub(super) const EFFECTIVE: &str = "slice_y0/effective_stress_GPa";
@@ -83,6 +83,22 @@ impl Rows {
         slice.depths_m == self.depths && slice.effective_pa.len() == n && slice.tau_xz_pa.len() == n
     }
 
+    /// All rows of a field that is stored depth by depth, `nx` values each.
+    pub(super) fn image(&self, field: &[f32], nx: usize) -> Vec<f32> {
+        let mut image = Vec::with_capacity(nx * self.len());
+        for &Between {
+            above,
+            below,
+            weight,
+        } in &self.between
+        {
+            let depth = |k: usize| &field[k * nx..(k + 1) * nx];
+            let pairs = depth(above).iter().zip(depth(below));
+            image.extend(pairs.map(|(one, two)| one * (1.0 - weight) + two * weight));
+        }
+        image
+    }
+
     /// The value in column `i` of a row, of a field that is stored depth by depth.
     pub(super) fn value(&self, field: &[f32], nx: usize, row: usize, i: usize) -> f32 {
         let Between {
@@ -123,7 +139,7 @@ impl Slice {
         stream: &Stream,
         geometry: Geometry,
         first: &Frame,
-        pressure_top_pa: f64,
+        ranges: &Ranges,
     ) -> Result<Option<Self>, ObserveError> {
         let Some(slice) = &first.slice else {
             return Ok(None);
@@ -131,19 +147,20 @@ impl Slice {
         let Some(rows) = Rows::new(&slice.depths_m, geometry.dx, f64::INFINITY) else {
             return Ok(None);
         };
-        let greatest = |field: &[f32]| {
-            let top = field
-                .iter()
-                .fold(0.0_f32, |top, value| top.max(value.abs()));
-            1.05 * f64::from(top)
-        };
-        // One frame does not tell what others hold. Below a spike of pressure the effective stress
-        // reaches about 0.5 of it and the shear 0.2 of it (a line contact's, in its own size), and
-        // the spikes' range is known from the map.
-        let top = greatest(&slice.effective_pa).max(0.38 * pressure_top_pa);
-        let shear = greatest(&slice.tau_xz_pa).max(0.15 * pressure_top_pa);
-        let effective = Scale::up_to(top, GPA, Sign::Positive, Colormap::Magma, 8.0);
-        let tau_xz = Scale::up_to(shear, GPA, Sign::Both, Colormap::CyanToYellow, 4.0);
+        let effective = Scale::up_to(
+            ranges.effective_pa,
+            GPA,
+            Sign::Positive,
+            Colormap::Magma,
+            8.0,
+        );
+        let tau_xz = Scale::up_to(
+            ranges.shear_pa,
+            GPA,
+            Sign::Both,
+            Colormap::CyanToYellow,
+            4.0,
+        );
         let scales = [(EFFECTIVE, effective.clone()), (TAU_XZ, tau_xz.clone())];
         let pixels = Pixels {
             columns: geometry.nx,
@@ -152,7 +169,9 @@ impl Slice {
             size: [geometry.dx, rows.height_mm],
         };
         let plot = plot_box(geometry, &rows);
-        let image = |entity, scale, title| Raster::new(stream, entity, scale, pixels, &plot, title);
+        let image = |entity, scale, title| {
+            Raster::new(stream, entity, scale, pixels, &plot, (title, Height::Fixed))
+        };
         Ok(Some(Self {
             geometry,
             effective: image(EFFECTIVE, effective, "σ, GPa")?,
@@ -183,17 +202,21 @@ impl Slice {
         let Some(slice) = frame.slice.as_ref().filter(|s| self.rows.hold(s, nx)) else {
             return Ok(());
         };
-        let image = |field: &'_ [f32]| -> Vec<f32> {
-            (0..self.rows.len() * nx)
-                .map(|at| self.rows.value(field, nx, at / nx, at % nx))
-                .collect()
-        };
+        let effective = self.rows.image(&slice.effective_pa, nx);
         self.effective
-            .log(stream, image(&slice.effective_pa).into_iter())?;
-        self.tau_xz
-            .log(stream, image(&slice.tau_xz_pa).into_iter())?;
+            .log(stream, std::iter::once(effective.as_slice()))?;
         log_peak(stream, frame)?;
         self.log_point(stream, frame)
+    }
+
+    /// Same for the shear, which has a picture of its own in another tab.
+    pub(super) fn log_shear(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        let nx = self.geometry.nx;
+        let Some(slice) = frame.slice.as_ref().filter(|s| self.rows.hold(s, nx)) else {
+            return Ok(());
+        };
+        let shear = self.rows.image(&slice.tau_xz_pa, nx);
+        self.tau_xz.log(stream, std::iter::once(shear.as_slice()))
     }
 
     /// The followed point and the depth on which it travels.
@@ -207,16 +230,16 @@ impl Slice {
             .with_colors([faded(GREEN, 130)])
             .with_radii([Radius::new_ui_points(0.5)])
             .with_draw_order(18.0);
-        stream.log(&format!("{POINT}/path"), &path)?;
+        stream.log(format!("{POINT}/path"), &path)?;
         if !(left..=right).contains(&x) {
             let nothing = Points2D::new(std::iter::empty::<[f32; 2]>());
-            return stream.log(&format!("{POINT}/now"), &nothing);
+            return stream.log(format!("{POINT}/now"), &nothing);
         }
         let now = Points2D::new([[x, z]])
             .with_radii([Radius::new_ui_points(5.0)])
             .with_colors([faded(GREEN, 255)])
             .with_draw_order(26.0);
-        stream.log(&format!("{POINT}/now"), &now)
+        stream.log(format!("{POINT}/now"), &now)
     }
 }
 
@@ -267,6 +290,8 @@ mod tests {
             let z = (rows.depth_mm(row) / MM) as f32;
             assert!((rows.value(&field, 2, row, 0) - z).abs() < 1e-9);
             assert!((rows.value(&field, 2, row, 1) - 2.0 * z).abs() < 2e-9);
+            let image = rows.image(&field, 2);
+            assert_eq!(image[2 * row + 1], rows.value(&field, 2, row, 1));
         }
         assert!((rows.depth_mm(30) - 1.5).abs() < 1e-12);
     }

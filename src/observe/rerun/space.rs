@@ -10,12 +10,12 @@ mod fixed;
 use rerun::{Arrows3D, Color, Mesh3D, Points3D, Radius};
 
 use super::colour::{GREEN, ORANGE, Ramp, SKY};
-use super::geometry::{Geometry, MM, number};
-use super::maps::GPA;
+use super::geometry::Geometry;
 use super::mesh::Window;
 use super::slice::Rows;
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{GPA, MM, number};
 use crate::sim::{Frame, Metrics};
 
 pub(super) const SPACE: &str = "contact_3d";
@@ -161,7 +161,7 @@ impl Space {
                 pressure_colour(frame.pressure_pa[at] / top, (0.5 + 0.5 * shade).min(1.0))
             }));
         let sheet = self.window.sheet(&self.heights, &self.colours);
-        stream.log(&format!("{SPACE}/film_coloured_by_pressure"), &sheet)
+        stream.log(format!("{SPACE}/film_coloured_by_pressure"), &sheet)
     }
 
     fn log_body(
@@ -181,7 +181,7 @@ impl Space {
         self.colours.clear();
         self.colours.extend(shades.into_iter().map(steel));
         let sheet = self.window.sheet(&self.heights, &self.colours);
-        stream.log(&format!("{SPACE}/{name}"), &sheet)
+        stream.log(format!("{SPACE}/{name}"), &sheet)
     }
 
     fn log_slice(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
@@ -200,7 +200,7 @@ impl Space {
             stress.map(|stress| Ramp::Magma.colour(stress / top as f32, 1.0))
         });
         let mesh = Mesh3D::update_fields().with_vertex_colors(colours);
-        stream.log(&format!("{SPACE}/effective_stress_slice"), &mesh)
+        stream.log(format!("{SPACE}/effective_stress_slice"), &mesh)
     }
 
     /// Where the bodies touch, on the film's sheet.
@@ -213,7 +213,7 @@ impl Space {
         let points = Points3D::new(spots)
             .with_radii([Radius::new_scene_units((0.55 * self.geometry.dx) as f32)])
             .with_colors([Color::from([90, 255, 250])]);
-        stream.log(&format!("{SPACE}/contact_spots"), &points)
+        stream.log(format!("{SPACE}/contact_spots"), &points)
     }
 
     /// The followed point of body 1, coloured by its stress.
@@ -224,7 +224,10 @@ impl Space {
         let entity = format!("{SPACE}/material_point");
         let x = point.x_m * MM;
         if point.body != 1 || x.abs() > 1.45 * self.geometry.a {
-            return stream.log(&entity, &Points3D::new(std::iter::empty::<[f32; 3]>()));
+            return stream.log(
+                entity.as_str(),
+                &Points3D::new(std::iter::empty::<[f32; 3]>()),
+            );
         }
         let z = self.levels.slice - point.depth_m * MM;
         let colour = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
@@ -236,7 +239,7 @@ impl Space {
             .with_colors([Color::from(GREEN), Color::from(colour)])
             .with_labels([label.as_str(), ""])
             .with_show_labels(true);
-        stream.log(&entity, &dot)
+        stream.log(entity.as_str(), &dot)
     }
 
     /// Arrows as long as the surfaces are fast, logged when a speed has changed.
@@ -265,7 +268,7 @@ impl Space {
             format!("U2 = {:.2} m/s", speeds[1]),
         ])
         .with_show_labels(true);
-        stream.log(&format!("{SPACE}/surface_speeds"), &arrows)
+        stream.log(format!("{SPACE}/surface_speeds"), &arrows)
     }
 }
 

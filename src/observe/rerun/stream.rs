@@ -4,7 +4,10 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use rerun::log::ChunkBatcherConfig;
-use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder};
+use rerun::{
+    AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars, TimeCell,
+    TimeColumn,
+};
 
 use super::file::RecordingFile;
 use super::live::{self, Link, Live};
@@ -20,8 +23,9 @@ const LIVE_TICK: Duration = Duration::from_millis(50);
 const LIVE_CLOSE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Longest wait for the last bytes on closing.
 const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
-/// What is logged reaches the file's writer at least this often: what `kill -9` may lose.
-const TICK: Duration = Duration::from_secs(1);
+/// What is logged reaches the file's writer at least this often: with the writing itself, `kill -9` loses less than
+/// a second.
+const TICK: Duration = Duration::from_millis(800);
 
 /// Timelines of every frame.
 pub(super) const STEP: &str = "step";
@@ -29,6 +33,25 @@ pub(super) const STEP: &str = "step";
 pub(super) const SIMULATED_TIME: &str = "simulated_time";
 /// Lengths of 4 a travelled at U, in thousandths (a timeline holds no fractions).
 pub(super) const PASSAGE: &str = "passage_x1000";
+
+/// A place on all three timelines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Moment {
+    step: i64,
+    nanos: i64,
+    passage: i64,
+}
+
+impl Moment {
+    /// After so many steps, seconds and passages.
+    pub(super) fn new(step: u64, time_s: f64, passages: f64) -> Self {
+        Self {
+            step: i64::try_from(step).unwrap_or(i64::MAX),
+            nanos: (time_s * 1e9).round() as i64,
+            passage: (passages * 1000.0).round() as i64,
+        }
+    }
+}
 
 /// `enabled` is set because the variable RERUN=off would make a silent no-op of a recording that the user
 /// asked for.
@@ -123,7 +146,7 @@ impl Stream {
     /// Logs at the time that was set last.
     pub(super) fn log(
         &self,
-        entity: &str,
+        entity: impl Into<EntityPath>,
         data: &(impl AsComponents + ?Sized),
     ) -> Result<(), ObserveError> {
         self.recording
@@ -134,7 +157,7 @@ impl Stream {
     /// Logs what holds for the whole recording.
     pub(super) fn log_static(
         &self,
-        entity: &str,
+        entity: impl Into<EntityPath>,
         data: &(impl AsComponents + ?Sized),
     ) -> Result<(), ObserveError> {
         self.recording
@@ -143,12 +166,34 @@ impl Stream {
     }
 
     /// Sets the time of what is logged next. Timelines belong to the thread that sets them.
-    pub(super) fn set_time(&self, step: u64, time_s: f64, passages: f64) {
+    pub(super) fn set_time(&self, now: Moment) {
+        self.recording.set_time_sequence(STEP, now.step);
+        let nanos = TimeCell::from_duration_nanos(now.nanos);
+        self.recording.set_time(SIMULATED_TIME, nanos);
+        self.recording.set_time_sequence(PASSAGE, now.passage);
+    }
+
+    /// Sends the scalars of many steps at once: `width` of each.
+    pub(super) fn log_columns(
+        &self,
+        entity: EntityPath,
+        moments: &[Moment],
+        values: &[f64],
+        width: usize,
+    ) -> Result<(), ObserveError> {
+        let of = |part: fn(&Moment) -> i64| moments.iter().map(part);
+        let times = [
+            TimeColumn::new_sequence(STEP, of(|at| at.step)),
+            TimeColumn::new_duration_nanos(SIMULATED_TIME, of(|at| at.nanos)),
+            TimeColumn::new_sequence(PASSAGE, of(|at| at.passage)),
+        ];
+        let lengths = std::iter::repeat_n(width, moments.len());
+        let columns = Scalars::new(values.iter().copied())
+            .columns(lengths)
+            .map_err(|error| self.failed(&error.to_string()))?;
         self.recording
-            .set_time_sequence(STEP, i64::try_from(step).unwrap_or(i64::MAX));
-        self.recording.set_duration_secs(SIMULATED_TIME, time_s);
-        self.recording
-            .set_time_sequence(PASSAGE, (passages * 1000.0).round() as i64);
+            .send_columns(entity, times, columns)
+            .map_err(|error| self.failed(&error.to_string()))
     }
 
     /// Sends what waits on to the file now.
@@ -158,12 +203,14 @@ impl Stream {
         drop(self.recording.flush_async());
     }
 
-    /// Same once a second. The library's own tick is left out whenever some entity has filled a batch, so that
-    /// in a fast run scalars would wait for as long as images keep coming.
-    pub(super) fn send_on_if_due(&mut self) {
-        if self.sent.elapsed() >= TICK {
-            self.send_on();
-        }
+    /// Whether a tick has passed since. The library's own tick is left out whenever some entity has filled a
+    /// batch, so that in a fast run the rest would wait for as long as images keep coming.
+    pub(super) fn is_due(&self) -> bool {
+        let tick = match &self.to {
+            Destination::File(_) => TICK,
+            Destination::Live(_) => LIVE_TICK,
+        };
+        self.sent.elapsed() >= tick
     }
 
     /// An error if the file has failed since.

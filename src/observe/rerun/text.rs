@@ -7,6 +7,7 @@ use rerun::{TextDocument, TextLog, TextLogLevel};
 use super::raster::Scale;
 use super::reread::{CommandLine, Origin};
 use super::stream::Stream;
+use crate::observe::scales::number;
 use crate::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
 use crate::scene::ContactKind;
 use crate::sim::Frame;
@@ -21,6 +22,10 @@ pub(super) const LOG: &str = "log";
 pub(super) const ORIGIN: &str = "text/origin";
 /// Knobs that were turned, for programs.
 pub(super) const COMMANDS: &str = "commands";
+
+/// What no reader of the numbers should forget.
+pub(super) const CAUTION: &str =
+    "relative life is an estimate under assumptions: isothermal, elastic, no wear, initiation only";
 
 /// What is known before the first frame.
 pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), ObserveError> {
@@ -63,7 +68,8 @@ pub(super) fn log_notes<'a>(
     exaggeration: &str,
 ) -> Result<(), ObserveError> {
     let mut notes = format!(
-        "# Notes on the data\n\n{cadence}\n\n{exaggeration}\n\nMaps are stored in 16 bits: value = \
+        "# Notes on the data\n\n{cadence} Interferogram, traction, \
+         roughness and shear stress take every second of them.\n\n{exaggeration}\n\nMaps are stored in 16 bits: value = \
          stored number / `meter`, in the unit of the entity's name. Colours have the same range in \
          every frame; values above it take the top colour.\n\n| entity | colours up to | stored \
          range | smallest difference |\n|---|---|---|---|\n"
@@ -74,8 +80,10 @@ pub(super) fn log_notes<'a>(
         // Writing to a string cannot fail.
         let _ = writeln!(
             notes,
-            "| `{entity}` | {} {unit} | {low} to {high} {unit} | {:.1e} {unit} |",
-            scale.top,
+            "| `{entity}` | {} {unit} | {} to {} {unit} | {:.1e} {unit} |",
+            number(scale.top),
+            number(low),
+            number(high),
             scale.resolution(),
         );
     }

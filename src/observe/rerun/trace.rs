@@ -5,11 +5,11 @@ use rerun::{Points2D, Radius};
 
 use super::centre_line::line;
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, faded};
-use super::geometry::{Geometry, MM, divisions, ticks};
-use super::maps::GPA;
+use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
 use super::stream::Stream;
 use crate::observe::ObserveError;
+use crate::observe::scales::{GPA, MM, divisions, ticks};
 use crate::sim::{Frame, MaterialPoint};
 
 pub(super) const TRACE: &str = "material_point/trace";
@@ -108,7 +108,7 @@ impl Trace {
         let curve = |name: &str, trace: &Vec<[f32; 2]>, colour, radius| {
             let strips: &[Vec<[f32; 2]>] = std::slice::from_ref(trace);
             let strips = if trace.len() > 1 { strips } else { &[] };
-            stream.log(&format!("{TRACE}/{name}"), &line(strips, colour, radius))
+            stream.log(format!("{TRACE}/{name}"), &line(strips, colour, radius))
         };
         curve("crossing_before", &self.before, GREY, 0.75)?;
         curve("pressure_GPa", &self.pressure, ORANGE, 1.5)?;
@@ -136,6 +136,6 @@ impl Trace {
             .with_labels([String::new(), label])
             .with_show_labels(true)
             .with_draw_order(30.0);
-        stream.log(&format!("{TRACE}/now"), &now)
+        stream.log(format!("{TRACE}/now"), &now)
     }
 }

@@ -164,12 +164,7 @@ impl LineStress {
     /// ln ∫ s^m dx dz of the surface loaded last, without and with its traction.
     pub fn volume(&mut self, exponent: f64) -> VolumeOut {
         self.volume_under(&[StressLaw::power(exponent)], &BodyId::BOTH);
-        let integral = |loading| self.sums.integral(loading, 0);
-        VolumeOut {
-            normal: integral(Loading::Normal(BodyId::One)),
-            full: integral(Loading::Full(BodyId::One)),
-            mate: integral(Loading::Full(BodyId::Two)),
-        }
+        VolumeOut::of(&self.sums)
     }
 
     /// Sums of the surface loaded last under one or two laws, for the bodies that are asked for.

@@ -47,6 +47,18 @@ pub struct VolumeOut {
     pub mate: Integral,
 }
 
+impl VolumeOut {
+    /// Under the first law of the sums.
+    pub(super) fn of(sums: &VolumeSums) -> Self {
+        let integral = |loading| sums.integral(loading, 0);
+        Self {
+            normal: integral(Loading::Normal(BodyId::One)),
+            full: integral(Loading::Full(BodyId::One)),
+            mate: integral(Loading::Full(BodyId::Two)),
+        }
+    }
+}
+
 /// One thread's buffers and results.
 pub(super) struct Worker {
     /// Inputs of the y pass.
@@ -113,12 +125,7 @@ impl StressEngine {
     /// on the current rayon pool.
     pub fn volume(&mut self, exponent: f64) -> VolumeOut {
         self.volume_under(&[StressLaw::power(exponent)], &BodyId::BOTH);
-        let integral = |loading| self.sums.integral(loading, 0);
-        VolumeOut {
-            normal: integral(Loading::Normal(BodyId::One)),
-            full: integral(Loading::Full(BodyId::One)),
-            mate: integral(Loading::Full(BodyId::Two)),
-        }
+        VolumeOut::of(&self.sums)
     }
 
     /// Sums of the surface loaded last under one or two laws, for the bodies that are asked for, in

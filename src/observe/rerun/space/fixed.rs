@@ -3,12 +3,11 @@
 use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
 
 use super::super::colour::{GREY, Ramp, WHITE, faded};
-use super::super::geometry::{number, ticks};
-use super::super::maps::GPA;
 use super::super::mesh::triangles;
 use super::super::stream::Stream;
 use super::{SPACE, Space, steel};
 use crate::observe::ObserveError;
+use crate::observe::scales::{GPA, number, ticks};
 
 impl Space {
     pub(super) fn log_static(&mut self, stream: &Stream) -> Result<(), ObserveError> {
@@ -20,7 +19,7 @@ impl Space {
             let mesh = Mesh3D::update_fields()
                 .with_triangle_indices(triangles.iter().copied())
                 .with_albedo_factor(albedo);
-            stream.log_static(&format!("{SPACE}/{name}"), &mesh)
+            stream.log_static(format!("{SPACE}/{name}"), &mesh)
         };
         sheet("film_coloured_by_pressure", [255, 255, 255, 255])?;
         sheet("body_1_surface", [200, 222, 245, 255])?;
@@ -43,7 +42,7 @@ impl Space {
                 let sheet = self
                     .window
                     .sheet(&vec![level as f32; n], &vec![steel(1.0); n]);
-                stream.log_static(&format!("{SPACE}/{name}"), &sheet)?;
+                stream.log_static(format!("{SPACE}/{name}"), &sheet)?;
             }
         }
         Ok(())
@@ -65,7 +64,7 @@ impl Space {
             .with_triangle_indices(triangles(sheet.columns.len(), sheet.rows.len()));
         let entity = format!("{SPACE}/effective_stress_slice");
         stream.log_static(
-            &entity,
+            entity.as_str(),
             // Colours come with every frame: static ones would hide them.
             &Mesh3D {
                 vertex_colors: None,
@@ -84,7 +83,7 @@ impl Space {
         let outline = LineStrips3D::new([edge.map(|[x, z]| [x as f32, 0.0, z as f32])])
             .with_radii([Radius::new_ui_points(0.75)])
             .with_colors([faded(GREY, 255)]);
-        stream.log_static(&format!("{SPACE}/cut/outline"), &outline)?;
+        stream.log_static(format!("{SPACE}/cut/outline"), &outline)?;
         let mut depths = ticks(0.0, level - bottom, 3);
         // The surface needs no number, and its place is taken by the arrow.
         depths.retain(|&z| z > 0.0);
@@ -97,7 +96,7 @@ impl Space {
         .with_colors([Color::from(GREY)])
         .with_labels(depths.iter().map(|&z| format!("{} mm", number(z))))
         .with_show_labels(true);
-        stream.log_static(&format!("{SPACE}/cut/depths"), &labels)
+        stream.log_static(format!("{SPACE}/cut/depths"), &labels)
     }
 
     /// Colour bars of pressure and stress at the right of the bodies.
@@ -137,7 +136,7 @@ impl Space {
         let mesh = Mesh3D::new(positions)
             .with_triangle_indices(triangles(2, ROWS))
             .with_vertex_colors(colours);
-        stream.log_static(&format!("{SPACE}/legend/{name}"), &mesh)?;
+        stream.log_static(format!("{SPACE}/legend/{name}"), &mesh)?;
         let top = top_pa * GPA.1;
         let mut at = vec![[left, 0.0, high + 0.27 * a]];
         let mut texts = vec![title.to_owned()];
@@ -150,7 +149,7 @@ impl Space {
             .with_colors([Color::from(WHITE)])
             .with_labels(texts)
             .with_show_labels(true);
-        stream.log_static(&format!("{SPACE}/legend/{name}/labels"), &labels)
+        stream.log_static(format!("{SPACE}/legend/{name}/labels"), &labels)
     }
 
     /// What the sheets are, and how much their heights are exaggerated.
@@ -173,6 +172,6 @@ impl Space {
         .with_colors([Color::from(WHITE)])
         .with_labels(texts.iter().map(|(_, text)| text.as_str()))
         .with_show_labels(true);
-        stream.log_static(&format!("{SPACE}/labels"), &labels)
+        stream.log_static(format!("{SPACE}/labels"), &labels)
     }
 }

@@ -1,0 +1,161 @@
+//! A run that starts from its neighbour's end instead of from Hertz: one step of a continuation.
+//!
+//! ```text
+//! contact     pressure, film and history of the neighbour's last step
+//! knobs       walk from the neighbour's values to this scene's at their own rates
+//! surfaces    x_i(end) = x_i(cold start) (mod W_i)        the way that is missing is spread over the walk
+//! settle      max(walk, spread) + 2.5 a at U, then the passage begins like any other
+//! ```
+//! Only S and the two amplitudes may differ: they leave the scales, the domain and the smooth reference as
+//! they are, which the neighbour hands over. Where the waves of both bodies keep step (S = 0: crest on crest
+//! or crest on valley) the result depends on how they stand to each other, so the surfaces are led to where a
+//! cold start would have put them, at most half a wave away. Film that entered before the walk ended leaves
+//! the contact 2 a later at U; half an a is kept in reserve. `tests/sweep.rs` compares with cold runs.
+
+use super::drive::Drive;
+use super::simulation::{DEVELOP, Phase, Simulation};
+use super::{Knob, SimError, State};
+
+/// Way at U, in a, in which what entered under the neighbour's conditions leaves the contact.
+const FLUSH: f64 = 2.5;
+/// Part of it, in a, at the end, that is stepped as the passage is; before it steps are [`COARSE`] times as
+/// long, whose own errors have left the inner contact when the passage begins.
+const FINE: f64 = 1.5;
+/// Steps of settling over those of the passage.
+pub(super) const COARSE: f64 = 2.0;
+/// Knobs that a neighbour may differ in.
+const FREE: [Knob; 3] = [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M];
+/// Speed, in U, at which a surface is led at most.
+const LEAD: f64 = 0.5;
+/// Shortest way over which surfaces are led, in a.
+const LEAD_WAY: f64 = 0.5;
+
+impl Simulation {
+    /// Starts from the end of `neighbour`, a run of the same scene but for the slide-to-roll ratio and the
+    /// amplitudes, in place of the start-up.
+    ///
+    /// # Errors
+    /// [`SimError::State`] when the neighbour's passage had not begun or its fields do not fit; the simulation
+    /// is as it was.
+    pub fn follow(&mut self, neighbour: &State) -> Result<(), SimError> {
+        let parts = self.handed_over(neighbour)?;
+        let dt = self.motion.nodes * self.plan.domain.dx_a();
+        let goal = self.cold_ways(dt);
+        self.march = parts.march;
+        for knob in FREE {
+            let wanted = self.wanted.get(knob).target;
+            self.drive.jump(knob, parts.drive.get(knob).now);
+            self.drive.aim(knob, wanted);
+        }
+        for knob in [Knob::ForceN, Knob::ForceNPerM, Knob::EntrainmentMS] {
+            self.drive.jump(knob, self.wanted.get(knob).target);
+        }
+        self.motion.travelled = parts.travelled;
+        let walk = FREE
+            .map(|knob| {
+                let setting = self.drive.get(knob);
+                (setting.target - setting.now).abs() / setting.rate
+            })
+            .into_iter()
+            .fold(0.0, f64::max);
+        // How far the surfaces must be led depends on how long settling takes, and the other way round: two
+        // rounds find a length that serves.
+        let mut plan = Settling::new(walk, dt);
+        let mut over = 0.0;
+        for _ in 0..2 {
+            let lead = self.lead_after(&plan, goal);
+            let longest = lead.into_iter().map(f64::abs).fold(0.0, f64::max);
+            over = (longest / LEAD).max(LEAD_WAY);
+            plan = Settling::new(walk.max(over), dt);
+        }
+        let lead = self.lead_after(&plan, goal);
+        self.motion.lead(lead, over);
+        self.motion.disturb(plan.length());
+        self.phase = Phase::Settle {
+            left: plan.coarse,
+            then: plan.fine,
+        };
+        self.start_up_steps = (0, plan.coarse + plan.fine);
+        self.watched = self.motion.travelled;
+        self.see_again();
+        Ok(())
+    }
+
+    /// What both surfaces lack of their places after settling.
+    fn lead_after(&self, plan: &Settling, goal: [f64; 2]) -> [f64; 2] {
+        let half = ways(
+            &self.drive,
+            self.motion.travelled,
+            (plan.coarse, COARSE * plan.dt),
+        );
+        let end = ways(&half.0, half.1, (plan.fine, plan.dt)).1;
+        [0, 1].map(|body: usize| self.missing(body, goal[body] - end[body]))
+    }
+
+    /// What a way is short of, modulo the body's wave: between −W/2 and W/2. A body without one wave along x
+    /// has no place to be led to.
+    fn missing(&self, body: usize, way: f64) -> f64 {
+        match self.terrain.wavenumbers(body).map(f64::abs) {
+            [one, two] if one > 0.0 && (two == 0.0 || two == one) => {
+                let wave = std::f64::consts::TAU / one;
+                way - wave * (way / wave).round()
+            }
+            [0.0, two] if two > 0.0 => {
+                let wave = std::f64::consts::TAU / two;
+                way - wave * (way / wave).round()
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Where a cold start would have both surfaces when the passage begins, in a.
+    fn cold_ways(&self, dt: f64) -> [f64; 2] {
+        let smooth = self.smooth_way();
+        let steps = (DEVELOP / dt).ceil() as u64;
+        let mut drive = self.wanted.clone();
+        for knob in FREE {
+            drive.jump(knob, 0.0);
+            drive.aim(knob, self.wanted.get(knob).target);
+        }
+        let developing = self.terrain.is_rough(0)
+            || self.terrain.is_rough(1)
+            || self.wanted.get(Knob::SlideRoll).target != 0.0;
+        let steps = if developing { steps } else { 0 };
+        ways(&drive, [smooth; 2], (steps, dt)).1
+    }
+}
+
+/// Steps of settling.
+struct Settling {
+    coarse: u64,
+    fine: u64,
+    dt: f64,
+}
+
+impl Settling {
+    /// After a walk of so much.
+    fn new(walk: f64, dt: f64) -> Self {
+        Self {
+            coarse: ((walk + FLUSH - FINE) / (COARSE * dt)).ceil() as u64,
+            fine: (FINE / dt).ceil() as u64,
+            dt,
+        }
+    }
+
+    /// In a.
+    fn length(&self) -> f64 {
+        (COARSE * self.coarse as f64 + self.fine as f64) * self.dt
+    }
+}
+
+/// Knobs and ways of both bodies after so many steps of such a length, from `travelled` on.
+fn ways(drive: &Drive, mut travelled: [f64; 2], (steps, dt): (u64, f64)) -> (Drive, [f64; 2]) {
+    let mut drive = drive.clone();
+    for _ in 0..steps {
+        drive.walk(dt);
+        let s = drive.get(Knob::SlideRoll).now;
+        travelled[0] += (1.0 - 0.5 * s) * dt;
+        travelled[1] += (1.0 + 0.5 * s) * dt;
+    }
+    (drive, travelled)
+}

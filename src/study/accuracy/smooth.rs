@@ -1,0 +1,139 @@
+//! Smooth steady film of a circular contact against the computed table.
+//!
+//! M = 20, L = 10, Barus, incompressible, edges −4.5 a, 1.5 a, ±3 a: central film 4.804, least film 2.961 in Moes
+//! units, to 0.5 % (`assets/reference/smooth_barus_incompressible.csv`). Started from Hertz on 65² (33² on itself),
+//! flushed, refined, flushed again, as a run does.
+
+use std::f64::consts::PI;
+
+use super::hertz::{CIRCLE, LOAD};
+use super::row::{AccuracyRow, Against, Part, Timed, Varied, against_finest, timed};
+use crate::math::grid::{Grid, Symmetry};
+use crate::physics::fluid::{Density, Viscosity};
+use crate::solve::march::{Conditions, Flow, Guess, March};
+use crate::solve::newton::{Tolerance, Verdict};
+use crate::solve::reynolds::Medium;
+
+const M: f64 = 20.0;
+const L: f64 = 10.0;
+const CENTRAL: f64 = 4.804;
+const LEAST: f64 = 2.961;
+const DOMAIN: (f64, f64, f64) = (-4.5, 1.5, 3.0);
+/// Tolerance of the series over nodes.
+const TIGHT: f64 = 1e-4;
+
+/// Central and least film in Moes units, and the work.
+struct Film {
+    central: f64,
+    least: f64,
+    newton: u64,
+}
+
+/// Film over nodes against the table, over the tolerance against the tightest.
+pub(super) fn smooth(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<AccuracyRow>, String> {
+    let row = |film: &Film, time: Timed, quantity, value: f64, error| AccuracyRow {
+        part: Part::SmoothFilm,
+        quantity,
+        varied: Varied::Nodes,
+        setting: 0.0,
+        fixed: format!("tolerance {TIGHT:e}"),
+        value: Some(value),
+        error,
+        against: Against::Table,
+        order: None,
+        seconds: time.seconds,
+        runs: time.runs,
+        threads: rayon::current_num_threads(),
+        work: film.newton,
+        work_unit: "Newton",
+        bytes: None,
+        front: false,
+    };
+    let mut films = Vec::new();
+    for &nodes in sizes {
+        let (film, time) = timed(|| solve(nodes, TIGHT));
+        films.push((nodes, film?, time));
+    }
+    let mut rows = Vec::new();
+    for quantity in ["central film", "least film"] {
+        for (nodes, film, time) in &films {
+            let (value, table) = if quantity == "central film" {
+                (film.central, CENTRAL)
+            } else {
+                (film.least, LEAST)
+            };
+            let mut row = row(film, *time, quantity, value, (value / table - 1.0).abs());
+            row.setting = *nodes as f64;
+            rows.push(row);
+        }
+    }
+    let first = rows.len();
+    let nodes = sizes[sizes.len().min(2) - 1];
+    for &tolerance in tolerances {
+        let (film, time) = timed(|| solve(nodes, tolerance));
+        let film = film?;
+        let mut row = row(&film, time, "central film, iteration", film.central, 0.0);
+        (row.varied, row.setting) = (Varied::Tolerance, tolerance);
+        (row.fixed, row.against) = (format!("N {nodes}"), Against::Finest);
+        rows.push(row);
+    }
+    against_finest(&mut rows[first..]);
+    Ok(rows)
+}
+
+fn solve(nodes: usize, tolerance: f64) -> Result<Film, String> {
+    let lambda = (128.0 * PI.powi(3) / (3.0 * M.powi(4))).cbrt();
+    let alpha_p = L / PI * (1.5 * M).cbrt();
+    let medium = Medium {
+        viscosity: Viscosity::Barus { alpha_p },
+        density: Density::Incompressible,
+        lambda,
+        sliding: 0.0,
+    };
+    let conditions = Conditions {
+        medium: &medium,
+        law: None,
+        load: LOAD,
+        tolerance: Tolerance {
+            pressure: tolerance,
+            film: tolerance,
+            mass: tolerance,
+            least_film: 0.0,
+            load: 1e-5,
+            max_iterations: 20,
+        },
+    };
+    let (x_min, x_max, y_half) = DOMAIN;
+    let grid = |nodes| Grid::new(nodes, x_min, x_max, y_half, Symmetry::MirrorY);
+    let guess = 1.2 * lambda.powf(0.67);
+    let mut march = March::from_hertz(grid(nodes.min(65)), &CIRCLE, guess, 1.0, Flow::Film);
+    let mut newton = 0;
+    loop {
+        for _ in 0..((x_max - x_min) / march.grid.dx) as usize {
+            let report = march.attempt(&conditions, 1.0, Guess::Extrapolated);
+            if report.verdict != Verdict::Converged {
+                return Err(format!("{nodes}², tolerance {tolerance}: {report:?}"));
+            }
+            newton += u64::from(report.iterations);
+            march.commit(1.0);
+        }
+        if march.grid.nx >= nodes {
+            break;
+        }
+        let finer = grid(2 * (march.grid.nx - 1) + 1);
+        march = March::refined(&march, finer, &CIRCLE, 1.0, Flow::Film);
+    }
+    let unit = (6.0 * PI / lambda).sqrt();
+    let (grid, film) = (&march.grid, &march.state.film);
+    let centre = grid.axis_row() * grid.nx + (-grid.x_min / grid.dx).round() as usize;
+    let inside = (0..grid.len()).filter(|n| {
+        let (x, y) = (grid.x(n % grid.nx), grid.y(n / grid.nx));
+        x * x + y * y < 1.1
+    });
+    let least = inside.map(|n| film[n]).fold(f64::INFINITY, f64::min);
+    Ok(Film {
+        central: unit * film[centre],
+        least: unit * least,
+        newton,
+    })
+}

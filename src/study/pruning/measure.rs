@@ -1,0 +1,212 @@
+//! The same run twice: as planned, and with one stage forced in.
+
+use std::time::Instant;
+
+use super::force::Forced;
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::sim::{Frame, Simulation, Stage, Stats};
+use crate::solve::stress::{StressEngine, StressSpec, Symmetry};
+
+/// What a run left.
+pub(super) struct Ran {
+    frame: Frame,
+    life: Option<f64>,
+    stats: Stats,
+    pub(super) seconds: f64,
+    threads: usize,
+}
+
+/// How a run's frames are filled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Frames {
+    /// At the end only.
+    Last,
+    /// Every so many steps.
+    Every(u64),
+}
+
+/// Differences of two runs, relative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Difference {
+    /// Σ|Δp|/Σp of the last step.
+    pub pressure: f64,
+    /// Σ|Δh|/Σh inside the Hertz ellipse.
+    pub film: f64,
+    /// |Δ ln| of the relative life, where there is one in both.
+    pub life: Option<f64>,
+}
+
+impl Difference {
+    /// The greatest of them.
+    pub fn greatest(&self) -> f64 {
+        self.pressure.max(self.film).max(self.life.unwrap_or(0.0))
+    }
+}
+
+/// A stage of a preset: what leaving it out saves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PruningRow {
+    /// Preset.
+    pub preset: String,
+    /// Stage.
+    pub stage: Forced,
+    /// What it changes.
+    pub difference: Difference,
+    /// Time with the stage over time without.
+    pub time_ratio: f64,
+    /// Linear iterations with over without.
+    pub work_ratio: f64,
+    /// Transforms with over without.
+    pub transform_ratio: f64,
+}
+
+impl PruningRow {
+    /// Whether leaving it out changes no more than it may.
+    pub fn is_harmless(&self) -> bool {
+        self.difference.greatest() <= self.stage.allowed().0
+    }
+}
+
+/// The run as planned.
+pub(super) fn plain(scene: &Scene, plan: &Plan, threads: usize) -> Result<Ran, String> {
+    run(scene, plan, threads, cadence(plan))
+}
+
+fn cadence(plan: &Plan) -> Frames {
+    plan.record
+        .map_or(Frames::Last, |record| Frames::Every(record.every_steps))
+}
+
+/// The run with a stage forced in, against the plain one; `None` where the scene does not leave it out.
+pub(super) fn forced(
+    preset: &str,
+    stage: Forced,
+    (scene, plan): (&Scene, &Plan),
+    base: &Ran,
+) -> Option<Result<PruningRow, String>> {
+    let (other_scene, other_plan) = stage.apply(scene, plan)?;
+    let row = |difference, time_ratio, work_ratio, transform_ratio| PruningRow {
+        preset: preset.to_owned(),
+        stage,
+        difference,
+        time_ratio,
+        work_ratio,
+        transform_ratio,
+    };
+    if stage == Forced::DeepWaves {
+        let found = deep_waves(scene, plan, base);
+        return Some(found.map(|(error, ratio)| {
+            let difference = Difference {
+                pressure: 0.0,
+                film: 0.0,
+                life: Some(error),
+            };
+            row(difference, ratio, 1.0, 1.0)
+        }));
+    }
+    let frames = match stage {
+        Forced::EveryFrame => Frames::Every(1),
+        _ => cadence(plan),
+    };
+    let other = match run(&other_scene, &other_plan, base.threads, frames) {
+        Ok(other) => other,
+        Err(reason) => return Some(Err(reason)),
+    };
+    let ratio = |with: u64, without: u64| with as f64 / without.max(1) as f64;
+    Some(Ok(row(
+        difference(base, &other),
+        other.seconds / base.seconds,
+        ratio(other.stats.linear_iterations, base.stats.linear_iterations),
+        ratio(other.stats.ffts, base.stats.ffts),
+    )))
+}
+
+fn run(scene: &Scene, plan: &Plan, threads: usize, frames: Frames) -> Result<Ran, String> {
+    let mut sim =
+        Simulation::new(scene, plan.clone(), threads).map_err(|error| error.to_string())?;
+    let mut frame = Frame::default();
+    let clock = Instant::now();
+    while !sim.is_done() {
+        sim.step().map_err(|error| error.to_string())?;
+        if let Frames::Every(every) = frames
+            && sim.stage() == Stage::Passage
+            && sim.passage_steps().is_multiple_of(every)
+        {
+            sim.fill(&mut frame);
+        }
+    }
+    let seconds = clock.elapsed().as_secs_f64();
+    sim.fill(&mut frame);
+    Ok(Ran {
+        frame,
+        life: sim.summary().life_relative,
+        stats: *sim.stats(),
+        seconds,
+        threads,
+    })
+}
+
+fn difference(one: &Ran, two: &Ran) -> Difference {
+    let apart = |a: &[f32], b: &[f32], counts: &dyn Fn(usize) -> bool| {
+        let (mut off, mut all) = (0.0, 0.0);
+        for (_, (a, b)) in a.iter().zip(b).enumerate().filter(|(n, _)| counts(*n)) {
+            off += f64::from((a - b).abs());
+            all += f64::from(a.abs());
+        }
+        off / all.max(f64::MIN_POSITIVE)
+    };
+    let frame = &one.frame;
+    let inside = |n: usize| {
+        let x = (frame.x_min_m + (n % frame.nx) as f64 * frame.dx_m) / frame.a_m;
+        let y = (frame.y_min_m + (n / frame.nx) as f64 * frame.dy_m) / frame.b_m;
+        x * x + y * y < 1.0
+    };
+    Difference {
+        pressure: apart(&frame.pressure_pa, &two.frame.pressure_pa, &|_| true),
+        film: apart(&frame.film_m, &two.frame.film_m, &inside),
+        life: one
+            .life
+            .zip(two.life)
+            .map(|(one, two)| (one / two).ln().abs()),
+    }
+}
+
+/// The life integral of the last pressure with all waves in every layer against the truncated one: relative
+/// difference in the integral, and time of the one over the other.
+fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<(f64, f64), String> {
+    /// ε that keeps what single precision can hold.
+    const ALL_WAVES: f64 = 1e-8;
+    const REPEATS: u32 = 4;
+    let frame = &base.frame;
+    if scene.kind() == crate::scene::ContactKind::Line {
+        return Err("a line's layers are not truncated".to_owned());
+    }
+    let (p_h, a_m) = (frame.p_hertz_pa as f32, frame.a_m);
+    let p: Vec<f32> = frame.pressure_pa.iter().map(|p| p / p_h).collect();
+    let stress = plan.stress.ok_or("no stress")?;
+    let mut spec = StressSpec::new(
+        (frame.nx, frame.ny),
+        (frame.dx_m / a_m, frame.dy_m / a_m),
+        scene.body_1.poisson,
+        (stress.depths, stress.depth_max_m / a_m),
+        Symmetry::General,
+    );
+    let exponent = scene
+        .life
+        .as_ref()
+        .map_or(10.0, |life| life.stress_exponent * life.weibull_slope);
+    let mut measured = [(0.0, f64::INFINITY); 2];
+    for (slot, decay) in measured.iter_mut().zip([StressSpec::DECAY, ALL_WAVES]) {
+        spec.decay = decay;
+        let mut engine = StressEngine::new(&spec).map_err(|error| error.to_string())?;
+        engine.load(&p, None);
+        for _ in 0..REPEATS {
+            let clock = Instant::now();
+            let ln = engine.volume(exponent).normal.ln;
+            *slot = (ln, slot.1.min(clock.elapsed().as_secs_f64()));
+        }
+    }
+    let [(truncated, quick), (whole, slow)] = measured;
+    Ok(((truncated - whole).abs(), slow / quick))
+}

@@ -1,0 +1,312 @@
+//! Cases as data (`assets/studies/stability.toml`), and the scene that each of them means.
+//!
+//! ```text
+//! v(t) = usual^(1−t) extreme^t      both above 0, else  usual + t (extreme − usual)        0 ≤ t ≤ 1
+//! ```
+//! A case pushes one or more keys from a usual value to an extreme one; t = 1 is the case itself, and smaller t
+//! lead back to what is known to work. Beside the keys of a scene there are some that no scene has because
+//! they depend on others: see [`Lever`].
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::physics::hertz::Hertz;
+use crate::plan::Plan;
+use crate::scene::{Override, Scene};
+use crate::sim::Knob;
+
+/// The set, as it stands in the program.
+const CASES: &str = include_str!("../../../assets/studies/stability.toml");
+
+/// Waves of a rough case that says nothing else: nodes a wave, and amplitude of each body, m.
+const WAVE_NODES: f64 = 8.0;
+const WAVE_AMPLITUDE_M: f64 = 3e-7;
+
+/// Surfaces of a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Texture {
+    /// Transverse waves on body 1, a product of waves on body 2.
+    #[default]
+    Rough,
+    /// No roughness.
+    Smooth,
+    /// As in the scene.
+    Own,
+}
+
+/// One case.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Name.
+    pub name: String,
+    /// What the case is extreme in.
+    pub group: String,
+    /// Keys that are set whatever the push.
+    #[serde(default)]
+    pub set: Vec<String>,
+    /// Surfaces.
+    #[serde(default)]
+    pub texture: Texture,
+    /// Length of the passage, in lengths of 4 a.
+    #[serde(default = "one")]
+    pub passages: f64,
+    /// Whether the quick form runs it.
+    #[serde(default)]
+    pub quick: bool,
+    /// Keys with their usual and their extreme value.
+    #[serde(default)]
+    pub push: BTreeMap<String, [f64; 2]>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Set {
+    scene: String,
+    set: Vec<String>,
+    case: Vec<Case>,
+}
+
+/// The set: what all cases start from, and the cases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseSet {
+    /// Preset.
+    pub scene: String,
+    /// Keys set in all of them.
+    pub set: Vec<String>,
+    /// The cases.
+    pub cases: Vec<Case>,
+}
+
+/// What a pushed key means.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Lever {
+    /// `moes.m`, `moes.l`: viscosity and its pressure coefficient follow from Moes' groups.
+    MoesM,
+    MoesL,
+    /// `wave.nodes`: wavelength in nodes of the grid, both bodies.
+    WaveNodes,
+    /// `wave.amplitude_m`: amplitude of each body.
+    WaveAmplitude,
+    /// `shape.ellipticity`: b/a of the Hertz ellipse; the radius across follows.
+    Ellipticity,
+    /// `jump.KEY`: a knob turned in the middle of the passage.
+    Jump(Knob),
+    /// A key of the scene.
+    Key,
+}
+
+impl Lever {
+    fn of(name: &str) -> Self {
+        match name {
+            "moes.m" => Self::MoesM,
+            "moes.l" => Self::MoesL,
+            "wave.nodes" => Self::WaveNodes,
+            "wave.amplitude_m" => Self::WaveAmplitude,
+            "shape.ellipticity" => Self::Ellipticity,
+            _ => name
+                .strip_prefix("jump.")
+                .and_then(Knob::from_key)
+                .map_or(Self::Key, Self::Jump),
+        }
+    }
+}
+
+/// A case made ready to run.
+#[derive(Debug, Clone)]
+pub(super) struct Ready {
+    pub(super) scene: Scene,
+    pub(super) plan: Plan,
+    pub(super) jumps: Vec<(Knob, f64)>,
+}
+
+impl CaseSet {
+    /// The set that comes with the program.
+    ///
+    /// # Errors
+    /// What is wrong with the data.
+    pub fn shipped() -> Result<Self, String> {
+        let set: Set = toml::from_str(CASES).map_err(|error| error.to_string())?;
+        Ok(Self {
+            scene: set.scene,
+            set: set.set,
+            cases: set.case,
+        })
+    }
+
+    /// The scene of a case on `nodes` per side, pushed by `t`.
+    ///
+    /// # Errors
+    /// Why it is refused.
+    pub(super) fn ready(&self, case: &Case, nodes: usize, t: f64) -> Result<Ready, String> {
+        let mut texts = self.set.clone();
+        texts.push(format!("grid.nodes={nodes}"));
+        texts.push(format!("time.passages={}", case.passages));
+        texts.extend(case.set.iter().cloned());
+        let mut jumps = Vec::new();
+        for (name, range) in &case.push {
+            match Lever::of(name) {
+                Lever::Jump(knob) => jumps.push((knob, pushed(*range, t))),
+                Lever::Key => texts.push(format!("{name}={:e}", pushed(*range, t))),
+                _ => {}
+            }
+        }
+        let smooth = ["body_1", "body_2"].map(|body| format!("{body}.surface.kind=smooth"));
+        let mut bare = texts.clone();
+        bare.extend(smooth.clone());
+        let derived = self.derived(case, &bare, t)?;
+        texts.extend(derived.iter().cloned());
+        bare.extend(derived);
+        match case.texture {
+            Texture::Own => {}
+            Texture::Smooth => texts.extend(smooth),
+            Texture::Rough => {
+                let plan = Plan::new(&self.load(&bare)?).map_err(|error| error.to_string())?;
+                texts.extend(waves(case, &plan, t));
+            }
+        }
+        let scene = self.load(&texts)?;
+        let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
+        Ok(Ready { scene, plan, jumps })
+    }
+
+    fn load(&self, texts: &[String]) -> Result<Scene, String> {
+        let overrides = texts
+            .iter()
+            .map(|text| text.parse::<Override>())
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|error| error.to_string())?;
+        Scene::load_with(&self.scene, &overrides).map_err(|error| error.to_string())
+    }
+
+    /// Keys that follow from others of the scene: of the ellipse and of Moes' groups.
+    fn derived(&self, case: &Case, texts: &[String], t: f64) -> Result<Vec<String>, String> {
+        let get = |name: &str| case.push.get(name).map(|range| pushed(*range, t));
+        let mut found = Vec::new();
+        if let Some(ellipticity) = get("shape.ellipticity") {
+            let rx_m = self.load(texts)?.contact.rx_m;
+            found.push(format!(
+                "contact.ry_m={:e}",
+                rx_m * radius_ratio(ellipticity)
+            ));
+        }
+        if let Some((m, l)) = get("moes.m").zip(get("moes.l")) {
+            let scene = self.load(texts)?;
+            let (e_prime_pa, rx_m) = (scene.e_prime_pa(), scene.contact.rx_m);
+            let load = scene.force_n() / (e_prime_pa * rx_m * rx_m);
+            // M = W/(2U)^{3/4}, L = G (2U)^{1/4}, U = η0 u/(E'R), G = α E'.
+            let twice_speed = (load / m).powf(4.0 / 3.0);
+            let speed_m_s = scene.motion.entrainment_m_s.abs();
+            let viscosity = 0.5 * twice_speed * e_prime_pa * rx_m / speed_m_s;
+            let alpha = l / twice_speed.powf(0.25) / e_prime_pa;
+            found.push(format!("lubricant.viscosity_pa_s={viscosity:e}"));
+            found.push(format!("lubricant.pressure_viscosity_per_pa={alpha:e}"));
+        }
+        Ok(found)
+    }
+}
+
+/// Value of a pushed key.
+pub(super) fn pushed([usual, extreme]: [f64; 2], t: f64) -> f64 {
+    if t == 1.0 {
+        // Rounding must not carry it beyond what is allowed.
+        extreme
+    } else if usual > 0.0 && extreme > 0.0 {
+        (usual.ln() + t * (extreme / usual).ln()).exp()
+    } else {
+        usual + t * (extreme - usual)
+    }
+}
+
+/// Overrides that put waves of so many nodes on both bodies.
+fn waves(case: &Case, plan: &Plan, t: f64) -> Vec<String> {
+    let get = |name: &str, usual: f64| case.push.get(name).map_or(usual, |r| pushed(*r, t));
+    // A touch more than asked for: rounding must not make 4 nodes fewer than 4.
+    let nodes = get("wave.nodes", WAVE_NODES) * (1.0 + 1e-9);
+    let amplitude_m = get("wave.amplitude_m", WAVE_AMPLITUDE_M);
+    let (wave_x, wave_y) = (nodes * plan.dx_m, nodes * plan.dy_m);
+    vec![
+        "body_1.surface.kind=sinusoid".to_owned(),
+        "body_2.surface.kind=sinusoid".to_owned(),
+        format!("body_1.surface.wavelength_x_m={wave_x:e}"),
+        format!("body_2.surface.wavelength_x_m={wave_x:e}"),
+        format!("body_1.surface.amplitude_m={amplitude_m:e}"),
+        format!("body_2.surface.amplitude_m={amplitude_m:e}"),
+        match plan.kind {
+            crate::scene::ContactKind::Line => "body_2.surface.wavelength_y_m=inf".to_owned(),
+            crate::scene::ContactKind::Point => format!("body_2.surface.wavelength_y_m={wave_y:e}"),
+        },
+    ]
+}
+
+/// Ry/Rx of a Hertz ellipse with that b/a: it grows with the ratio, so bisection finds it.
+fn radius_ratio(ellipticity: f64) -> f64 {
+    let of = |ln_ratio: f64| Hertz::from_force(1.0, ln_ratio.exp(), 1e11, 1.0).ellipticity();
+    let (mut low, mut high) = (-12.0, 12.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if of(middle) < ellipticity {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low.exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_set_is_large_and_every_case_makes_a_scene() {
+        let set = CaseSet::shipped().expect("good data");
+        assert!(set.cases.len() >= 60, "{}", set.cases.len());
+        let mut names: Vec<_> = set.cases.iter().map(|case| &case.name).collect();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), set.cases.len(), "names are unique");
+        for case in &set.cases {
+            for nodes in [33, 65] {
+                let ready = set.ready(case, nodes, 1.0);
+                assert!(ready.is_ok(), "{}: {:?}", case.name, ready.err());
+            }
+            for name in case.push.keys().filter(|name| name.starts_with("jump.")) {
+                assert_ne!(Lever::of(name), Lever::Key, "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn levers_reach_what_they_say() {
+        let set = CaseSet::shipped().expect("good data");
+        let find = |lever: &str| {
+            let case = set.cases.iter().find(|case| case.push.contains_key(lever));
+            let case = case.expect("a case with that lever");
+            (
+                set.ready(case, 65, 1.0).expect("ready"),
+                case.push[lever][1],
+            )
+        };
+        let (ready, m) = find("moes.m");
+        let groups = ready.plan.film.expect("a film").groups;
+        assert!((groups.m / m - 1.0).abs() < 1e-9);
+        let (ready, ellipticity) = find("shape.ellipticity");
+        assert!((ready.plan.hertz.ellipticity() / ellipticity - 1.0).abs() < 1e-6);
+        let (ready, nodes) = find("wave.nodes");
+        let wave = ready.plan.waves[0].expect("rough");
+        assert!((wave.nodes[0] / nodes - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn half_way_is_geometric_where_it_can_be() {
+        assert!((pushed([1.0, 100.0], 0.5) - 10.0).abs() < 1e-12);
+        assert!((pushed([-2.0, 2.0], 0.5)).abs() < 1e-12);
+    }
+}

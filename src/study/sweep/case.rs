@@ -1,0 +1,192 @@
+//! One case: from its scene to a row.
+//!
+//! A case starts cold (Hertz, smooth reference, develop) or follows its neighbour ([`Simulation::follow`]),
+//! then runs its passages. A step that stalls ends it; what is known of it stays in the row, named.
+
+use serde::{Deserialize, Serialize};
+
+use super::spec::ChainKeys;
+use crate::plan::{OtherFilms, Plan};
+use crate::scene::{CycleBasis, Scene, Surface};
+use crate::sim::{SimError, Simulation, State, Summary};
+
+/// How a case began.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Began {
+    /// From Hertz.
+    Cold,
+    /// From the end of the case before.
+    Warm,
+}
+
+/// How a case ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CaseEnd {
+    /// Every step converged.
+    Converged,
+    /// Some steps did not converge.
+    NotConverged,
+    /// A step failed beyond repair, or the case could not be made.
+    Stalled,
+}
+
+/// What a case leaves; all of it but the seconds is the same on every machine of one kind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CaseRecord {
+    /// Number of the case, from 0.
+    pub index: usize,
+    /// How it began.
+    pub began: Began,
+    /// How it ended.
+    pub end: CaseEnd,
+    /// What went wrong, in words.
+    pub failure: Option<String>,
+    /// Time that it took, s.
+    pub seconds: f64,
+    /// Means over the last passage or period.
+    pub summary: Summary,
+    /// Smooth central film over the composite roughness: simulated film where there was one.
+    pub lambda_ratio: Option<f64>,
+    /// Smooth central film by regression, m.
+    pub h_regression_m: Option<f64>,
+    /// Smooth minimum film by regression, m.
+    pub h_min_regression_m: Option<f64>,
+    /// Steps of the start-up or of settling that did not converge.
+    pub start_up_not_converged: u64,
+}
+
+/// Whether the loop goes on.
+pub(super) trait Watch {
+    /// Called after each step with how much of the case is done, 0 to 1; false: stop.
+    fn step(&mut self, done: f64) -> bool;
+}
+
+/// A case that was run: its record, and the state that the next one may start from. `None`: stopped.
+pub(super) type Ran = Option<(CaseRecord, Option<State>)>;
+
+/// How long a case is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Length {
+    /// What the sweep says, the last passage as long as its window.
+    Windowed,
+    /// What the scene says.
+    Asked,
+}
+
+/// The scene of a case with the passages that the sweep gives it.
+pub(super) fn shortened(mut scene: Scene, chain: ChainKeys) -> (Scene, Length) {
+    let points_cross = scene.life.as_ref().is_some_and(|life| {
+        matches!(life.cycles, CycleBasis::Peaks | CycleBasis::Ranges) || life.maps() != [false; 2]
+    });
+    match chain.passages {
+        Some(passages) => scene.time.passages = passages,
+        None if !points_cross => scene.time.passages = scene.time.passages.min(1.0),
+        None => return (scene, Length::Asked),
+    }
+    (scene, Length::Windowed)
+}
+
+/// Whether a case may start from the end of another: they differ in S and amplitudes alone, and no height
+/// map has to be brought back to its place.
+pub(super) fn may_follow(before: &Scene, scene: &Scene) -> bool {
+    let stripped = |scene: &Scene| {
+        let mut scene = scene.clone();
+        scene.motion.slide_roll = 0.0;
+        scene.body_1.surface.set_amplitude_m(0.0);
+        scene.body_2.surface.set_amplitude_m(0.0);
+        scene
+    };
+    let drawn = |surface: &&Surface| matches!(surface, Surface::HeightMap { .. });
+    stripped(before) == stripped(scene) && !scene.surfaces().iter().any(drawn)
+}
+
+/// Runs a case, from the end of its neighbour where there is one.
+pub(super) fn run(
+    index: usize,
+    scene: &Scene,
+    plan: &Plan,
+    neighbour: Option<&State>,
+    threads: usize,
+    watch: &mut dyn Watch,
+) -> Ran {
+    let started = std::time::Instant::now();
+    let mut record = blank(index, plan);
+    let mut sim = match begin(scene, plan, neighbour, threads) {
+        Ok((sim, began)) => {
+            record.began = began;
+            sim
+        }
+        Err(error) => {
+            record.end = CaseEnd::Stalled;
+            record.failure = Some(error.to_string());
+            return Some((record, None));
+        }
+    };
+    let mut failure = None;
+    while !sim.is_done() {
+        if let Err(error) = sim.step() {
+            failure = Some(error.to_string());
+            break;
+        }
+        if sim.passage_steps() == 0 && !sim.metrics().converged {
+            record.start_up_not_converged += 1;
+        }
+        if !watch.step(sim.progress()) {
+            return None;
+        }
+    }
+    if sim.passage_steps() > 0 {
+        record.summary = sim.summary();
+        record.lambda_ratio = sim.metrics().lambda_ratio;
+    }
+    let unconverged = record.start_up_not_converged + record.summary.steps_not_converged;
+    record.end = match (&failure, unconverged) {
+        (Some(_), _) => CaseEnd::Stalled,
+        (None, 0) => CaseEnd::Converged,
+        (None, _) => CaseEnd::NotConverged,
+    };
+    record.summary.converged = record.end == CaseEnd::Converged;
+    // A neighbour in trouble is no start: the next case begins cold.
+    let state = (record.end == CaseEnd::Converged).then(|| sim.save());
+    record.failure = failure;
+    record.seconds = started.elapsed().as_secs_f64();
+    Some((record, state))
+}
+
+fn begin(
+    scene: &Scene,
+    plan: &Plan,
+    neighbour: Option<&State>,
+    threads: usize,
+) -> Result<(Simulation, Began), SimError> {
+    let mut sim = Simulation::new(scene, plan.clone(), threads)?;
+    let Some(neighbour) = neighbour else {
+        return Ok((sim, Began::Cold));
+    };
+    sim.follow(neighbour)?;
+    Ok((sim, Began::Warm))
+}
+
+fn blank(index: usize, plan: &Plan) -> CaseRecord {
+    let film = plan.film.as_ref();
+    CaseRecord {
+        index,
+        began: Began::Cold,
+        end: CaseEnd::Converged,
+        failure: None,
+        seconds: 0.0,
+        summary: Summary::default(),
+        lambda_ratio: None,
+        h_regression_m: film.map(|film| match film.others {
+            OtherFilms::HamrockDowson { central_m, .. } => central_m,
+            OtherFilms::DowsonHigginson { .. } => film.central_m,
+        }),
+        h_min_regression_m: film.map(|film| match film.others {
+            OtherFilms::HamrockDowson { minimum_m, .. }
+            | OtherFilms::DowsonHigginson { minimum_m } => minimum_m,
+        }),
+        start_up_not_converged: 0,
+    }
+}

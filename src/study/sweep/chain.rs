@@ -1,0 +1,132 @@
+//! Chains: the unit of work, of sharding and of resuming.
+//!
+//! ```text
+//! line    cases along the last axis, where that allows warm starts; in a list, neighbours that differ only
+//!         in keys that do
+//! chain   a line cut into ⌈m/longest⌉ pieces as even as can be
+//! shard i of n   the chains c with c ≡ i − 1 (mod n)
+//! ```
+//! A chain is fixed by the sweep file alone: its first case starts cold, the others from the end of the one
+//! before, so the table does not depend on shards, threads, or where a run was broken off.
+
+use std::ops::Range;
+
+use super::axis::Axis;
+use super::spec::{Combine, Sweep};
+
+/// A part of a sweep: i of n, from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which, 1 to n.
+    pub index: usize,
+    /// Of how many.
+    pub count: usize,
+}
+
+impl Shard {
+    /// All of it.
+    pub const WHOLE: Self = Self { index: 1, count: 1 };
+
+    /// Whether a chain belongs to it.
+    pub fn has(self, chain: usize) -> bool {
+        chain % self.count == self.index - 1
+    }
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    /// Reads `i/n`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let refused =
+            || format!("{text:.20} is refused; allowed: i/n with 1 <= i <= n, such as 3/8");
+        let (index, count) = text.split_once('/').ok_or_else(refused)?;
+        let parse = |part: &str| part.trim().parse::<usize>().ok();
+        match (parse(index), parse(count)) {
+            (Some(index), Some(count)) if (1..=count).contains(&index) => Ok(Self { index, count }),
+            _ => Err(refused()),
+        }
+    }
+}
+
+impl Sweep {
+    /// The chains, in the order of their cases.
+    pub fn chains(&self) -> Vec<Range<usize>> {
+        let mut chains = Vec::new();
+        let mut from = 0;
+        while from < self.len() {
+            let to = self.line_end(from);
+            cut(from..to, self.chain.longest, &mut chains);
+            from = to;
+        }
+        chains
+    }
+
+    /// Where the line that begins with a case ends.
+    fn line_end(&self, from: usize) -> usize {
+        let Some(last) = self.axes.last() else {
+            return self.len();
+        };
+        match self.combine {
+            Combine::Grid if last.is_warm() => from + last.values.len(),
+            Combine::Grid => from + 1,
+            Combine::List => {
+                let cold = || self.axes.iter().filter(|axis| !axis.is_warm());
+                let same = |axis: &Axis, k: usize| axis.values[k] == axis.values[k - 1];
+                (from + 1..self.len())
+                    .find(|k| cold().any(|axis| !same(axis, *k)))
+                    .unwrap_or(self.len())
+            }
+        }
+    }
+}
+
+/// Cuts a line into pieces of at most `longest`, as even as can be.
+fn cut(line: Range<usize>, longest: usize, chains: &mut Vec<Range<usize>>) {
+    let pieces = line.len().div_ceil(longest.max(1));
+    let at = |k: usize| line.start + line.len() * k / pieces;
+    chains.extend((0..pieces).map(|k| at(k)..at(k + 1)));
+}
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn sweep(vary: &str) -> Sweep {
+        Sweep::parse(
+            &format!("{vary}\n[chain]\nlongest = 7\n"),
+            "test",
+            Path::new(""),
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn lines_are_cut_evenly_and_cold_axes_make_chains_of_one() {
+        let chains = sweep("[vary]\nmotion.slide_roll = { from = 0, to = 2, n = 21 }").chains();
+        assert_eq!(chains, [0..7, 7..14, 14..21]);
+        let chains = sweep("[vary]\nmotion.slide_roll = [0.0, 1.0]\nload.force_n = [1.0, 2.0]");
+        assert_eq!(chains.chains(), [0..2, 2..4]);
+        assert_eq!(chains.at(1), "load.force_n = 1, motion.slide_roll = 1");
+        let chains = sweep("[vary]\nload.force_n = [1.0, 2.0, 3.0]").chains();
+        assert_eq!(chains, [0..1, 1..2, 2..3]);
+        let list = "combine = \"list\"\n[vary]\nload.force_n = [1.0, 1.0, 2.0]\nmotion.slide_roll = [0.0, 1.0, 1.0]";
+        assert_eq!(sweep(list).chains(), [0..2, 2..3]);
+    }
+
+    #[test]
+    fn shards_take_every_chain_once() {
+        for n in 1..9 {
+            for chain in 0..20 {
+                let shards = (1..=n).filter(|&index| Shard { index, count: n }.has(chain));
+                assert_eq!(shards.count(), 1);
+            }
+        }
+        assert_eq!("3/8".parse(), Ok(Shard { index: 3, count: 8 }));
+        for text in ["0/8", "9/8", "1/0", "a/b", "1", "-1/2", "1/8/2"] {
+            assert!(text.parse::<Shard>().is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The same cases one by one: what a chain saves, and what it costs in accuracy.
+//!
+//! Every case is run as `asperity run` would run it: from Hertz, with the passages that its scene asks for. One
+//! thread a case and as many cases at a time as the sweep had, in the same process and after it, so that the
+//! ratio of the times means something.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::case::{self, CaseRecord, Watch};
+use super::error::SweepError;
+use super::run::Progress;
+use super::spec::Sweep;
+use super::table::Rows;
+use crate::plan::Plan;
+
+/// A sweep against its cases run cold.
+#[derive(Debug, Clone)]
+pub struct Against {
+    /// Seconds of all cases of the sweep, added.
+    pub sweep_s: f64,
+    /// Same of the cold cases.
+    pub cold_s: f64,
+    /// Case by case: life of the sweep over cold life, central film over cold film; NaN where there is none.
+    pub ratios: Vec<[f64; 2]>,
+}
+
+impl Against {
+    /// Greatest departure of a ratio from 1; 0 where there is none.
+    pub fn worst(&self, k: usize) -> f64 {
+        let off = |ratio: &[f64; 2]| (ratio[k] - 1.0).abs();
+        self.ratios
+            .iter()
+            .map(off)
+            .filter(|v| v.is_finite())
+            .fold(0.0, f64::max)
+    }
+}
+
+/// Goes on until told to stop.
+struct Until<'a>(&'a Progress);
+
+impl Watch for Until<'_> {
+    fn step(&mut self, _done: f64) -> bool {
+        !self.0.stop.load(Ordering::Relaxed)
+    }
+}
+
+/// Runs every case cold on `threads` threads; `None`: stopped.
+///
+/// # Errors
+/// [`SweepError`] when a case is no scene or cannot be planned.
+pub fn against_cold(
+    sweep: &Sweep,
+    rows: &Rows,
+    threads: usize,
+    progress: &Progress,
+) -> Result<Option<Against>, SweepError> {
+    let mut cases = Vec::new();
+    for index in 0..sweep.len() {
+        let scene = sweep.scene(index)?;
+        let plan = Plan::new(&scene).map_err(|source| SweepError::Plan {
+            index,
+            at: sweep.at(index),
+            source,
+        })?;
+        cases.push((scene, plan));
+    }
+    progress.all.store(cases.len(), Ordering::Relaxed);
+    progress.found.store(0, Ordering::Relaxed);
+    progress.done.store(0, Ordering::Relaxed);
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<CaseRecord>> = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..threads.min(cases.len()).max(1) {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some((scene, plan)) = cases.get(index) else {
+                        return;
+                    };
+                    let ran = case::run(index, scene, plan, None, 1, &mut Until(progress));
+                    let Some((record, _)) = ran else { return };
+                    let all = done.lock();
+                    let mut all = all.unwrap_or_else(std::sync::PoisonError::into_inner);
+                    all.push(record);
+                    progress.done.fetch_add(1, Ordering::Relaxed);
+                }
+            });
+        }
+    });
+    let mut cold = done
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    if cold.len() < cases.len() {
+        return Ok(None);
+    }
+    cold.sort_by_key(|record| record.index);
+    let ratio = |warm: Option<f64>, cold: Option<f64>| {
+        warm.zip(cold).map_or(f64::NAN, |(warm, cold)| warm / cold)
+    };
+    let pairs = rows.records.iter().zip(&cold);
+    Ok(Some(Against {
+        sweep_s: rows.records.iter().map(|record| record.seconds).sum(),
+        cold_s: cold.iter().map(|record| record.seconds).sum(),
+        ratios: pairs
+            .map(|(one, two)| {
+                let (warm, cold) = (&one.summary, &two.summary);
+                let films = (Some(warm.h_central_m), Some(cold.h_central_m));
+                [
+                    ratio(warm.life_relative, cold.life_relative),
+                    ratio(films.0, films.1),
+                ]
+            })
+            .collect(),
+    }))
+}

@@ -1,0 +1,39 @@
+//! Sweeps: life maps and operating paths, from one machine to a cluster.
+//!
+//! ```text
+//! SWEEP.toml ─> Sweep ─> cases ─> chains ─> shards        fixed by the file alone
+//!                          │         └ first case cold, the others from the end of the one before
+//!                          └ one file each, whole or not at all ─> table.csv, plots
+//! ```
+//! What a case is, in [`Sweep`]; what runs where, in [`Shard`]; what is kept, in [`Folder`]; what comes out, in
+//! [`Rows`]. The table is the same byte for byte whatever the shards, the threads and the interruptions.
+
+mod axis;
+mod case;
+mod chain;
+mod cold;
+mod error;
+mod figure;
+mod folder;
+mod path;
+mod plots;
+mod points;
+mod presets;
+mod run;
+mod spec;
+mod table;
+mod window;
+
+pub use axis::{Axis, WARM_KEYS};
+pub use case::{Began, CaseEnd, CaseRecord};
+pub use chain::Shard;
+pub use cold::{Against, against_cold};
+pub use error::SweepError;
+pub use folder::{Existing, Folder};
+pub use path::PathPoint;
+pub use plots::draw;
+pub use points::points_csv;
+pub use presets::{SweepPreset, all as presets, names as preset_names};
+pub use run::{Progress, Report, run};
+pub use spec::{ChainKeys, Combine, MOST_CASES, Sweep};
+pub use table::{COLUMNS, Rows, numbers};

@@ -1,0 +1,278 @@
+//! Which pictures a sweep has: those whose axes it varies.
+//!
+//! | picture | drawn when |
+//! |---|---|
+//! | life, friction, least film, greatest pressure against the last axis (a path: the way) | it is made of numbers |
+//! | film against speed with the regression line | the entrainment speed varies |
+//! | Stribeck: friction against λ | speed, viscosity, load or roughness varies |
+//! | life map | two axes of numbers make a grid |
+//!
+//! Several axes make one curve for each combination of the others, at most eight.
+
+use super::axis::{Axis, shown};
+use super::error::SweepError;
+use super::figure::{Curve, Figure, Map, Mark, Scale};
+use super::folder::Folder;
+use super::spec::{Combine, Sweep};
+use super::table::Rows;
+
+/// Most curves of one picture.
+const MOST_CURVES: usize = 8;
+
+/// Draws what there is to draw into the folder, and names the files.
+///
+/// # Errors
+/// [`SweepError::Folder`] when the disk or the drawing library says no.
+pub fn draw(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<Vec<String>, SweepError> {
+    let mut names = Vec::new();
+    let mut keep = |name: &str, svg: Result<Option<String>, String>| {
+        let path = folder.root().join(format!("{name}.svg"));
+        let svg = svg.map_err(|reason| SweepError::folder(&path, reason))?;
+        if let Some(text) = svg {
+            folder.write(&path, text.as_bytes())?;
+            names.push(path.display().to_string());
+        }
+        Ok::<_, SweepError>(())
+    };
+    for (name, figure) in figures(sweep, rows) {
+        keep(&name, figure.svg())?;
+    }
+    if let Some(map) = life_map(sweep, rows) {
+        keep("life_map", map.svg())?;
+    }
+    Ok(names)
+}
+
+/// The axis along which curves run: column, label, scale.
+struct Along {
+    column: String,
+    label: String,
+    scale: Scale,
+    short: String,
+}
+
+fn along(sweep: &Sweep) -> Option<Along> {
+    if let Some(column) = super::path::columns(&sweep.path).next() {
+        let label = match column {
+            "path_m" => "way along the line of action from A, m",
+            _ => "angle, degrees",
+        };
+        return Some(Along {
+            column: column.to_owned(),
+            label: label.to_owned(),
+            scale: Scale::Linear,
+            short: "path".to_owned(),
+        });
+    }
+    let axis = sweep.axes.last()?;
+    let numbers = axis.numbers().filter(|list| list.len() > 1)?;
+    Some(Along {
+        column: axis.key.clone(),
+        label: axis.label(),
+        scale: scale_of(&numbers),
+        short: axis.key.rsplit('.').next().unwrap_or("key").to_owned(),
+    })
+}
+
+/// Logarithmic where the values span more than a decade and are above 0.
+fn scale_of(values: &[f64]) -> Scale {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(0.0, f64::max);
+    if low > 0.0 && high > 10.0 * low {
+        Scale::Log
+    } else {
+        Scale::Linear
+    }
+}
+
+fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
+    let mut found = Vec::new();
+    let Some(along) = along(sweep) else {
+        return found;
+    };
+    let lines = lines(sweep);
+    let mut add = |name: &str, y: (&str, Scale), columns: &[(&str, &str, Mark)]| {
+        let figure = figure(sweep, rows, &along, &lines, (y, columns));
+        if !figure.curves.is_empty() {
+            found.push((format!("{name}_against_{}", along.short), figure));
+        }
+    };
+    use Mark::{Computed, Formula};
+    use Scale::{Linear, Log};
+    add(
+        "life",
+        ("relative life", Log),
+        &[("", "life_relative", Computed)],
+    );
+    add(
+        "traction",
+        ("friction coefficient", Linear),
+        &[("", "friction_coefficient", Computed)],
+    );
+    add(
+        "pressure",
+        ("greatest pressure, Pa", Linear),
+        &[("", "p_max_pa", Computed), ("Hertz", "p_hertz_pa", Formula)],
+    );
+    add(
+        "film",
+        ("film, m", Log),
+        &[
+            ("centre", "h_central_m", Computed),
+            ("least", "h_min_m", Computed),
+            ("smooth, by regression", "h_regression_m", Formula),
+        ],
+    );
+    if !sweep.path.is_empty() {
+        add(
+            "mechanisms",
+            ("factor of life", Log),
+            &[
+                ("cycles", "cycle_factor", Computed),
+                ("peaks", "peak_factor", Computed),
+                ("traction", "traction_factor", Computed),
+            ],
+        );
+        add(
+            "contacts",
+            ("contacts a loading cycle n", Log),
+            &[
+                ("body 1", "n_body_1", Computed),
+                ("body 2", "n_body_2", Computed),
+            ],
+        );
+        add(
+            "lambda",
+            ("lambda", Linear),
+            &[("", "lambda_ratio", Computed)],
+        );
+    }
+    found.extend(stribeck(sweep, rows).map(|figure| ("stribeck".to_owned(), figure)));
+    found
+}
+
+/// Cases of each curve, and what sets it apart.
+fn lines(sweep: &Sweep) -> Vec<(String, Vec<usize>)> {
+    let all: Vec<usize> = (0..sweep.len()).collect();
+    let width = match (sweep.combine, sweep.axes.last()) {
+        (Combine::Grid, Some(axis)) => axis.values.len(),
+        _ => all.len(),
+    };
+    let others = &sweep.axes[..sweep.axes.len().saturating_sub(1)];
+    all.chunks(width.max(1))
+        .take(MOST_CURVES)
+        .map(|cases| {
+            let place = sweep.place(cases[0]);
+            let words: Vec<_> = match sweep.combine {
+                Combine::List => Vec::new(),
+                Combine::Grid => others
+                    .iter()
+                    .zip(place)
+                    .map(|(axis, k)| format!("{} = {}", axis.key, shown(&axis.values[k])))
+                    .collect(),
+            };
+            (words.join(", "), cases.to_vec())
+        })
+        .collect()
+}
+
+fn figure(
+    sweep: &Sweep,
+    rows: &Rows,
+    along: &Along,
+    lines: &[(String, Vec<usize>)],
+    ((label, scale), columns): ((&str, Scale), &[(&str, &str, Mark)]),
+) -> Figure {
+    let mut curves = Vec::new();
+    let xs = rows.column(sweep, &along.column).unwrap_or_default();
+    for (what, column, mark) in columns {
+        let Some(ys) = rows.column(sweep, column) else {
+            continue;
+        };
+        if !ys.iter().any(|y| y.is_finite()) {
+            continue;
+        }
+        for (line, cases) in lines {
+            let name = [*what, line.as_str()];
+            let name: Vec<_> = name.into_iter().filter(|part| !part.is_empty()).collect();
+            curves.push(Curve {
+                name: name.join(", "),
+                points: cases.iter().map(|&k| (xs[k], ys[k])).collect(),
+                mark: *mark,
+            });
+        }
+    }
+    Figure {
+        title: title(sweep),
+        x: (along.label.clone(), along.scale),
+        y: (label.to_owned(), scale),
+        curves,
+    }
+}
+
+fn title(sweep: &Sweep) -> String {
+    if sweep.title.is_empty() {
+        sweep.name.clone()
+    } else {
+        sweep.title.clone()
+    }
+}
+
+/// Friction against λ, where something varies that moves λ.
+fn stribeck(sweep: &Sweep, rows: &Rows) -> Option<Figure> {
+    const MOVES: [&str; 3] = [
+        "motion.entrainment_m_s",
+        "lubricant.viscosity_pa_s",
+        "load.force_n",
+    ];
+    let moves = |axis: &Axis| MOVES.contains(&&*axis.key) || axis.key.ends_with("amplitude_m");
+    if !sweep.axes.iter().any(moves) || !sweep.path.is_empty() {
+        return None;
+    }
+    let lambda = rows.column(sweep, "lambda_ratio")?;
+    let friction = rows.column(sweep, "friction_coefficient")?;
+    let mut points: Vec<_> = lambda.into_iter().zip(friction).collect();
+    points.retain(|(x, y)| x.is_finite() && y.is_finite());
+    points.sort_by(|one, two| one.0.total_cmp(&two.0));
+    let xs: Vec<f64> = points.iter().map(|p| p.0).collect();
+    (points.len() > 1).then(|| Figure {
+        title: format!("{}: Stribeck", title(sweep)),
+        x: (
+            "lambda: smooth film over composite roughness".to_owned(),
+            scale_of(&xs),
+        ),
+        y: ("friction coefficient".to_owned(), Scale::Linear),
+        curves: vec![Curve {
+            name: "friction".to_owned(),
+            points,
+            mark: Mark::Computed,
+        }],
+    })
+}
+
+/// Life over the last two axes of a grid; of more axes, at the first values of the others.
+fn life_map(sweep: &Sweep, rows: &Rows) -> Option<Map> {
+    let [.., y, x] = sweep.axes.as_slice() else {
+        return None;
+    };
+    let (xs, ys) = (x.numbers()?, y.numbers()?);
+    if sweep.combine != Combine::Grid || xs.len() < 2 || ys.len() < 2 {
+        return None;
+    }
+    let lives = rows.column(sweep, "life_relative")?;
+    let rising = |list: &[f64]| list.windows(2).all(|pair| pair[1] > pair[0]);
+    if !rising(&xs) || !rising(&ys) {
+        return None;
+    }
+    Some(Map {
+        title: title(sweep),
+        cells: lives
+            .chunks(xs.len())
+            .take(ys.len())
+            .map(<[f64]>::to_vec)
+            .collect(),
+        x: (x.label(), xs),
+        y: (y.label(), ys),
+        value: ("relative life".to_owned(), Scale::Log),
+    })
+}

@@ -1,0 +1,532 @@
+//! A sweep file: a scene, what is set in every case, what varies, and how cases start.
+//!
+//! ```toml
+//! title = "Life against slide-to-roll ratio"
+//! scene = "demonstration"                  # preset, TOML file (relative to this one), or a table [scene]
+//! combine = "grid"                         # "grid": every combination; "list": the lists go side by side
+//! [set]
+//! load.force_n = 800.0                     # in every case
+//! [vary]
+//! motion.slide_roll = { from = 0.0, to = 2.0, n = 21, spacing = "linear" }
+//! [chain]
+//! longest = 7                              # cases that start from each other's end, 1: every case cold
+//! passages = 1.0                           # passages of a case; left out: see below
+//! ```
+//! Instead of `[vary]` a file may give a path (`[gear]`, `[race]`, `[cam]`, see [`super::path`]).
+//!
+//! **Order.** Cases are numbered with the last axis running fastest. Axes stand in the order in which
+//! `asperity scenes NAME` prints their keys, except that the keys which allow warm starts come last, S after
+//! the amplitudes, because a chain runs along the last axis.
+
+use std::path::{Path, PathBuf};
+
+use toml::{Table, Value};
+
+use super::axis::{Axis, WARM_KEYS, shown};
+use super::error::SweepError;
+use super::path::{self, PathPoint};
+use super::presets;
+use crate::scene::{Override, Scene, SceneError, keys};
+
+/// Most cases of one sweep.
+pub const MOST_CASES: usize = 1_000_000;
+/// Longest sweep file, bytes: a list of a million values.
+const LONGEST_FILE: u64 = 32 << 20;
+/// Cases of a chain, where the file says nothing.
+const CHAIN: usize = 7;
+/// Longest chain.
+const LONGEST_CHAIN: i64 = 1000;
+
+/// How several axes combine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Combine {
+    /// Every combination, the last axis fastest.
+    Grid,
+    /// The k-th values of all axes together.
+    List,
+}
+
+/// `[chain]`
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChainKeys {
+    /// Most cases that start from each other's end.
+    pub longest: usize,
+    /// Lengths of 4 a after start-up or settling; `None`: 1, or as long as the scene asks for where material
+    /// points must cross (life by counted cycles, damage maps).
+    pub passages: Option<f64>,
+}
+
+/// A sweep as its file asks for it.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    /// Name for files.
+    pub name: String,
+    /// One line about it.
+    pub title: String,
+    /// What varies, in the order of the table's columns.
+    pub axes: Vec<Axis>,
+    /// How axes combine.
+    pub combine: Combine,
+    /// How cases start.
+    pub chain: ChainKeys,
+    /// The points of a path, one a case; empty: no path.
+    pub path: Vec<PathPoint>,
+    /// The scene's text, its name for messages.
+    base: (String, String),
+    /// Keys set in every case.
+    set: Vec<Override>,
+    /// The same as written, for the digest.
+    set_text: Vec<String>,
+    /// The whole file with its scene in it: what a folder keeps.
+    text: String,
+    /// The file as it was written.
+    source: String,
+}
+
+impl Sweep {
+    /// Reads a built-in sweep by name, or a file by path.
+    ///
+    /// # Errors
+    /// [`SweepError::File`] that names the key, the value and what is allowed.
+    pub fn load(name_or_path: &str) -> Result<Self, SweepError> {
+        if let Some(preset) = presets::find(name_or_path) {
+            return Self::parse(preset.toml, preset.name, Path::new(""));
+        }
+        let path = PathBuf::from(name_or_path);
+        let text = read(&path, name_or_path).map_err(|source| SweepError::File {
+            origin: "the sweep".to_owned(),
+            source,
+        })?;
+        let name = path
+            .file_stem()
+            .map_or_else(|| "sweep".to_owned(), |s| s.to_string_lossy().into_owned());
+        Self::parse(&text, &name, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads a sweep's text; files that it names are sought from `folder`.
+    ///
+    /// # Errors
+    /// As [`Sweep::load`].
+    pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self, SweepError> {
+        read_sweep(text, name, folder).map_err(|source| SweepError::File {
+            origin: name.to_owned(),
+            source,
+        })
+    }
+
+    /// Number of cases.
+    pub fn len(&self) -> usize {
+        match self.combine {
+            Combine::Grid => self.axes.iter().map(|axis| axis.values.len()).product(),
+            Combine::List => self.axes.first().map_or(1, |axis| axis.values.len()),
+        }
+    }
+
+    /// Never: every sweep has a case.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Indices into the axes' values of a case.
+    pub fn place(&self, case: usize) -> Vec<usize> {
+        match self.combine {
+            Combine::List => vec![case; self.axes.len()],
+            Combine::Grid => {
+                let mut rest = case;
+                let mut place: Vec<usize> = self
+                    .axes
+                    .iter()
+                    .rev()
+                    .map(|axis| {
+                        let k = rest % axis.values.len();
+                        rest /= axis.values.len();
+                        k
+                    })
+                    .collect();
+                place.reverse();
+                place
+            }
+        }
+    }
+
+    /// The values of a case, one an axis.
+    pub fn values(&self, case: usize) -> Vec<&Value> {
+        let places = self.place(case);
+        let axes = self.axes.iter().zip(places);
+        axes.map(|(axis, k)| &axis.values[k]).collect()
+    }
+
+    /// The values of a case in words.
+    pub fn at(&self, case: usize) -> String {
+        let values = self.values(case);
+        let words = self.axes.iter().zip(values);
+        let words: Vec<_> = words
+            .map(|(axis, value)| format!("{} = {}", axis.key, shown(value)))
+            .collect();
+        words.join(", ")
+    }
+
+    /// The scene of a case, without recording: a case leaves one row.
+    ///
+    /// # Errors
+    /// [`SweepError::Case`] that names the case, the key, the value and what is allowed.
+    pub fn scene(&self, case: usize) -> Result<Scene, SweepError> {
+        self.scene_of(case).map_err(|source| SweepError::Case {
+            index: case,
+            at: self.at(case),
+            source,
+        })
+    }
+
+    fn scene_of(&self, case: usize) -> Result<Scene, SceneError> {
+        let mut overrides = self.set.clone();
+        for (axis, value) in self.axes.iter().zip(self.values(case)) {
+            overrides.push(setting(&axis.key, value)?);
+        }
+        let mut scene = Scene::from_toml_with(&self.base.0, &self.base.1, &overrides)?;
+        scene.record = None;
+        Ok(scene)
+    }
+
+    /// The scene that every case starts from, with `[set]`, before anything varies.
+    ///
+    /// # Errors
+    /// As [`Sweep::scene`].
+    pub fn base_scene(&self) -> Result<Scene, SceneError> {
+        Scene::from_toml_with(&self.base.0, &self.base.1, &self.set)
+    }
+
+    /// The file as it was written.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// The sweep in one file that needs no other, but height maps.
+    pub fn to_toml(&self) -> &str {
+        &self.text
+    }
+
+    /// Everything that decides the table, in one text: the digest is made of it.
+    pub(super) fn canonical(&self) -> String {
+        let axes: Vec<_> = self
+            .axes
+            .iter()
+            .map(|axis| {
+                let values: Vec<_> = axis.values.iter().map(Value::to_string).collect();
+                format!("{} = {}", axis.key, values.join(" "))
+            })
+            .collect();
+        format!(
+            "asperity {}\n{:?}\n{:?}\n{}\n{}\n{:?}\n{}",
+            env!("CARGO_PKG_VERSION"),
+            self.combine,
+            self.chain,
+            self.set_text.join("\n"),
+            axes.join("\n"),
+            self.path,
+            self.base.0
+        )
+    }
+}
+
+/// An override from a key and a TOML value.
+fn setting(key: &str, value: &Value) -> Result<Override, SceneError> {
+    format!("{key}={value}").parse()
+}
+
+/// Reads a file, but never more than a sweep can be.
+fn read(path: &Path, shown_path: &str) -> Result<String, SceneError> {
+    use std::io::Read as _;
+    let failed = |reason: String| SceneError::Read {
+        path: shown_path.to_owned(),
+        reason,
+    };
+    let file = std::fs::File::open(path).map_err(|error| {
+        if error.kind() == std::io::ErrorKind::NotFound && path.extension().is_none() {
+            failed(format!(
+                "no such file, and no built-in sweep; built in: {}",
+                presets::names()
+            ))
+        } else {
+            failed(error.to_string())
+        }
+    })?;
+    let mut bytes = Vec::new();
+    file.take(LONGEST_FILE + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| failed(error.to_string()))?;
+    if bytes.len() as u64 > LONGEST_FILE {
+        return Err(failed("longer than 32 MiB, which no sweep is".to_owned()));
+    }
+    String::from_utf8(bytes).map_err(|_| failed("not UTF-8 text".to_owned()))
+}
+
+const TOP: [&str; 9] = [
+    "title", "scene", "combine", "set", "vary", "chain", "gear", "race", "cam",
+];
+
+fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError> {
+    let root = text.parse::<Table>().map_err(|error| SceneError::Syntax {
+        origin: name.to_owned(),
+        reason: error.to_string(),
+    })?;
+    if let Some(key) = root.keys().find(|key| !TOP.contains(&key.as_str())) {
+        return Err(SceneError::unknown_among(key, &TOP));
+    }
+    let title = text_of(&root, "title", 200)?.unwrap_or_default();
+    let base = read_base(&root, folder)?;
+    let mut set = Vec::new();
+    let mut set_text = Vec::new();
+    let mut set_keys = Vec::new();
+    for (key, value) in flat(&root, "set")? {
+        set_text.push(format!("{key}={value}"));
+        set.push(setting(&key, &value)?);
+        set_keys.push(key);
+    }
+    let chain = read_chain(&root)?;
+    let paths = ["gear", "race", "cam"];
+    let given: Vec<_> = paths
+        .into_iter()
+        .filter(|p| root.contains_key(*p))
+        .collect();
+    let (mut axes, combine, points) = match (given.as_slice(), root.contains_key("vary")) {
+        ([], true) => {
+            let combine = read_combine(&root)?;
+            let mut axes = Vec::new();
+            for (key, value) in flat(&root, "vary")? {
+                axes.push(Axis::read(&key, &value)?);
+            }
+            (axes, combine, Vec::new())
+        }
+        ([kind], false) => {
+            let scene = Scene::from_toml_with(&base.0, &base.1, &set)?;
+            let path = path::read(kind, table_of(&root, kind)?, &scene)?;
+            (path.axes, Combine::List, path.points)
+        }
+        _ => {
+            return Err(SceneError::Missing {
+                key: "[vary]".to_owned(),
+                allowed: "exactly one of [vary], [gear], [race], [cam]".to_owned(),
+            });
+        }
+    };
+    if let Some(axis) = axes.iter().find(|axis| set_keys.contains(&axis.key)) {
+        let key = format!("set.{}", axis.key);
+        return Err(SceneError::value(key, "a value", "nothing: the key varies"));
+    }
+    sort(&mut axes);
+    check_size(&axes, combine)?;
+    let mut whole = root;
+    if let Ok(scene) = base.0.parse::<Table>() {
+        whole.insert("scene".to_owned(), Value::Table(scene));
+    }
+    Ok(Sweep {
+        name: name.to_owned(),
+        title,
+        axes,
+        combine,
+        chain,
+        path: points,
+        base,
+        set,
+        set_text,
+        text: whole.to_string(),
+        source: text.to_owned(),
+    })
+}
+
+/// The base scene's text, checked, and its name.
+fn read_base(root: &Table, folder: &Path) -> Result<(String, String), SceneError> {
+    let scene = match root.get("scene") {
+        None => Scene::load(crate::scene::presets::DEFAULT)?,
+        Some(Value::String(name)) if crate::scene::presets::find(name).is_some() => {
+            Scene::load(name)?
+        }
+        Some(Value::String(name)) => Scene::load(&folder.join(name).to_string_lossy())?,
+        Some(Value::Table(table)) => {
+            let mut table = table.clone();
+            for body in ["body_1", "body_2"] {
+                absolute_map(&mut table, body, folder);
+            }
+            Scene::from_toml_with(&table.to_string(), "scene", &[])?
+        }
+        Some(other) => {
+            return Err(SceneError::value(
+                "scene",
+                shown(other),
+                "a preset, a TOML file, or a table [scene]",
+            ));
+        }
+    };
+    let text = toml::to_string(&scene).map_err(|error| SceneError::Syntax {
+        origin: "scene".to_owned(),
+        reason: error.to_string(),
+    })?;
+    Ok((text, "scene".to_owned()))
+}
+
+/// A height map of an inline scene is sought beside the sweep file.
+fn absolute_map(scene: &mut Table, body: &str, folder: &Path) {
+    let surface = scene
+        .get_mut(body)
+        .and_then(|body| body.get_mut("surface"))
+        .and_then(Value::as_table_mut);
+    if let Some(Value::String(file)) = surface.and_then(|surface| surface.get_mut("file")) {
+        *file = folder.join(&*file).to_string_lossy().into_owned();
+    }
+}
+
+/// `[set]` and `[vary]` with their dotted keys put together: `motion.slide_roll` may stand as one quoted key
+/// or as a table in a table.
+fn flat(root: &Table, name: &str) -> Result<Vec<(String, Value)>, SceneError> {
+    if !root.contains_key(name) {
+        return Ok(Vec::new());
+    }
+    let mut found = Vec::new();
+    flatten("", table_of(root, name)?, &mut found);
+    for (key, _) in &found {
+        match (keys::find(key), keys::section(key)) {
+            (None, None) => return Err(SceneError::unknown_key(key)),
+            (None, Some(_)) if name == "vary" => {
+                let full = format!("vary.{key}");
+                return Err(SceneError::value(full, "a table", "one of its keys"));
+            }
+            _ => {}
+        }
+    }
+    let mut names: Vec<_> = found.iter().map(|(key, _)| key.clone()).collect();
+    names.sort();
+    if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(SceneError::value(
+            format!("{name}.{}", pair[0]),
+            "given twice",
+            "each key once",
+        ));
+    }
+    Ok(found)
+}
+
+fn flatten(prefix: &str, table: &Table, found: &mut Vec<(String, Value)>) {
+    for (name, value) in table {
+        let full = keys::joined(prefix, name);
+        match value {
+            Value::Table(inner) if keys::find(&full).is_none() => flatten(&full, inner, found),
+            _ => found.push((full, value.clone())),
+        }
+    }
+}
+
+fn table_of<'a>(root: &'a Table, name: &str) -> Result<&'a Table, SceneError> {
+    match root.get(name) {
+        Some(Value::Table(table)) => Ok(table),
+        Some(other) => Err(SceneError::value(
+            name,
+            shown(other),
+            format!("a table [{name}]"),
+        )),
+        None => Err(SceneError::Missing {
+            key: format!("[{name}]"),
+            allowed: "a table".to_owned(),
+        }),
+    }
+}
+
+fn text_of(root: &Table, name: &str, longest: usize) -> Result<Option<String>, SceneError> {
+    match root.get(name) {
+        None => Ok(None),
+        Some(Value::String(text)) if text.chars().count() <= longest => Ok(Some(text.clone())),
+        Some(other) => Err(SceneError::value(
+            name,
+            shown(other),
+            format!("a text of at most {longest} characters"),
+        )),
+    }
+}
+
+fn read_combine(root: &Table) -> Result<Combine, SceneError> {
+    match root.get("combine").map(|value| (value.as_str(), value)) {
+        None | Some((Some("grid"), _)) => Ok(Combine::Grid),
+        Some((Some("list"), _)) => Ok(Combine::List),
+        Some((_, other)) => Err(SceneError::value(
+            "combine",
+            shown(other),
+            "\"grid\" or \"list\"",
+        )),
+    }
+}
+
+fn read_chain(root: &Table) -> Result<ChainKeys, SceneError> {
+    let mut chain = ChainKeys {
+        longest: CHAIN,
+        passages: None,
+    };
+    if !root.contains_key("chain") {
+        return Ok(chain);
+    }
+    for (name, value) in table_of(root, "chain")? {
+        match name.as_str() {
+            "longest" => {
+                let allowed = format!("a whole number, 1 to {LONGEST_CHAIN}");
+                chain.longest = value
+                    .as_integer()
+                    .filter(|n| (1..=LONGEST_CHAIN).contains(n))
+                    .ok_or_else(|| SceneError::value("chain.longest", shown(value), allowed))?
+                    as usize;
+            }
+            "passages" => {
+                let passages = super::axis::number(value)
+                    .filter(|p| (0.25..=1e4).contains(p))
+                    .ok_or_else(|| {
+                        SceneError::value("chain.passages", shown(value), "0.25 to 1e4")
+                    })?;
+                chain.passages = Some(passages);
+            }
+            other => {
+                let full = format!("chain.{other}");
+                return Err(SceneError::unknown_among(&full, &["longest", "passages"]));
+            }
+        }
+    }
+    Ok(chain)
+}
+
+/// In the order in which scenes print their keys, those that allow warm starts last.
+fn sort(axes: &mut [Axis]) {
+    let order: Vec<String> = keys::all_paths().collect();
+    axes.sort_by_key(|axis| {
+        let warm = WARM_KEYS.iter().position(|key| *key == axis.key);
+        let place = order.iter().position(|key| *key == axis.key);
+        (warm.map_or(0, |k| k + 1), place)
+    });
+}
+
+fn check_size(axes: &[Axis], combine: Combine) -> Result<(), SceneError> {
+    let lengths = || axes.iter().map(|axis| axis.values.len());
+    if axes.is_empty() {
+        return Err(SceneError::Missing {
+            key: "vary".to_owned(),
+            allowed: "at least one key with its values".to_owned(),
+        });
+    }
+    if combine == Combine::List && lengths().any(|n| n != axes[0].values.len()) {
+        let list: Vec<_> = axes
+            .iter()
+            .map(|axis| format!("{}: {}", axis.key, axis.values.len()))
+            .collect();
+        return Err(SceneError::value(
+            "combine",
+            "\"list\"",
+            format!("lists of one length; these have {}", list.join(", ")),
+        ));
+    }
+    let all = lengths().try_fold(1_usize, usize::checked_mul);
+    if combine == Combine::Grid && all.is_none_or(|n| n > MOST_CASES) {
+        let n = all.map_or_else(|| "more than can be counted".to_owned(), |n| n.to_string());
+        return Err(SceneError::value(
+            "vary",
+            format!("{n} cases"),
+            format!("at most {MOST_CASES}"),
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,286 @@
+//! The table of a sweep: one row a case, one column a number.
+//!
+//! Keys that vary come first under their own names, then what came out. Names carry their units (`_m`, `_pa`,
+//! `_m_s`); a second header line would break most readers. Cells that were not computed are empty. `scene` is
+//! the digest of the whole scene of the row: `base.toml` beside the table with the row's keys set is that
+//! scene. Nothing in the table depends on the machine's speed; seconds go to a file of their own.
+
+use toml::Value;
+
+use super::case::{Began, CaseEnd, CaseRecord};
+use super::error::SweepError;
+use super::folder::{Folder, fnv};
+use super::spec::Sweep;
+
+/// Columns after those of the path and the axes, in the order of [`numbers`].
+pub const COLUMNS: [&str; 50] = [
+    "h_regression_m",
+    "h_min_regression_m",
+    "lambda_ratio",
+    "a_m",
+    "p_hertz_pa",
+    "load_n",
+    "h_central_m",
+    "h_min_m",
+    "p_max_pa",
+    "contact_ratio",
+    "friction_coefficient",
+    "n_body_1",
+    "n_body_2",
+    "n_counted_body_1",
+    "n_counted_body_2",
+    "i_ref",
+    "i_mean",
+    "cycle_factor",
+    "stress_factor",
+    "peak_factor",
+    "traction_factor",
+    "life_relative",
+    "life_relative_low",
+    "life_relative_high",
+    "life_body",
+    "life_body_1",
+    "life_body_2",
+    "life_system",
+    "life_snapshot",
+    "life_swept",
+    "life_models_low",
+    "life_models_high",
+    "life_cycles",
+    "survival_ratio",
+    "sigma_eff_max_pa",
+    "sigma_eff_max_depth_m",
+    "sigma_eff_max_x_m",
+    "cycles_end_depth_1_m",
+    "cycles_end_depth_2_m",
+    "pit_depth_1_m",
+    "pit_depth_2_m",
+    "period_s",
+    "period_drift",
+    "load_error",
+    "mass_error",
+    "steps",
+    "steps_not_converged",
+    "newton_iterations",
+    "linear_iterations",
+    "ffts",
+];
+
+/// A record's numbers in the order of [`COLUMNS`].
+pub fn numbers(record: &CaseRecord) -> [Option<f64>; COLUMNS.len()] {
+    let s = &record.summary;
+    let got = s.steps > 0;
+    let some = |value: f64| got.then_some(value);
+    let count = |value: u64| got.then_some(value as f64);
+    [
+        record.h_regression_m,
+        record.h_min_regression_m,
+        record.lambda_ratio,
+        some(s.a_m),
+        some(s.p_hertz_pa),
+        some(s.load_n),
+        some(s.h_central_m),
+        some(s.h_min_m),
+        some(s.p_max_pa),
+        some(s.contact_ratio),
+        some(s.friction_coefficient),
+        s.n_body_1,
+        s.n_body_2,
+        s.n_counted_body_1,
+        s.n_counted_body_2,
+        s.i_ref,
+        s.i_mean,
+        s.cycle_factor,
+        s.stress_factor,
+        s.peak_factor,
+        s.traction_factor,
+        s.life_relative,
+        s.life_relative_low,
+        s.life_relative_high,
+        s.life_body.map(f64::from),
+        s.life_body_1,
+        s.life_body_2,
+        s.life_system,
+        s.life_snapshot,
+        s.life_swept,
+        s.life_models_low,
+        s.life_models_high,
+        s.life_cycles,
+        s.survival_ratio,
+        s.sigma_eff_max_pa,
+        s.sigma_eff_max_depth_m,
+        s.sigma_eff_max_x_m,
+        s.cycles_end_depth_1_m,
+        s.cycles_end_depth_2_m,
+        s.pit_body_1.map(|pit| pit.depth_m),
+        s.pit_body_2.map(|pit| pit.depth_m),
+        s.period_s,
+        s.period_drift,
+        some(s.load_error),
+        some(s.mass_error),
+        count(s.steps),
+        count(s.steps_not_converged),
+        count(s.counters.newton_iterations),
+        count(s.counters.linear_iterations),
+        count(s.counters.ffts),
+    ]
+}
+
+/// A sweep's rows, all there.
+#[derive(Debug, Clone)]
+pub struct Rows {
+    /// One record a case, in order.
+    pub records: Vec<CaseRecord>,
+}
+
+impl Rows {
+    /// Gathers the cases of a sweep from the folders of its shards; a case that is in several is in all of them
+    /// the same.
+    ///
+    /// # Errors
+    /// [`SweepError::Incomplete`] that names the chains with missing cases.
+    pub fn gather(sweep: &Sweep, folders: &[Folder]) -> Result<Self, SweepError> {
+        let find = |case: usize| folders.iter().find_map(|folder| folder.read_case(case));
+        let records: Vec<_> = (0..sweep.len()).map(find).collect();
+        let missing = records.iter().filter(|record| record.is_none()).count();
+        if missing > 0 {
+            return Err(SweepError::Incomplete {
+                missing,
+                all: sweep.len(),
+                list: missing_chains(sweep, &records),
+            });
+        }
+        Ok(Self {
+            records: records.into_iter().flatten().collect(),
+        })
+    }
+
+    /// The column of that name, an axis or one of [`COLUMNS`]; empty cells are NaN.
+    pub fn column(&self, sweep: &Sweep, name: &str) -> Option<Vec<f64>> {
+        if let Some(axis) = sweep.axes.iter().position(|axis| axis.key == name) {
+            let numbers = sweep.axes[axis].numbers()?;
+            let cases = 0..sweep.len();
+            return Some(cases.map(|case| numbers[sweep.place(case)[axis]]).collect());
+        }
+        if let Some(values) = super::path::column(&sweep.path, name) {
+            return Some(values);
+        }
+        let column = COLUMNS.iter().position(|column| *column == name)?;
+        let cell = |record: &CaseRecord| numbers(record)[column].unwrap_or(f64::NAN);
+        Some(self.records.iter().map(cell).collect())
+    }
+
+    /// The table.
+    ///
+    /// # Errors
+    /// [`SweepError::Case`] when a case is no scene any more (its height map has gone).
+    pub fn csv(&self, sweep: &Sweep) -> Result<String, SweepError> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let head = ["case".to_owned()]
+            .into_iter()
+            .chain(super::path::columns(&sweep.path).map(str::to_owned))
+            .chain(sweep.axes.iter().map(|axis| axis.key.clone()))
+            .chain(["scene", "began", "end"].map(str::to_owned))
+            .chain(COLUMNS.map(str::to_owned));
+        let mut rows = vec![head.collect::<Vec<_>>()];
+        for record in &self.records {
+            rows.push(self.row(sweep, record)?);
+        }
+        let written = rows.iter().try_for_each(|row| writer.write_record(row));
+        let text = written.ok().and_then(|()| writer.into_inner().ok());
+        // Text into memory: this cannot fail.
+        Ok(text
+            .and_then(|bytes| String::from_utf8(bytes).ok())
+            .unwrap_or_default())
+    }
+
+    fn row(&self, sweep: &Sweep, record: &CaseRecord) -> Result<Vec<String>, SweepError> {
+        let scene = sweep.scene(record.index)?;
+        let scene = toml::to_string(&scene).unwrap_or_default();
+        let mut row = vec![record.index.to_string()];
+        if let Some(point) = sweep.path.get(record.index) {
+            row.extend(point.values.iter().map(|(_, value)| cell(Some(*value))));
+        }
+        row.extend(sweep.values(record.index).into_iter().map(written));
+        row.push(format!("{:016x}", fnv(scene.as_bytes())));
+        let began = match record.began {
+            Began::Cold => "cold",
+            Began::Warm => "warm",
+        };
+        let end = match record.end {
+            CaseEnd::Converged => "converged",
+            CaseEnd::NotConverged => "not_converged",
+            CaseEnd::Stalled => "stalled",
+        };
+        row.extend([began.to_owned(), end.to_owned()]);
+        row.extend(numbers(record).map(cell));
+        Ok(row)
+    }
+
+    /// Seconds of every case, beside the table because they are another number in every run.
+    pub fn seconds_csv(&self) -> String {
+        let mut text = "case,seconds_s\n".to_owned();
+        for record in &self.records {
+            text.push_str(&format!("{},{:.3}\n", record.index, record.seconds));
+        }
+        text
+    }
+
+    /// The worst end of all cases.
+    pub fn worst(&self) -> CaseEnd {
+        let has = |end| self.records.iter().any(|record| record.end == end);
+        if has(CaseEnd::Stalled) {
+            CaseEnd::Stalled
+        } else if has(CaseEnd::NotConverged) {
+            CaseEnd::NotConverged
+        } else {
+            CaseEnd::Converged
+        }
+    }
+}
+
+/// A number in the fewest digits that read back to the same bits.
+pub(super) fn cell(value: Option<f64>) -> String {
+    match value {
+        Some(value) if value.is_finite() => {
+            let size = value.abs();
+            if value == 0.0 || (1e-3..1e15).contains(&size) {
+                format!("{value}")
+            } else {
+                format!("{value:e}")
+            }
+        }
+        _ => String::new(),
+    }
+}
+
+pub(super) fn written(value: &Value) -> String {
+    match value {
+        Value::Float(number) if number.is_infinite() => number.to_string(),
+        Value::Float(number) => cell(Some(*number)),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}
+
+/// Chains with missing cases, at most a dozen of them by name.
+fn missing_chains(sweep: &Sweep, records: &[Option<CaseRecord>]) -> String {
+    const NAMED: usize = 12;
+    let lacking: Vec<_> = sweep
+        .chains()
+        .into_iter()
+        .enumerate()
+        .filter(|(_, cases)| records[cases.clone()].iter().any(Option::is_none))
+        .collect();
+    let names: Vec<_> = lacking
+        .iter()
+        .take(NAMED)
+        .map(|(chain, cases)| format!("chain {chain} (cases {} to {})", cases.start, cases.end - 1))
+        .collect();
+    let more = lacking.len().saturating_sub(NAMED);
+    if more > 0 {
+        format!("{} and {more} more", names.join(", "))
+    } else {
+        names.join(", ")
+    }
+}

@@ -1,0 +1,85 @@
+//! A table of results: once as Markdown for people, once as CSV for other programs.
+
+/// Columns and rows of text.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Table {
+    /// Names of the columns.
+    pub columns: Vec<&'static str>,
+    /// Rows, each as long as the columns.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table without rows.
+    pub fn new(columns: &[&'static str]) -> Self {
+        Self {
+            columns: columns.to_vec(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// As Markdown.
+    pub fn markdown(&self) -> String {
+        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+        let mut text = line(self.columns.iter().map(|&name| name.to_owned()).collect());
+        text.push_str(&"|---".repeat(self.columns.len()));
+        text.push_str("|\n");
+        for row in &self.rows {
+            let cells = row.iter().map(|cell| cell.replace('|', "/"));
+            text.push_str(&line(cells.collect()));
+        }
+        text
+    }
+
+    /// As CSV, the names in the first line.
+    pub fn csv(&self) -> String {
+        let quoted = |cell: &str| {
+            if cell.contains([',', '"', '\n']) {
+                format!("\"{}\"", cell.replace('"', "\"\""))
+            } else {
+                cell.to_owned()
+            }
+        };
+        let line = |cells: Vec<String>| format!("{}\n", cells.join(","));
+        let mut text = line(self.columns.iter().map(|name| quoted(name)).collect());
+        for row in &self.rows {
+            text.push_str(&line(row.iter().map(|cell| quoted(cell)).collect()));
+        }
+        text
+    }
+}
+
+/// A number in three figures, shortest form; a dash for what is not known.
+pub(super) fn figure(value: Option<f64>) -> String {
+    let Some(value) = value.filter(|value| !value.is_nan()) else {
+        return "-".to_owned();
+    };
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if (0.01..100.0).contains(&size) {
+        format!("{value:.3}")
+    } else if (100.0..1e5).contains(&size) {
+        format!("{value:.0}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_with_commas_and_bars_survive() {
+        let table = Table {
+            columns: vec!["case", "says"],
+            rows: vec![vec!["a, b".to_owned(), "x | \"y\"".to_owned()]],
+        };
+        assert_eq!(
+            table.markdown(),
+            "| case | says |\n|---|---|\n| a, b | x / \"y\" |\n"
+        );
+        assert_eq!(table.csv(), "case,says\n\"a, b\",\"x | \"\"y\"\"\"\n");
+    }
+}

@@ -1,0 +1,140 @@
+//! What recording costs the simulation: the same steps with and without it in turns, in one process.
+//!
+//! ```text
+//! cargo test --release --test recording_cost -- --ignored --nocapture
+//! ```
+//!
+//! Two simulations of the default scene go through the same passage, one of them recorded. Blocks of steps of
+//! the one and the other take turns, so that both do the same work under the same load of the machine. A block
+//! with recording ends when the record thread is done with it. Times are no test's business on a machine that
+//! others use, which is why this one is run by hand.
+#![cfg(feature = "rerun")]
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use asperity::observe::rerun::Recorder;
+use asperity::observe::{Began, FramePool, Observer, Overwrite, Queue, RunContext, WhenFull};
+use asperity::plan::Plan;
+use asperity::scene::{Scene, presets};
+use asperity::sim::{Frame, Simulation, Stage};
+
+/// Steps of a block: an eighth of a passage.
+const BLOCK: usize = 16;
+const BLOCKS: usize = 24;
+
+struct Run {
+    sim: Simulation,
+    pool: FramePool,
+    queue: Option<Queue>,
+}
+
+impl Run {
+    fn new(scene: &Scene, threads: usize, queue: Option<Queue>) -> Self {
+        let mut sim = Simulation::new(scene, Plan::new(scene).unwrap(), threads).unwrap();
+        while sim.stage() == Stage::StartUp {
+            sim.step().unwrap();
+        }
+        Self {
+            sim,
+            pool: FramePool::new(6, &Frame::default()),
+            queue,
+        }
+    }
+
+    fn block(&mut self) -> Duration {
+        let began = Instant::now();
+        for _ in 0..BLOCK {
+            self.sim.step().unwrap();
+            let frame = self.pool.fill(|frame| self.sim.fill(frame));
+            if let Some(queue) = &mut self.queue {
+                queue.frame(&frame).unwrap();
+            }
+        }
+        if let Some(queue) = &self.queue {
+            while queue.stats().done < queue.stats().frames {
+                std::thread::sleep(Duration::from_micros(200));
+            }
+        }
+        began.elapsed()
+    }
+}
+
+/// Processor seconds of the threads whose names begin so.
+fn seconds_of(names: &[&str]) -> f64 {
+    let Ok(tasks) = std::fs::read_dir("/proc/self/task") else {
+        return 0.0;
+    };
+    let of = |path: std::path::PathBuf| -> Option<f64> {
+        let name = std::fs::read_to_string(path.join("comm")).ok()?;
+        let used = std::fs::read_to_string(path.join("schedstat")).ok()?;
+        let ours = names.iter().any(|start| name.starts_with(start));
+        let nanos: f64 = used.split(' ').next()?.parse().ok()?;
+        ours.then_some(nanos * 1e-9)
+    };
+    tasks.flatten().filter_map(|task| of(task.path())).sum()
+}
+
+fn measure(threads: usize) {
+    let mut scene = Scene::load(presets::DEFAULT).unwrap();
+    scene.time.passages = 2.0 + (BLOCKS * BLOCK) as f64 / 128.0;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cost.rrd");
+    let record = scene.record.clone().unwrap();
+    let recorder = Recorder::create(&path, Overwrite::Refuse, &record).unwrap();
+    let mut queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
+    let context = RunContext {
+        scene: Arc::new(scene.clone()),
+        scene_toml: scene.to_toml(),
+        plan_text: String::new(),
+        program: "cost".into(),
+        began: Began::FromScene,
+    };
+    queue.begin(&context).unwrap();
+    let mut plain = Run::new(&scene, threads, None);
+    let mut recorded = Run::new(&scene, threads, Some(queue));
+    let threads_of_ours = ["record", "ChunkBatcher", "RecordingStream"];
+    let (mut without, mut with) = (Vec::new(), Vec::new());
+    for block in 0..BLOCKS {
+        if block % 2 == 0 {
+            without.push(plain.block());
+            with.push(recorded.block());
+        } else {
+            with.push(recorded.block());
+            without.push(plain.block());
+        }
+    }
+    let used = seconds_of(&threads_of_ours);
+    let mut queue = recorded.queue.take().unwrap();
+    let stats = queue.stats();
+    let bytes = queue.finish().unwrap().bytes;
+    let mut ratios: Vec<f64> = with
+        .iter()
+        .zip(&without)
+        .map(|(with, without)| with.as_secs_f64() / without.as_secs_f64())
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    let sum = |times: &[Duration]| times.iter().sum::<Duration>().as_secs_f64();
+    let steps = (BLOCKS * BLOCK) as f64;
+    println!(
+        "{threads} threads: {:.2} ms a step without, {:.2} with: {:+.1} % in all, {:+.1} % in the median block",
+        1e3 * sum(&without) / steps,
+        1e3 * sum(&with) / steps,
+        100.0 * (sum(&with) / sum(&without) - 1.0),
+        100.0 * (ratios[BLOCKS / 2] - 1.0),
+    );
+    println!(
+        "  {:.2} ms of processor a frame in the threads that record; {:.1} MB; {stats}",
+        1e3 * used / steps,
+        bytes as f64 * 1e-6
+    );
+}
+
+#[test]
+#[ignore = "measures times: run it by hand on a machine at rest"]
+fn recording_costs_less_than_a_twentieth() {
+    for threads in [1, 2] {
+        measure(threads);
+    }
+}

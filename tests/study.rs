@@ -1,0 +1,158 @@
+//! The studies in their quick forms: orders, counters and bounds, never seconds.
+
+use asperity::study::accuracy::{Accuracy, Against, Part, Varied, accuracy, accuracy_table};
+use asperity::study::accuracy::{life_plot, work_precision_plot};
+use asperity::study::pruning::{Forced, pruning, pruning_text};
+use asperity::study::stability::{Ending, MUST_CONVERGE, stability, stability_text};
+use asperity::study::{Extent, peers};
+
+fn order(result: &Accuracy, part: Part, quantity: &str, varied: Varied) -> f64 {
+    let rows = result.rows.iter().filter(|row| {
+        (row.part, row.quantity, row.varied) == (part, quantity, varied) && row.order.is_some()
+    });
+    let last = rows.last().expect("a series");
+    last.order.expect("an order")
+}
+
+fn least_error(result: &Accuracy, part: Part, quantity: &str) -> f64 {
+    let rows = result.rows.iter().filter(|row| {
+        (row.part, row.quantity) == (part, quantity) && row.against != Against::Finest
+    });
+    rows.map(|row| row.error).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn accuracy_shows_the_orders_of_the_schemes() {
+    let result = accuracy(Extent::Quick, 2, &mut |_, _, _| {}).expect("a study");
+    println!("{}", accuracy_table(&result).markdown());
+    assert!(result.passes());
+    for part in Part::ALL {
+        assert!(
+            result.rows.iter().any(|row| row.part == part && row.front),
+            "{part:?} has a front"
+        );
+        assert!(
+            result
+                .rows
+                .iter()
+                .filter(|row| row.part == part)
+                .all(|row| row.work > 0),
+            "{part:?} counts its work"
+        );
+    }
+    // Second order in the mean; the greatest of a field at nodes and the sampled edge of Hertz less.
+    for (part, quantity, least) in [
+        (Part::DryHertz, "pressure, L2", 0.9),
+        (Part::DryHertz, "greatest pressure", 1.5),
+        (Part::SmoothFilm, "central film", 1.8),
+        (Part::Slice, "worst component, z > a/4", 1.8),
+        (Part::LifeIntegral, "integral, m = 10", 1.7),
+        (Part::RoughFilm, "mean central film", 1.6),
+    ] {
+        let order = order(&result, part, quantity, Varied::Nodes);
+        println!("{}, {quantity}: order {order:.2}", part.name());
+        assert!(order >= least, "{quantity}: {order}");
+    }
+    for (part, quantity, most) in [
+        (Part::DryHertz, "pressure, L2", 2e-3),
+        (Part::Deflection, "deflection, r < a/2", 1e-5),
+        (Part::SmoothFilm, "central film", 5e-3),
+        (Part::Slice, "worst component, z > a/4", 2e-3),
+        (Part::Volume, "greatest von Mises", 1e-4),
+        (Part::LifeIntegral, "integral, m = 10", 5e-4),
+    ] {
+        let error = least_error(&result, part, quantity);
+        println!("{}, {quantity}: least error {error:.1e}", part.name());
+        assert!(error <= most, "{quantity}: {error}");
+    }
+    // Single precision loses nothing that the mesh has not lost.
+    let deflections: Vec<_> = result
+        .rows
+        .iter()
+        .filter(|row| row.part == Part::Deflection)
+        .collect();
+    for pair in deflections.chunks(2) {
+        assert!((pair[0].error - pair[1].error).abs() < 1e-6 + 0.1 * pair[1].error);
+    }
+    // A tighter tolerance leaves less and takes more.
+    let tolerance: Vec<_> = result
+        .rows
+        .iter()
+        .filter(|row| row.part == Part::DryHertz && row.varied == Varied::Tolerance)
+        .collect();
+    assert!(tolerance.len() >= 4);
+    for pair in tolerance.windows(2) {
+        assert!(pair[1].error < pair[0].error && pair[1].work >= pair[0].work);
+    }
+    for plot in [work_precision_plot(&result), life_plot(&result)] {
+        let text = plot.expect("drawn");
+        assert!(text.contains("</svg>") && text.contains("time, s"));
+    }
+}
+
+#[test]
+fn extreme_cases_converge_or_are_named() {
+    let result = stability(Extent::Quick, None, 2, &mut |_, _, _| {}).expect("a study");
+    println!("{}", stability_text(&result));
+    assert!(result.rows.len() >= 20);
+    assert_eq!(result.quiet(), 0);
+    assert!(result.converged() as f64 >= MUST_CONVERGE * result.rows.len() as f64);
+    assert!(result.drift.is_steady(), "{:?}", result.drift);
+    for row in &result.rows {
+        assert_eq!(row.trial.not_finite, 0, "{}", row.name);
+        assert!(row.trial.p_min >= 0.0, "{}", row.name);
+    }
+}
+
+/// A case that cannot work is refused by name, and what works is found on the way back.
+#[test]
+fn a_failure_names_the_nearest_setting_that_works() {
+    let result = stability(Extent::Quick, Some("M 5000, L 20"), 1, &mut |_, _, _| {});
+    let result = result.expect("a study");
+    assert_eq!(result.rows.len(), 1);
+    assert_eq!(result.rows[0].trial.ending, Ending::Converged);
+    assert_eq!(result.rows[0].remedy, None);
+}
+
+#[test]
+fn what_a_scene_does_not_need_changes_nothing() {
+    let rows = pruning(Extent::Quick, None, 2, &mut |_, _, _| {}).expect("a study");
+    println!("{}", pruning_text(&rows));
+    for row in &rows {
+        let (allowed, why) = row.stage.allowed();
+        assert!(
+            row.is_harmless(),
+            "{}, {}: {:?} > {allowed} ({why})",
+            row.preset,
+            row.stage.name(),
+            row.difference
+        );
+    }
+    // Every stage of the study is left out by one of its scenes.
+    for stage in Forced::ALL {
+        assert!(
+            rows.iter().any(|row| row.stage == stage),
+            "{} is never left out",
+            stage.name()
+        );
+    }
+}
+
+#[test]
+fn our_side_of_the_peers_is_as_near_as_they_are() {
+    let table = peers(Extent::Quick, &mut |_, _, _| {}).expect("a study");
+    println!("{}", table.csv());
+    let column = |name: &str| {
+        let at = table.columns.iter().position(|column| *column == name);
+        at.expect("a column")
+    };
+    let number = |row: &[String], name: &str| -> f64 { row[column(name)].parse().expect("number") };
+    // dry.csv: at 128² the public codes lie 0.0020 % and 0.342 % off.
+    let mut hertz = table.rows.iter().filter(|row| row[0] == "hertz");
+    assert!(hertz.all(|row| number(row, "error_1") < 2.5e-5 && number(row, "error_2") < 3.45e-3));
+    let mut waves = table
+        .rows
+        .iter()
+        .filter(|row| row[0].starts_with("bisinusoidal"));
+    assert!(waves.all(|row| number(row, "error_1") < 1e-3 && number(row, "iterations") < 60.0));
+}

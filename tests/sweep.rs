@@ -1,0 +1,415 @@
+//! Sweeps: the table does not depend on shards, threads and kills; what it shows has the right trends; hostile
+//! files are refused by name.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::sync::atomic::Ordering;
+
+use asperity::study::sweep::{
+    Against, Began, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, against_cold,
+    points_csv, presets, run,
+};
+
+/// A coarse scene that still has everything; 8 cases in 4 chains of 2.
+const TINY: &str = "
+title = \"tiny\"
+scene = \"demonstration\"
+[set]
+grid.nodes = 33
+body_1.surface.wavelength_x_m = 4e-4
+body_2.surface.wavelength_x_m = 4e-4
+body_2.surface.wavelength_y_m = 4e-4
+stress.depths = 12
+[vary]
+motion.slide_roll = { from = 0.0, to = 0.6, n = 4 }
+body_2.surface.amplitude_m = [1e-7, 2e-7]
+[chain]
+longest = 2
+passages = 0.5
+";
+
+fn sweep(text: &str) -> Sweep {
+    Sweep::parse(text, "test", Path::new("")).unwrap()
+}
+
+/// Runs what is missing, and says how many cases that were.
+fn fill(sweep: &Sweep, root: &Path, shard: Shard, threads: usize) -> (Folder, usize) {
+    let folder = Folder::create(root, sweep, Existing::Resume).unwrap();
+    let report = run(sweep, &folder, shard, threads, &Progress::default()).unwrap();
+    (folder, report.computed)
+}
+
+fn table(sweep: &Sweep, folders: &[Folder]) -> String {
+    Rows::gather(sweep, folders).unwrap().csv(sweep).unwrap()
+}
+
+fn whole(sweep: &Sweep) -> Rows {
+    let folder = tempfile::tempdir().unwrap();
+    let (folder, _) = fill(sweep, folder.path(), Shard::WHOLE, 2);
+    Rows::gather(sweep, &[folder]).unwrap()
+}
+
+#[test]
+fn the_table_is_the_same_for_any_shards_threads_and_order() {
+    let sweep = sweep(TINY);
+    assert_eq!(sweep.chains(), [0..2, 2..4, 4..6, 6..8]);
+    let root = tempfile::tempdir().unwrap();
+    let (one, computed) = fill(&sweep, &root.path().join("one"), Shard::WHOLE, 1);
+    assert_eq!(computed, 8);
+    let single = table(&sweep, &[one]);
+    assert_eq!(single.lines().count(), 9);
+    let (many, _) = fill(&sweep, &root.path().join("many"), Shard::WHOLE, 3);
+    assert_eq!(table(&sweep, &[many]), single);
+    // Three shards, the last first, one of them twice; merged in any order.
+    let mut parts = Vec::new();
+    for index in [3, 1, 2, 1] {
+        let place = root.path().join(format!("part-{index}-{}", parts.len()));
+        let shard = Shard { index, count: 3 };
+        parts.push(fill(&sweep, &place, shard, 1).0);
+    }
+    assert_eq!(table(&sweep, &parts), single);
+    parts.reverse();
+    assert_eq!(table(&sweep, &parts), single);
+    // A shard that died is named.
+    let error = Rows::gather(&sweep, &parts[1..2]).unwrap_err().to_string();
+    assert!(error.contains("6 of 8 cases are missing"), "{error}");
+    assert!(error.contains("chain 0 (cases 0 to 1)"), "{error}");
+}
+
+#[test]
+fn a_chain_goes_on_where_it_was_broken_off() {
+    let text = TINY.replace("longest = 2", "longest = 4");
+    let sweep = sweep(&text);
+    let root = tempfile::tempdir().unwrap();
+    let (one, _) = fill(&sweep, &root.path().join("one"), Shard::WHOLE, 2);
+    let single = table(&sweep, &[one]);
+    let place = root.path().join("broken");
+    let folder = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
+    // Stopped as soon as two cases are there: in the middle of a chain.
+    let progress = Progress::default();
+    std::thread::scope(|scope| {
+        scope.spawn(|| run(&sweep, &folder, Shard::WHOLE, 1, &progress).unwrap());
+        while progress.done.load(Ordering::Relaxed) < 2 {
+            std::thread::yield_now();
+        }
+        progress.stop.store(true, Ordering::Relaxed);
+    });
+    let kept = (0..8).filter(|k| folder.read_case(*k).is_some()).count();
+    assert!((2..8).contains(&kept), "{kept}");
+    // What a kill in the middle of a write would leave: a temporary file, and on a bad disk half a record.
+    std::fs::write(place.join("temporary-elsewhere-1-0"), "asperity case").unwrap();
+    let last = place.join("cases").join(format!("{:07}.json", kept - 1));
+    let half = std::fs::read(&last).unwrap();
+    std::fs::write(&last, &half[..half.len() / 2]).unwrap();
+    assert!(folder.read_case(kept - 1).is_none());
+    let computed = fill(&sweep, &place, Shard::WHOLE, 1).1;
+    assert!(computed >= 8 - kept + 1, "{computed} of {kept}");
+    assert_eq!(table(&sweep, &[folder.clone()]), single);
+    // A state that was changed is no state: the chain begins again at its head, with the same result.
+    let cases = place.join("cases");
+    std::fs::remove_file(cases.join("0000003.json")).unwrap();
+    std::fs::write(
+        place.join("chains").join("0000000-0000002.state"),
+        "asperity state 1 0\n{}",
+    )
+    .unwrap();
+    assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 4);
+    assert_eq!(table(&sweep, &[folder.clone()]), single);
+    // Nothing is missing: nothing is computed.
+    assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 0);
+    // Without being told to, nobody goes on in a folder with cases, nor in that of another sweep.
+    let refused = Folder::create(&place, &sweep, Existing::Refuse).unwrap_err();
+    assert!(
+        refused.to_string().contains("--resume goes on"),
+        "{refused}"
+    );
+    let other = self::sweep(&text.replace("0.6", "0.5"));
+    let refused = Folder::create(&place, &other, Existing::Resume).unwrap_err();
+    assert!(refused.to_string().contains("another sweep"), "{refused}");
+    assert!(Folder::open(&place, &other).is_err());
+}
+
+/// The table of the binary in a folder, if it is there.
+fn written(root: &Path) -> Option<String> {
+    std::fs::read_to_string(root.join("table.csv")).ok()
+}
+
+#[test]
+fn kills_leave_whole_cases_and_resuming_gives_the_same_table() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("tiny.toml"), TINY).unwrap();
+    let start = |out: &str| {
+        Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .args([
+                "sweep",
+                "tiny.toml",
+                "--threads=2",
+                "--resume",
+                "--out",
+                out,
+            ])
+            .current_dir(root.path())
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap()
+    };
+    assert_eq!(start("single").wait().unwrap().code(), Some(0));
+    let single = written(&root.path().join("single")).unwrap();
+    let out = root.path().join("killed");
+    let there = || std::fs::read_dir(out.join("cases")).map_or(0, Iterator::count);
+    // Killed (SIGKILL) when so many cases are there.
+    for wanted in [0, 1, 3, 4, 6] {
+        let mut child = start("killed");
+        while there() < wanted && child.try_wait().unwrap().is_none() {
+            std::thread::yield_now();
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert_eq!(start("killed").wait().unwrap().code(), Some(0));
+    assert_eq!(written(&out).unwrap(), single);
+    let pictures = [
+        "life_against_slide_roll.svg",
+        "life_map.svg",
+        "stribeck.svg",
+    ];
+    for name in pictures {
+        let text = std::fs::read_to_string(out.join(name)).unwrap();
+        assert!(text.contains("<svg") && text.contains("tiny"), "{name}");
+    }
+}
+
+/// Both bodies alike and rough, on 65 nodes.
+const TREND: &str = "
+scene = \"demonstration\"
+[set]
+grid.nodes = 65
+body_1.surface.wavelength_x_m = 3e-4
+body_2.surface.wavelength_x_m = 3e-4
+body_2.surface.wavelength_y_m = inf
+stress.depths = 16
+";
+
+#[test]
+fn life_falls_with_sliding_and_more_for_the_slower_body() {
+    let sweep = sweep(&format!(
+        "{TREND}[vary]\nmotion.slide_roll = [-1.0, -0.5, 0.0, 0.5, 1.0]\n[chain]\nlongest = 5\n"
+    ));
+    let rows = whole(&sweep);
+    assert_eq!(rows.records[0].began, Began::Cold);
+    assert!(
+        rows.records[1..]
+            .iter()
+            .all(|record| record.began == Began::Warm)
+    );
+    assert_eq!(rows.worst(), CaseEnd::Converged);
+    let column = |name: &str| rows.column(&sweep, name).unwrap();
+    let (life, slower, faster) = (
+        column("life_relative"),
+        column("life_body_1"),
+        column("life_body_2"),
+    );
+    println!("life {life:?}\nbody 1 {slower:?}\nbody 2 {faster:?}");
+    assert!(life[2] > life[3] && life[3] > life[4], "S > 0: {life:?}");
+    assert!(life[2] > life[1] && life[1] > life[0], "S < 0: {life:?}");
+    // S > 0: body 1 is the slower one and meets more asperities a crossing.
+    let n = (column("n_body_1"), column("n_body_2"));
+    for k in [3, 4] {
+        assert!(n.0[k] > n.1[k] && slower[k] < faster[k], "case {k}");
+        assert!(
+            n.0[4 - k] < n.1[4 - k] && slower[4 - k] > faster[4 - k],
+            "case {}",
+            4 - k
+        );
+    }
+    // At S = 0 no asperity overtakes another.
+    assert_eq!((n.0[2], n.1[2]), (1.0, 1.0));
+}
+
+#[test]
+fn life_falls_with_amplitude_and_transverse_ridges_cost_more_than_longitudinal_ones() {
+    let rougher = sweep(&format!(
+        "{TREND}[vary]\nbody_2.surface.amplitude_m = [0.5e-7, 1.5e-7, 3e-7]\n"
+    ));
+    let rows = whole(&rougher);
+    let life = rows.column(&rougher, "life_relative").unwrap();
+    println!("amplitude: {life:?}");
+    assert!(life[0] > life[1] && life[1] > life[2], "{life:?}");
+    let lay = sweep(
+        "combine = \"list\"\n[set]\ngrid.nodes = 65\nstress.depths = 16\nbody_1.surface.kind = \"smooth\"\n\
+         [vary]\nbody_2.surface.wavelength_x_m = [3e-4, inf]\nbody_2.surface.wavelength_y_m = [inf, 3e-4]\n",
+    );
+    let rows = whole(&lay);
+    let life = rows.column(&lay, "life_relative").unwrap();
+    let n = rows.column(&lay, "n_body_1").unwrap();
+    println!("transverse, longitudinal: {life:?}, n {n:?}");
+    assert!(
+        life[0] < life[1] && n[0] > 1.0 && n[1] == 1.0,
+        "{life:?} {n:?}"
+    );
+}
+
+#[test]
+fn a_warm_case_is_what_a_cold_one_is() {
+    let text = format!(
+        "{TREND}[vary]\nmotion.slide_roll = [0.4, 0.5, 0.25, 0.0]\n[chain]\nlongest = 4\npassages = 2.0\n"
+    );
+    let sweep = sweep(&text);
+    let rows = whole(&sweep);
+    let against: Against = against_cold(&sweep, &rows, 2, &Progress::default())
+        .unwrap()
+        .unwrap();
+    println!("life and film, warm over cold: {:?}", against.ratios);
+    // They differ by what is left of the neighbour after 2.5 a, and at S = 0
+    // by nothing less than how the crests stand to each other, if they were not led back to their places.
+    for ratio in &against.ratios {
+        assert!(
+            (ratio[0] - 1.0).abs() < 0.01 && (ratio[1] - 1.0).abs() < 0.005,
+            "{ratio:?}"
+        );
+    }
+}
+
+#[test]
+fn hostile_files_are_refused_by_key_value_and_range() {
+    let huge = format!("[vary]\nload.force_n = [{}]", "1.0,".repeat(1_000_001));
+    for (text, words) in [
+        ("", &["[vary] is missing"][..]),
+        ("[vary]", &["vary is missing", "at least one key"]),
+        (
+            "[vary]\nmotion.slide_rol = [1.0]",
+            &["did you mean motion.slide_roll?"],
+        ),
+        (
+            "[vary]\nstress = [1.0]",
+            &["vary.stress", "one of its keys"],
+        ),
+        (
+            "bogus = 1\n[vary]\nmotion.slide_roll = [1.0]",
+            &["bogus", "only the keys title"],
+        ),
+        (
+            "scene = 3\n[vary]\nmotion.slide_roll = [1.0]",
+            &["scene = 3", "a preset"],
+        ),
+        (
+            "scene = \"nowhere.toml\"\n[vary]\nmotion.slide_roll = [1.0]",
+            &["cannot read", "nowhere.toml"],
+        ),
+        (
+            "combine = \"sum\"\n[vary]\nmotion.slide_roll = [1.0]",
+            &["combine = \"sum\"", "\"grid\" or \"list\""],
+        ),
+        (
+            "combine = \"list\"\n[vary]\nmotion.slide_roll = [1.0]\nload.force_n = [1.0, 2.0]",
+            &["lists of one length", "load.force_n: 2"],
+        ),
+        (
+            "[vary]\nmotion.slide_roll = { from = 0, to = 1, n = 5000 }\nload.force_n = { from = 1, to = 2, n = 5000 }",
+            &["25000000 cases", "at most 1000000"],
+        ),
+        (
+            "[set]\nmotion.slide_roll = 1.0\n[vary]\nmotion.slide_roll = [1.0]",
+            &["set.motion.slide_roll"],
+        ),
+        (
+            "[set]\nnothing = 1.0\n[vary]\nmotion.slide_roll = [1.0]",
+            &["nothing is not a key"],
+        ),
+        (
+            "[vary]\n\"motion.slide_roll\" = [1.0]\nmotion.slide_roll = [2.0]",
+            &["vary.motion.slide_roll", "twice"],
+        ),
+        (
+            "[chain]\nlongest = 0\n[vary]\nmotion.slide_roll = [1.0]",
+            &["chain.longest = 0", "1 to 1000"],
+        ),
+        (
+            "[chain]\npassages = nan\n[vary]\nmotion.slide_roll = [1.0]",
+            &["chain.passages", "0.25 to 1e4"],
+        ),
+        (
+            "[gear]\nteeth = [16, 24]\n[vary]\nmotion.slide_roll = [1.0]",
+            &["exactly one of"],
+        ),
+        (
+            "[gear]\nteeth = [16, 24]",
+            &["contact.kind", "\"line\" on a [gear]"],
+        ),
+        (
+            "scene = \"fzg_pitch_point\"\n[gear]\nteeth = [16, 2.5]",
+            &["gear.teeth", "two"],
+        ),
+        (
+            "scene = \"fzg_pitch_point\"\n[gear]\nteeth = [16, 24]\nmodule_m = -1",
+            &["gear.module_m = -1", "0.00001 to 0.1 m"],
+        ),
+        (
+            "scene = \"fzg_pitch_point\"\n[gear]\nteeth = [16, 24]\nmodule_m = 0.0045\nface_width_m = 0.01\n\
+             torque_n_m = 10\nspeed_rpm = 10\ntip_diameters_m = [0.06, 0.1]",
+            &["gear.tip_diameters_m", "teeth that mesh"],
+        ),
+        ("[[vary]]", &["vary", "a table"]),
+        ("[vary\n", &["not valid TOML"]),
+        (huge.as_str(), &["1 to 1000000 values"]),
+    ] {
+        let error = Sweep::parse(text, "hostile", Path::new(""))
+            .unwrap_err()
+            .to_string();
+        for word in words {
+            assert!(error.contains(word), "{word:?} is missing in {error:.300}");
+        }
+    }
+    // A value that its key refuses is found before anything runs, with the case that has it.
+    let sweep = sweep("[vary]\nmotion.slide_roll = [0.0, 3.0]");
+    let root = tempfile::tempdir().unwrap();
+    let folder = Folder::create(root.path(), &sweep, Existing::Refuse).unwrap();
+    let error = run(&sweep, &folder, Shard::WHOLE, 1, &Progress::default()).unwrap_err();
+    let error = error.to_string();
+    assert!(error.contains("case 1 (motion.slide_roll = 3)"), "{error}");
+    assert!(error.contains("-2 to 2"), "{error}");
+    assert!(folder.read_case(0).is_none());
+}
+
+#[test]
+fn built_in_sweeps_are_whole_and_a_folder_keeps_one_that_is_the_same() {
+    for preset in presets() {
+        let sweep = Sweep::load(preset.name).unwrap();
+        let again = Sweep::parse(sweep.to_toml(), "again", Path::new("/nowhere")).unwrap();
+        assert_eq!(sweep.digest(), again.digest(), "{}", preset.name);
+        let points = points_csv(&sweep).unwrap();
+        assert_eq!(points.lines().count(), sweep.len() + 1);
+        for case in 0..sweep.len() {
+            sweep.scene(case).unwrap();
+        }
+    }
+}
+
+#[test]
+fn the_fzg_tooth_has_the_published_pressure_at_its_pitch_point() {
+    let sweep = Sweep::load("fzg_c").unwrap();
+    let points = points_csv(&sweep).unwrap();
+    let rows: Vec<Vec<&str>> = points
+        .lines()
+        .map(|line| line.split(',').collect())
+        .collect();
+    let at = |name: &str| rows[0].iter().position(|n| *n == name).unwrap();
+    let number = |row: &[&str], name: &str| row[at(name)].parse::<f64>().unwrap();
+    let pitch = rows[1..]
+        .iter()
+        .find(|row| number(row, "slide_roll") == 0.0)
+        .unwrap();
+    let pressure = number(pitch, "p_hertz_pa");
+    println!("pitch point {pressure:e} Pa");
+    assert!((pressure - 1347e6).abs() < 1.5e6, "{pressure}");
+    // S falls all along the line of action: dedendum above 0, tip below.
+    let s: Vec<f64> = rows[1..]
+        .iter()
+        .map(|row| number(row, "slide_roll"))
+        .collect();
+    assert!(s.windows(2).all(|pair| pair[1] < pair[0]), "{s:?}");
+    assert!(s[0] > 1.0 && s[s.len() - 1] < -0.9);
+}
