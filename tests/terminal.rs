@@ -11,7 +11,7 @@ use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system}
 use vt100::{MouseProtocolMode, Parser, Screen};
 
 /// Longest wait for anything: a hang is told, a slow machine is not.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 /// A contact that starts within a second or so.
 const SMALL: &str = "--no-record --threads 1 --set grid.nodes=65 --set stress.depths=8";
 
@@ -20,7 +20,7 @@ struct Terminal {
     master: Option<Box<dyn MasterPty + Send>>,
     keys: Option<Box<dyn Write + Send>>,
     shell: Box<dyn Child + Send + Sync>,
-    _folder: tempfile::TempDir,
+    folder: tempfile::TempDir,
 }
 
 fn size(cols: u16, rows: u16) -> PtySize {
@@ -66,7 +66,7 @@ impl Terminal {
             master: Some(pair.master),
             keys: Some(keys),
             shell,
-            _folder: folder,
+            folder: folder,
         };
         terminal.see("READY>");
         terminal
@@ -94,6 +94,14 @@ impl Terminal {
         self.wait(text, |screen| screen.contents().contains(text));
     }
 
+    /// The shell asks for a line: what is typed before goes to the program.
+    fn prompt(&mut self) {
+        self.wait("prompt", |screen| {
+            let text = screen.contents();
+            !screen.alternate_screen() && text.trim_end().ends_with("READY>")
+        });
+    }
+
     fn explore(&mut self, how: &str) {
         self.press(&format!("clear; {how}\n"));
         self.wait("explorer", |screen| {
@@ -116,10 +124,7 @@ impl Terminal {
 
     /// The shell has its terminal back: no second screen, a cursor, no mouse, lines that echo.
     fn is_given_back(&mut self, code: &str) {
-        self.wait("prompt", |screen| {
-            let text = screen.contents();
-            !screen.alternate_screen() && text.trim_end().ends_with("READY>")
-        });
+        self.prompt();
         // The words are put together by the shell, so that the line as typed does not hold them.
         self.press("stty -a | tr ' ;' '\\n\\n' | grep -xE -e '-?(icanon|echo)' | tr '\\n' ' '; echo en''d\n");
         self.wait("answer", |screen| {
@@ -204,7 +209,7 @@ fn control_z_hands_the_terminal_over_and_fg_brings_it_back() {
     let mut terminal = Terminal::open(&[]);
     terminal.explore(&format!("\"$ASPERITY\" explore {SMALL}"));
     terminal.press("\x1a");
-    terminal.wait("first screen", |screen| !screen.alternate_screen());
+    terminal.prompt();
     terminal.press("echo at the shell | tr a-z A-Z\n");
     terminal.see("AT THE SHELL");
     terminal.press("fg\n");
@@ -245,7 +250,7 @@ fn a_terminal_that_vanishes_ends_it() {
     terminal.explore(&format!(
         "sh -c 'echo $$ > pid; exec \"$ASPERITY\" explore {SMALL}'"
     ));
-    let pid = std::fs::read_to_string(terminal._folder.path().join("pid")).unwrap();
+    let pid = std::fs::read_to_string(terminal.folder.path().join("pid")).unwrap();
     let alive = || {
         let mut kill = std::process::Command::new("kill");
         kill.args(["-0", pid.trim()])
