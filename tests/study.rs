@@ -15,7 +15,7 @@ fn order(result: &Accuracy, part: Part, quantity: &str, varied: Varied) -> f64 {
 }
 
 fn least_error(result: &Accuracy, part: Part, quantity: &str) -> f64 {
-    let mut rows = result.rows.iter().filter(|row| {
+    let rows = result.rows.iter().filter(|row| {
         (row.part, row.quantity) == (part, quantity) && row.against != Against::Finest
     });
     rows.map(|row| row.error).fold(f64::INFINITY, f64::min)
