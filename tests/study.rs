@@ -7,15 +7,15 @@ use asperity::study::stability::{Ending, MUST_CONVERGE, stability, stability_tex
 use asperity::study::{Extent, peers};
 
 fn order(result: &Accuracy, part: Part, quantity: &str, varied: Varied) -> f64 {
-    let rows = result.rows.iter().filter(|row| {
+    let mut rows = result.rows.iter().filter(|row| {
         (row.part, row.quantity, row.varied) == (part, quantity, varied) && row.order.is_some()
     });
-    let last = rows.last().expect("a series");
+    let last = rows.next_back().expect("a series");
     last.order.expect("an order")
 }
 
 fn least_error(result: &Accuracy, part: Part, quantity: &str) -> f64 {
-    let rows = result.rows.iter().filter(|row| {
+    let mut rows = result.rows.iter().filter(|row| {
         (row.part, row.quantity) == (part, quantity) && row.against != Against::Finest
     });
     rows.map(|row| row.error).fold(f64::INFINITY, f64::min)
@@ -125,7 +125,7 @@ fn what_a_scene_does_not_need_changes_nothing() {
             "{}, {}: {:?} > {allowed} ({why})",
             row.preset,
             row.stage.name(),
-            row.difference
+            row.found
         );
     }
     // Every stage of the study is left out by one of its scenes.

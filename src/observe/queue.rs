@@ -239,6 +239,10 @@ impl Observer for Queue {
         )
     }
 
+    fn skipped(&self) -> u64 {
+        self.stats().skipped
+    }
+
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
         self.put(
             Message::Event(event.clone()),
