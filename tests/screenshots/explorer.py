@@ -160,7 +160,7 @@ def main():
     arguments = parser.parse_args()
     program, patience = arguments.program.resolve(), arguments.patience
     # The default scene, its orbit replayed, the curve of life against S filled in.
-    swept = [([], "sweeping S", patience), ([], "sweeping S 17/18", patience)]
+    swept = [([], "sweeping S", patience), ([], "sweeping S 15/18", patience)]
     shoot(program, arguments.folder, "explorer.png", (160, 48), swept)
     # The second lesson at S = 0.5, its orbit replayed: the comb.
     comb = [(["t"], "1/7", patience), (["n"], "2/7", patience), ([], "(3/4)", patience), ([], "orbit", patience)]

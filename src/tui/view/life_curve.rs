@@ -107,7 +107,7 @@ fn friction_against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
 fn sweeping(app: &App, area: Rect, heading: &Line<'_>, buffer: &mut Buffer) {
     let theme = app.theme;
     if let Some((done, all)) = app.sweep {
-        let text = format!("{}{done}/{all}", theme.pick("⟳ ", "@ "));
+        let text = format!("{}{done}/{all}", theme.pick("↻ ", "@ "));
         let line = Line::styled(text, theme.style(Role::Warn));
         let room = (heading.width() + line.width()) as u16 <= area.width;
         let corner = Rect {
