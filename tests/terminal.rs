@@ -66,7 +66,7 @@ impl Terminal {
             master: Some(pair.master),
             keys: Some(keys),
             shell,
-            folder: folder,
+            folder,
         };
         terminal.see("READY>");
         terminal
