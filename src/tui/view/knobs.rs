@@ -12,7 +12,7 @@ use crate::tui::app::App;
 use crate::tui::choice::Choice;
 use crate::tui::dial::{Dial, Life};
 use crate::tui::theme::Role;
-use crate::tui::units::{sig, sig_or_dash, tick};
+use crate::tui::units::{sig, tick};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
@@ -337,9 +337,8 @@ fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
     let scene = &app.setup.scene;
     let shown = |choice: Choice| choice.of_scene(scene, app.units);
     let lines = [
-        ("lay 1", shown(Choice::Lay(0)), Role::Body1),
-        ("lay 2", shown(Choice::Lay(1)), Role::Body2),
-        ("waves W/a", waves_over_a(app), Role::Text),
+        ("lay 1, W/a", lay(app, 0), Role::Body1),
+        ("lay 2, W/a", lay(app, 1), Role::Body2),
         ("oil", shown(Choice::Viscosity), Role::Film),
     ];
     if area.height < from + lines.len() as u16 + SYMBOLS.len() as u16 {
@@ -354,14 +353,17 @@ fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
         let value = Line::styled(ascii_text(theme, value), theme.style(*role));
         put_right(area, row, &value, buffer);
     }
-    lines.len() as u16 + 1
+    lines.len() as u16
 }
 
-fn waves_over_a(app: &App) -> String {
-    let waves = [0, 1].map(|body| Choice::wave_m(&app.setup.scene, body));
-    let over = |wave: Option<f64>| sig_or_dash(wave.map(|w| w / app.setup.half_width_m), 2);
-    let [one, two] = waves.map(over);
-    format!("{one}, {two}")
+/// `transverse 0.43`.
+fn lay(app: &App, body: usize) -> String {
+    let scene = &app.setup.scene;
+    let lay = Choice::Lay(body).of_scene(scene, app.units);
+    match Choice::wave_m(scene, body) {
+        Some(wave_m) => format!("{lay} {}", sig(wave_m / app.setup.half_width_m, 2)),
+        None => lay,
+    }
 }
 
 /// What the letters on the screen mean; the help screen says it too.

@@ -61,7 +61,7 @@ fn friction_against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let heading = Line::from(vec![
         Span::styled("y ", theme.style(Role::Key)),
-        Span::styled("friction against S ", theme.style(Role::Title)),
+        Span::styled("friction by S ", theme.style(Role::Title)),
         Span::styled(theme.pick("• ", "o "), theme.style(Role::Good)),
         Span::styled("simulated ", theme.style(Role::Dim)),
     ]);
@@ -131,7 +131,7 @@ fn life_against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let heading = Line::from(vec![
         Span::styled("y ", theme.style(Role::Key)),
-        Span::styled("life against S ", theme.style(Role::Title)),
+        Span::styled("life by S ", theme.style(Role::Title)),
         Span::styled(theme.pick("┄ ", ". "), theme.style(Role::Formula)),
         Span::styled("formula ", theme.style(Role::Dim)),
         Span::styled(theme.pick("• ", "o "), theme.style(Role::Good)),
