@@ -7,10 +7,10 @@ use asperity::study::stability::{Ending, MUST_CONVERGE, stability, stability_tex
 use asperity::study::{Extent, peers};
 
 fn order(result: &Accuracy, part: Part, quantity: &str, varied: Varied) -> f64 {
-    let rows = result.rows.iter().filter(|row| {
+    let mut rows = result.rows.iter().filter(|row| {
         (row.part, row.quantity, row.varied) == (part, quantity, varied) && row.order.is_some()
     });
-    let last = rows.last().expect("a series");
+    let last = rows.next_back().expect("a series");
     last.order.expect("an order")
 }
 

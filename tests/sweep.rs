@@ -104,8 +104,8 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     std::fs::write(&last, &half[..half.len() / 2]).unwrap();
     assert!(folder.read_case(kept - 1).is_none());
     let computed = fill(&sweep, &place, Shard::WHOLE, 1).1;
-    assert!(computed >= 8 - kept + 1, "{computed} of {kept}");
-    assert_eq!(table(&sweep, &[folder.clone()]), single);
+    assert!(computed > 8 - kept, "{computed} of {kept}");
+    assert_eq!(table(&sweep, std::slice::from_ref(&folder)), single);
     // A state that was changed is no state: the chain begins again at its head, with the same result.
     let cases = place.join("cases");
     std::fs::remove_file(cases.join("0000003.json")).unwrap();
@@ -115,7 +115,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     )
     .unwrap();
     assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 4);
-    assert_eq!(table(&sweep, &[folder.clone()]), single);
+    assert_eq!(table(&sweep, std::slice::from_ref(&folder)), single);
     // Nothing is missing: nothing is computed.
     assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 0);
     // Without being told to, nobody goes on in a folder with cases, nor in that of another sweep.
@@ -263,11 +263,12 @@ fn a_warm_case_is_what_a_cold_one_is() {
         .unwrap()
         .unwrap();
     println!("life and film, warm over cold: {:?}", against.ratios);
-    // They differ by what is left of the neighbour after 2.5 a, and at S = 0
-    // by nothing less than how the crests stand to each other, if they were not led back to their places.
+    // They differ by what is left of the neighbour after 2.5 a, which the film shows, and at S = 0 by nothing
+    // less than how the crests stand to each other, if they were not led back to their places. Life is a mean
+    // over some 16 phases of stress to the power of 11.5; other phases of the same orbit move it by a per cent.
     for ratio in &against.ratios {
         assert!(
-            (ratio[0] - 1.0).abs() < 0.01 && (ratio[1] - 1.0).abs() < 0.005,
+            (ratio[0] - 1.0).abs() < 0.025 && (ratio[1] - 1.0).abs() < 0.005,
             "{ratio:?}"
         );
     }
@@ -406,10 +407,21 @@ fn the_fzg_tooth_has_the_published_pressure_at_its_pitch_point() {
     println!("pitch point {pressure:e} Pa");
     assert!((pressure - 1347e6).abs() < 1.5e6, "{pressure}");
     // S falls all along the line of action: dedendum above 0, tip below.
+    assert!(rows[0].contains(&"load_n_per_m"));
     let s: Vec<f64> = rows[1..]
         .iter()
         .map(|row| number(row, "slide_roll"))
         .collect();
     assert!(s.windows(2).all(|pair| pair[1] < pair[0]), "{s:?}");
     assert!(s[0] > 1.0 && s[s.len() - 1] < -0.9);
+    // The ride keeps speeds, sliding and Hertz pressure, and is a scene.
+    let ride = sweep.ride().unwrap().unwrap();
+    ride.validate().unwrap();
+    assert_eq!(ride.events.len(), sweep.len());
+    let last = &ride.events[sweep.len() - 1];
+    let scene = sweep.scene(sweep.len() - 1).unwrap();
+    let pressure = ride.hertz_at(last.set["load.force_n_per_m"]).p_max_pa;
+    assert!((pressure / scene.hertz().p_max_pa - 1.0).abs() < 1e-12);
+    assert_eq!(last.set["motion.slide_roll"], scene.motion.slide_roll);
+    assert!(Sweep::load("slide_roll").unwrap().ride().unwrap().is_none());
 }

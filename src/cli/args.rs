@@ -42,7 +42,7 @@ Run many cases of a scene, and write one table with a row each, and pictures.
 A sweep file names a scene and what varies: [vary] takes any keys of a scene, each with a list of values or a
 range { from, to, n, spacing = \"linear\" or \"log\" }. Several keys make a grid (every combination; the default)
 or, with combine = \"list\", go side by side. Instead of [vary], [gear] follows a tooth along its line of action,
-[race] a ball through its loaded zone, [cam] a cam's flank. asperity sweep slide_roll --print shows a file.
+[race] a ball through its loaded zone, [cam] a cam's flank. asperity sweep slide_roll --show file prints one.
 
 Cases that differ only in S or an amplitude start from each other's end, along chains of [chain] longest cases; a
 chain begins cold. Chains are fixed by the file alone and are what shards are made of, so the table is the same byte
@@ -54,13 +54,14 @@ Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.
 
 Examples:
   asperity sweep slide_roll                      21 values of S of the default scene, into ./slide_roll.sweep/
-  asperity sweep slide_roll --print > mine.toml  a file to edit
+  asperity sweep slide_roll --show file > mine.toml    a file to edit
   asperity sweep mine.toml --resume              goes on after a kill
   asperity sweep mine.toml --shard 3/8           the third of eight parts, on this machine or another
   asperity sweep collect mine.sweep              the table of parts that share a folder
   asperity sweep collect one.sweep two.sweep --out all.sweep
   asperity sweep slide_roll --compare-cold       what the chains save, and what they cost in accuracy
-  asperity sweep fzg_c --points                  R, U1, U2, S, load, p_h, film along the path; no simulation
+  asperity sweep fzg_c --show ride > ride.toml   then asperity run ride.toml: a recording along the tooth
+  asperity sweep fzg_c --show points             R, U1, U2, S, load, p_h, film along the path; no simulation
 
 Exit codes: 0 all converged; 1 bad input; 2 some cases did not converge; 3 some stalled, or cases are missing;
 4 an output failed.";
@@ -202,12 +203,20 @@ pub(crate) struct SweepArgs {
     /// Then run every case cold as well, as asperity run would, and print what the chains save
     #[arg(long, conflicts_with = "shard")]
     pub(crate) compare_cold: bool,
-    /// Print the sweep's file and do nothing
-    #[arg(long)]
-    pub(crate) print: bool,
-    /// Print what is known of every case by closed forms, as CSV, and do nothing
-    #[arg(long)]
-    pub(crate) points: bool,
+    /// Print something about the sweep and run nothing
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub(crate) show: Option<Shown>,
+}
+
+/// What to print of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Shown {
+    /// Its file, to edit
+    File,
+    /// What is known of every case by closed forms, as CSV
+    Points,
+    /// A scene that moves along a [gear] path in its own time, for asperity run and its recording
+    Ride,
 }
 
 /// What else there is to do with a sweep.

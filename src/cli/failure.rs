@@ -123,9 +123,9 @@ impl From<CheckpointError> for Failure {
 impl From<SweepError> for Failure {
     fn from(error: SweepError) -> Self {
         match &error {
-            SweepError::File { .. } => Self::input(miette!(
+            SweepError::File { .. } | SweepError::Read { .. } => Self::input(miette!(
                 code = "sweep",
-                help = "asperity sweep --help explains the file, asperity sweep slide_roll --print shows one",
+                help = "asperity sweep --help explains the file, asperity sweep slide_roll --show file prints one",
                 "{error}"
             )),
             SweepError::Case { .. } | SweepError::Plan { .. } => Self::input(miette!(

@@ -13,7 +13,7 @@ use asperity::study::sweep::{
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::{SweepArgs, SweepCommand};
+use super::args::{Shown, SweepArgs, SweepCommand};
 use super::failure::Failure;
 use super::run::stop_on_signals;
 use super::scenes::print;
@@ -25,12 +25,8 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     }
     // clap has refused a line without one.
     let sweep = Sweep::load(args.sweep.as_deref().unwrap_or_default())?;
-    if args.print {
-        print(sweep.source());
-        return Ok(0);
-    }
-    if args.points {
-        print(&points_csv(&sweep)?);
+    if let Some(shown) = args.show {
+        print(&show_of(&sweep, shown)?);
         return Ok(0);
     }
     let root = args
@@ -84,6 +80,21 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
+/// What is printed of a sweep in place of running it.
+fn show_of(sweep: &Sweep, shown: Shown) -> Result<String, Failure> {
+    match shown {
+        Shown::File => Ok(sweep.source().to_owned()),
+        Shown::Points => Ok(points_csv(sweep)?),
+        Shown::Ride => match sweep.ride()? {
+            Some(scene) => Ok(scene.to_toml()),
+            None => Err(Failure::input(miette::miette!(
+                help = "asperity sweep fzg_c --show ride prints one",
+                "only a [gear] path has times to ride along"
+            ))),
+        },
+    }
+}
+
 fn collect(folders: &[PathBuf], out: Option<&Path>) -> Result<u8, Failure> {
     let sweep = Folder::sweep_in(&folders[0])?;
     let opened = folders
@@ -102,7 +113,10 @@ fn collect(folders: &[PathBuf], out: Option<&Path>) -> Result<u8, Failure> {
 fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
     let root = folder.root();
     let table = root.join("table.csv");
-    folder.write(&table, rows.csv(sweep)?.as_bytes())?;
+    let csv = rows.csv(sweep)?;
+    folder.write(&table, csv.as_bytes())?;
+    #[cfg(feature = "parquet")]
+    write_parquet(folder, &csv)?;
     folder.write(&root.join("seconds.csv"), rows.seconds_csv().as_bytes())?;
     if !sweep.path.is_empty() {
         folder.write(&root.join("path.csv"), points_csv(sweep)?.as_bytes())?;
@@ -114,6 +128,17 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
         CaseEnd::NotConverged => 2,
         CaseEnd::Stalled => 3,
     })
+}
+
+#[cfg(feature = "parquet")]
+fn write_parquet(folder: &Folder, csv: &str) -> Result<(), Failure> {
+    let path = folder.root().join("table.parquet");
+    let bytes =
+        asperity::study::sweep::parquet_table(csv).map_err(|reason| SweepError::Folder {
+            path: path.display().to_string(),
+            reason,
+        })?;
+    Ok(folder.write(&path, &bytes)?)
 }
 
 fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String {

@@ -28,7 +28,6 @@ pub(crate) struct Ranges {
     /// Orthogonal shear of either sign, Pa.
     pub(crate) shear_pa: f64,
     /// Which bodies are rough.
-    #[cfg_attr(not(feature = "rerun"), expect(dead_code, reason = "the recording's"))]
     pub(crate) rough: [bool; 2],
 }
 
@@ -38,9 +37,16 @@ impl Ranges {
         let metrics = &first.metrics;
         let round = |value: f64, (_, per_si): (&str, f64)| nice_up(value * per_si) / per_si;
         let pressure_pa = round((1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa), GPA);
-        // The film range starts from what the middle of the contact is like; the bath around the
-        // contact is ten to a hundred times thicker.
-        let film = 2.5 * metrics.h_central_m.max(metrics.h_mean_m).max(1e-9);
+        // The film range starts from what the middle of the contact is like in the mean (the film at the
+        // origin goes up and down with every crest); the bath around the contact is ten to a hundred times
+        // thicker.
+        let mean = if metrics.h_mean_m > 0.0 {
+            metrics.h_mean_m
+        } else {
+            metrics.h_central_m
+        };
+        let valley = mean + 0.5 * (metrics.amplitude_1_m + metrics.amplitude_2_m);
+        let film = (2.5 * mean).max(valley).max(1e-9);
         let traction = greatest(&first.traction_pa).max(0.01 * first.p_hertz_pa);
         let rough = [&first.roughness_1_m, &first.roughness_2_m].map(|field| greatest(field));
         let (effective, shear) = first.slice.as_ref().map_or((0.0, 0.0), |slice| {
@@ -93,7 +99,10 @@ pub(crate) fn divisions(top: f64) -> Vec<f64> {
 }
 
 /// Round positions in [low, high], about `about` of them.
-#[cfg_attr(not(feature = "rerun"), expect(dead_code, reason = "the recording's"))]
+#[cfg_attr(
+    not(any(feature = "rerun", test)),
+    expect(dead_code, reason = "the recording's")
+)]
 pub(crate) fn ticks(low: f64, high: f64, about: usize) -> Vec<f64> {
     let raw = (high - low) / about.max(1) as f64;
     if !(raw.is_finite() && raw > 0.0) {

@@ -111,15 +111,12 @@ impl Domain {
         crests: Crests,
     ) -> Self {
         let [reach_x, reach_y] = crests.reach(kind);
-        let (x_min_a, x_max_a, y_half_b) = match film {
-            Some((film, l)) => {
-                let (x_min, x_max) = beyond(edges(kind, film, l), reach_x);
-                (x_min, x_max, side(film, l).max(reach_y))
-            }
-            None => {
-                let x = DRY_HALF.max(reach_x);
-                (-x, x, DRY_HALF.max(reach_y))
-            }
+        let (x_min_a, x_max_a, y_half_b) = if let Some((film, l)) = film {
+            let (x_min, x_max) = beyond(edges(kind, film, l), reach_x);
+            (x_min, x_max, side(film, l).max(reach_y))
+        } else {
+            let x = DRY_HALF.max(reach_x);
+            (-x, x, DRY_HALF.max(reach_y))
         };
         Self {
             nodes: grid.nodes,

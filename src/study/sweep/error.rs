@@ -16,6 +16,14 @@ pub enum SweepError {
         /// What is wrong.
         source: SceneError,
     },
+    /// The sweep file cannot be read.
+    #[error("cannot read the sweep {path}: {reason}")]
+    Read {
+        /// Path.
+        path: String,
+        /// What is wrong.
+        reason: String,
+    },
     /// One of its cases is no scene.
     #[error("case {index} ({at}): {source}")]
     Case {

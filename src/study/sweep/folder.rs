@@ -221,7 +221,7 @@ impl Folder {
     /// Takes away what processes that were killed left half-written: files that nobody has touched for ten
     /// minutes, since another shard may be writing one.
     pub fn tidy(&self) {
-        const ABANDONED: std::time::Duration = std::time::Duration::from_secs(600);
+        const ABANDONED: std::time::Duration = std::time::Duration::from_mins(10);
         let left = std::fs::read_dir(&self.root)
             .into_iter()
             .flatten()

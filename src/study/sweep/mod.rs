@@ -12,13 +12,18 @@ mod axis;
 mod case;
 mod chain;
 mod cold;
+#[cfg(feature = "parquet")]
+mod columns;
 mod error;
 mod figure;
 mod folder;
 mod path;
+mod path_keys;
 mod plots;
 mod points;
 mod presets;
+mod read;
+mod ride;
 mod run;
 mod spec;
 mod table;
@@ -28,6 +33,8 @@ pub use axis::{Axis, WARM_KEYS};
 pub use case::{Began, CaseEnd, CaseRecord};
 pub use chain::Shard;
 pub use cold::{Against, against_cold};
+#[cfg(feature = "parquet")]
+pub use columns::parquet_table;
 pub use error::SweepError;
 pub use folder::{Existing, Folder};
 pub use path::PathPoint;

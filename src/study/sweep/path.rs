@@ -22,7 +22,8 @@ use std::f64::consts::PI;
 
 use toml::{Table, Value};
 
-use super::axis::{Axis, number, shown};
+use super::axis::{Axis, shown};
+use super::path_keys::Keys;
 use crate::physics::gear::{GearPair, LoadSharing};
 use crate::physics::race_and_cam::{BallRace, FlatFollower};
 use crate::scene::{ContactKind, Scene, SceneError};
@@ -51,9 +52,6 @@ pub(super) struct Path {
     pub(super) axes: Vec<Axis>,
     pub(super) points: Vec<PathPoint>,
 }
-
-/// Most points of a path.
-const MOST_POINTS: i64 = 10_000;
 
 /// A point under way: where it is, and what the scene gets.
 struct Stop {
@@ -98,85 +96,6 @@ pub(super) fn read(kind: &str, table: &Table, scene: &Scene) -> Result<Path, Sce
             })
             .collect(),
     })
-}
-
-/// A table whose keys are read one by one.
-struct Keys<'a> {
-    kind: &'a str,
-    table: &'a Table,
-}
-
-impl Keys<'_> {
-    fn full(&self, name: &str) -> String {
-        format!("{}.{name}", self.kind)
-    }
-
-    fn known(&self, names: &[&str]) -> Result<(), SceneError> {
-        match self.table.keys().find(|key| !names.contains(&key.as_str())) {
-            Some(key) => Err(SceneError::unknown_among(&self.full(key), names)),
-            None => Ok(()),
-        }
-    }
-
-    fn maybe(&self, name: &str, range: (f64, f64), unit: &str) -> Result<Option<f64>, SceneError> {
-        let Some(value) = self.table.get(name) else {
-            return Ok(None);
-        };
-        let (least, most) = range;
-        number(value)
-            .filter(|v| (least..=most).contains(v))
-            .map(Some)
-            .ok_or_else(|| {
-                let allowed = format!("{least} to {most} {unit}");
-                SceneError::value(self.full(name), shown(value), allowed.trim_end())
-            })
-    }
-
-    fn number(&self, name: &str, range: (f64, f64), unit: &str) -> Result<f64, SceneError> {
-        self.maybe(name, range, unit)?
-            .ok_or_else(|| SceneError::Missing {
-                key: self.full(name),
-                allowed: format!("{} to {} {unit}", range.0, range.1),
-            })
-    }
-
-    fn pair(
-        &self,
-        name: &str,
-        range: (f64, f64),
-        unit: &str,
-    ) -> Result<Option<[f64; 2]>, SceneError> {
-        let Some(value) = self.table.get(name) else {
-            return Ok(None);
-        };
-        let list: Option<Vec<f64>> = value
-            .as_array()
-            .and_then(|list| list.iter().map(number).collect());
-        match list.as_deref() {
-            Some([one, two]) if [one, two].iter().all(|v| (range.0..=range.1).contains(v)) => {
-                Ok(Some([*one, *two]))
-            }
-            _ => Err(SceneError::value(
-                self.full(name),
-                shown(value),
-                format!(
-                    "two numbers, {} to {} {unit}, pinion first",
-                    range.0, range.1
-                ),
-            )),
-        }
-    }
-
-    fn points(&self, usual: i64) -> Result<usize, SceneError> {
-        let Some(value) = self.table.get("points") else {
-            return Ok(usual as usize);
-        };
-        let n = value.as_integer().filter(|n| (2..=MOST_POINTS).contains(n));
-        n.map(|n| n as usize).ok_or_else(|| {
-            let allowed = format!("a whole number, 2 to {MOST_POINTS}");
-            SceneError::value(self.full("points"), shown(value), allowed)
-        })
-    }
 }
 
 const RPM: f64 = PI / 30.0;

@@ -85,20 +85,25 @@ fn scale_of(values: &[f64]) -> Scale {
     }
 }
 
+/// What the upright axis shows.
+type Upright<'a> = (&'a str, Scale);
+/// A curve's name, its column, what it is made of.
+type Drawn<'a> = (&'a str, &'a str, Mark);
+
 fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
+    use Mark::{Computed, Formula};
+    use Scale::{Linear, Log};
     let mut found = Vec::new();
     let Some(along) = along(sweep) else {
         return found;
     };
     let lines = lines(sweep);
-    let mut add = |name: &str, y: (&str, Scale), columns: &[(&str, &str, Mark)]| {
+    let mut add = |name: &str, y: Upright, columns: &[Drawn]| {
         let figure = figure(sweep, rows, &along, &lines, (y, columns));
         if !figure.curves.is_empty() {
             found.push((format!("{name}_against_{}", along.short), figure));
         }
     };
-    use Mark::{Computed, Formula};
-    use Scale::{Linear, Log};
     add(
         "life",
         ("relative life", Log),
@@ -181,7 +186,7 @@ fn figure(
     rows: &Rows,
     along: &Along,
     lines: &[(String, Vec<usize>)],
-    ((label, scale), columns): ((&str, Scale), &[(&str, &str, Mark)]),
+    ((label, scale), columns): (Upright, &[Drawn]),
 ) -> Figure {
     let mut curves = Vec::new();
     let xs = rows.column(sweep, &along.column).unwrap_or_default();

@@ -39,7 +39,7 @@ pub fn points_csv(sweep: &Sweep) -> Result<String, SweepError> {
     if sweep.path.is_empty() {
         head.extend(sweep.axes.iter().map(|axis| axis.key.clone()));
     }
-    head.extend(shown.iter().map(|k| COLUMNS[*k].to_owned()));
+    head.extend(shown.iter().map(|k| sweep.header(COLUMNS[*k]).to_owned()));
     let mut text = head.join(",") + "\n";
     for case in 0..sweep.len() {
         let (scene, plan) = prepare(sweep, case)?;

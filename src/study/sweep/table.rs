@@ -5,6 +5,8 @@
 //! the digest of the whole scene of the row: `base.toml` beside the table with the row's keys set is that
 //! scene. Nothing in the table depends on the machine's speed; seconds go to a file of their own.
 
+use std::fmt::Write as _;
+
 use toml::Value;
 
 use super::case::{Began, CaseEnd, CaseRecord};
@@ -181,10 +183,10 @@ impl Rows {
             .chain(super::path::columns(&sweep.path).map(str::to_owned))
             .chain(sweep.axes.iter().map(|axis| axis.key.clone()))
             .chain(["scene", "began", "end"].map(str::to_owned))
-            .chain(COLUMNS.map(str::to_owned));
+            .chain(COLUMNS.map(|column| sweep.header(column).to_owned()));
         let mut rows = vec![head.collect::<Vec<_>>()];
         for record in &self.records {
-            rows.push(self.row(sweep, record)?);
+            rows.push(Self::row(sweep, record)?);
         }
         let written = rows.iter().try_for_each(|row| writer.write_record(row));
         let text = written.ok().and_then(|()| writer.into_inner().ok());
@@ -194,7 +196,7 @@ impl Rows {
             .unwrap_or_default())
     }
 
-    fn row(&self, sweep: &Sweep, record: &CaseRecord) -> Result<Vec<String>, SweepError> {
+    fn row(sweep: &Sweep, record: &CaseRecord) -> Result<Vec<String>, SweepError> {
         let scene = sweep.scene(record.index)?;
         let scene = toml::to_string(&scene).unwrap_or_default();
         let mut row = vec![record.index.to_string()];
@@ -221,7 +223,7 @@ impl Rows {
     pub fn seconds_csv(&self) -> String {
         let mut text = "case,seconds_s\n".to_owned();
         for record in &self.records {
-            text.push_str(&format!("{},{:.3}\n", record.index, record.seconds));
+            let _ = writeln!(text, "{},{:.3}", record.index, record.seconds);
         }
         text
     }

@@ -4,14 +4,14 @@
 //! leak(w) = Σ_i |sin π f_i w|/(π f_i w)          what a mean over a way w keeps of ripples f_1, f_2, |f_2 − f_1|
 //! ```
 //! A ripple is averaged out by a whole number of its waves, whatever the others do. Where both bodies' waves have
-//! a short common period a multiple of it has leak 0; elsewhere the way between 3/4 and 5/4 of the one asked for
+//! a short common period a multiple of it has leak 0; elsewhere the way between 7/10 and 5/4 of the one asked for
 //! that leaks least is nearly as good, and far shorter than the common period. A body that hardly moves (S near
 //! ±2) passes one crest in a long way; the window grows to it, to 9/4 of the way asked for at most.
 
 use crate::plan::Plan;
 
 /// Shortest and longest window, of what is asked for.
-const SHORTEST: f64 = 0.75;
+const SHORTEST: f64 = 0.7;
 const LONGEST: f64 = 1.25;
 /// Longest window for the sake of a slow crest.
 const SLOW: f64 = 2.25;
@@ -88,7 +88,7 @@ mod tests {
             });
             println!("{f_1} {f_2}: window {w}, left {worst:?}");
             assert!(worst.iter().all(|left| *left < 0.06), "{w} {worst:?}");
-            assert!((3.0..=9.04).contains(&w));
+            assert!((2.8..=9.04).contains(&w));
         }
     }
 }
