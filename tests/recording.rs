@@ -136,6 +136,14 @@ fn record(path: &Path, record: &Record, frames: &[Arc<Frame>]) -> ObserverReport
     recorder.finish().unwrap()
 }
 
+/// Pictures of every step.
+fn every_step() -> Record {
+    Record {
+        every_steps: 1,
+        ..Record::default()
+    }
+}
+
 fn frames(steps: u64) -> Vec<Arc<Frame>> {
     (1..=steps)
         .map(|step| synthetic::frame(NODES, step))
@@ -147,7 +155,7 @@ fn a_recording_holds_every_field_of_every_step() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
     let frames = frames(STEPS);
-    let report = record(&path, &Record::default(), &frames);
+    let report = record(&path, &every_step(), &frames);
     assert_eq!((report.frames, report.skipped), (STEPS, 0));
     assert_eq!(report.bytes, std::fs::metadata(&path).unwrap().len());
 
@@ -204,7 +212,7 @@ fn scalars_come_back_as_they_were() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
     let frames = frames(STEPS);
-    record(&path, &Record::default(), &frames);
+    record(&path, &every_step(), &frames);
     let contents = Contents::read(&path);
     let pressure = contents.scalars("series/pressure_GPa");
     let film = contents.scalars("series/film_um");
@@ -227,7 +235,7 @@ fn scalars_come_back_as_they_were() {
 fn what_stays_is_logged_once_and_the_file_explains_itself() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
-    record(&path, &Record::default(), &frames(STEPS));
+    record(&path, &every_step(), &frames(STEPS));
     let contents = Contents::read(&path);
     for entity in [
         "maps/pressure_GPa/axes/frame",
@@ -299,7 +307,7 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
 fn the_layout_is_in_the_file_with_the_properties_of_its_views() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
-    record(&path, &Record::default(), &frames(2));
+    record(&path, &every_step(), &frames(2));
     let contents = Contents::read(&path);
     assert_eq!(contents.activations, 1);
     let paths: Vec<String> = contents
@@ -348,7 +356,7 @@ fn the_start_up_is_not_recorded() {
     let mut start_up = Frame::clone(&all[0]);
     (start_up.step, start_up.stage) = (0, Stage::StartUp);
     all.insert(0, Arc::new(start_up));
-    assert_eq!(record(&path, &Record::default(), &all).frames, 3);
+    assert_eq!(record(&path, &every_step(), &all).frames, 3);
     assert_eq!(Contents::read(&path).rows("series/pressure_GPa", false), 3);
 }
 
@@ -357,13 +365,13 @@ fn a_recording_that_is_there_is_not_overwritten_unasked() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
     std::fs::write(&path, "somebody's work").unwrap();
-    let create = |overwrite| Recorder::create(&path, overwrite, &Record::default());
+    let create = |overwrite| Recorder::create(&path, overwrite, &every_step());
     let refused = create(Overwrite::Refuse).err().unwrap();
     assert!(refused.reason.contains("--force"), "{refused}");
     assert_eq!(std::fs::read(&path).unwrap(), b"somebody's work");
     assert!(create(Overwrite::Replace).is_ok());
     let missing = folder.path().join("nowhere").join("run.rrd");
-    let refused = Recorder::create(&missing, Overwrite::Refuse, &Record::default());
+    let refused = Recorder::create(&missing, Overwrite::Refuse, &every_step());
     assert!(refused.err().unwrap().reason.contains("folder"));
 }
 
@@ -371,7 +379,7 @@ fn a_recording_that_is_there_is_not_overwritten_unasked() {
 fn a_file_that_breaks_off_still_tells_its_beginning() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
-    record(&path, &Record::default(), &frames(STEPS));
+    record(&path, &every_step(), &frames(STEPS));
     let whole = Contents::read(&path);
     let bytes = std::fs::read(&path).unwrap();
     let cut = folder.path().join("cut.rrd");
@@ -386,7 +394,7 @@ fn a_file_that_breaks_off_still_tells_its_beginning() {
 fn a_recorder_that_nobody_finished_leaves_a_whole_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
-    let mut recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
+    let mut recorder = Recorder::create(&path, Overwrite::Refuse, &every_step()).unwrap();
     recorder
         .begin(&synthetic::context(synthetic::scene(NODES, 1.0)))
         .unwrap();
@@ -403,7 +411,7 @@ fn a_recorder_that_nobody_finished_leaves_a_whole_file() {
 fn a_new_grid_needs_a_new_recording() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
-    let mut recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
+    let mut recorder = Recorder::create(&path, Overwrite::Refuse, &every_step()).unwrap();
     recorder.frame(&synthetic::frame(NODES, 1)).unwrap();
     let error = recorder.frame(&synthetic::frame(17, 2)).unwrap_err();
     assert!(error.reason.contains("17 x 17"), "{error}");
@@ -413,7 +421,7 @@ fn a_new_grid_needs_a_new_recording() {
 fn behind_a_queue_nothing_is_lost() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
-    let recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
+    let recorder = Recorder::create(&path, Overwrite::Refuse, &every_step()).unwrap();
     let mut queue = Queue::spawn("record", 2, WhenFull::Wait, Box::new(recorder)).unwrap();
     queue
         .begin(&synthetic::context(synthetic::scene(NODES, 1.0)))
@@ -456,7 +464,7 @@ fn damage_maps_come_when_they_are_there_and_change() {
             Arc::new(frame)
         })
         .collect();
-    record(&path, &Record::default(), &frames);
+    record(&path, &every_step(), &frames);
     let contents = Contents::read(&path);
     let entity = "damage/body_2_log10_relative";
     assert_eq!(contents.rows(&format!("{entity}/image"), false), 2);
@@ -478,7 +486,7 @@ fn a_full_disk_is_an_error_and_no_panic() {
     if !full.exists() {
         return;
     }
-    let refused = Recorder::create(full, Overwrite::Replace, &Record::default());
+    let refused = Recorder::create(full, Overwrite::Replace, &every_step());
     let error = refused.err().unwrap();
     assert_eq!(error.output, "/dev/full");
     assert!(error.reason.contains("No space left"), "{error}");

@@ -125,7 +125,7 @@ fn what_a_scene_does_not_need_changes_nothing() {
             "{}, {}: {:?} > {allowed} ({why})",
             row.preset,
             row.stage.name(),
-            row.difference
+            row.found
         );
     }
     // Every stage of the study is left out by one of its scenes.

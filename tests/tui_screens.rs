@@ -8,9 +8,9 @@ mod tui_fixture;
 use std::sync::Arc;
 use std::time::Duration;
 
-use asperity::run::Command;
+use asperity::run::{Command, Settled, SweepPoint};
 use asperity::scene::{Event, Scene, Surface};
-use asperity::sim::{Frame, Knob};
+use asperity::sim::{Frame, Knob, LifeEstimate};
 use asperity::tui::action::{Action, KEYS};
 use asperity::tui::app::{App, Effect, ErrandKind, Leading, MapKind, Setup};
 use asperity::tui::theme::{ColorDepth, Glyphs, Theme};
@@ -455,25 +455,202 @@ fn a_smooth_surface_has_nothing_to_turn() {
     assert!(app.message().unwrap().contains("smooth"));
 }
 
+fn setup_of(scene: Scene) -> Setup {
+    Setup {
+        scene: Arc::new(scene),
+        load_n: 800.0,
+        half_width_m: tui_fixture::A_M,
+        p_hertz_pa: tui_fixture::P_HERTZ_PA,
+        plan_text: String::new(),
+        left_out: Vec::new(),
+        errands: vec![ErrandKind::Rebuild],
+        theme: plain(),
+    }
+}
+
 #[test]
-fn the_tour_turns_knobs_and_moves_on_by_itself() {
+fn the_tour_stages_scenes_moves_on_by_itself_and_returns() {
     let mut app = running(plain());
-    let commands = sent(&app.apply(Action::Tour));
-    assert_eq!(commands, [Command::Set(Knob::SlideRoll, 0.0)]);
+    app.apply(Action::Turn(1));
+    let effects = app.apply(Action::Tour);
+    let [Effect::Rebuild(staged)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    assert_eq!(staged.motion.slide_roll, 0.0);
+    assert_eq!(staged.body_2.surface, Surface::Smooth {});
+    // The words of the lesson go to the run, and so to the recording.
+    let commands = sent(&app.rebuilt(setup_of((**staged).clone())));
+    assert!(matches!(&commands[..], [Command::Say(words)] if words.contains("n = 1")));
     let first = text(&app, 160, 48);
-    assert!(first.contains("1/7 One passage (1/2)"), "{first}");
+    assert!(
+        first.contains("1/7 One asperity, one passage (1/2)"),
+        "{first}"
+    );
     let rolling = State {
         slide_roll: 0.0,
         slide_roll_target: 0.0,
         ..State::default()
     };
     // A passage is 128 steps; the first beat lasts one and a half.
-    play(&mut app, 97..=300, &rolling);
-    assert!(text(&app, 160, 48).contains("(2/2)"));
-    // Leaving it puts the knobs back.
-    let commands = sent(&app.apply(Action::Tour));
-    assert_eq!(commands, [Command::Set(Knob::SlideRoll, 0.5)]);
-    assert!(!text(&app, 160, 48).contains("One passage"));
+    play(&mut app, 1..=200, &rolling);
+    let second = text(&app, 160, 48);
+    assert!(
+        second.contains("(2/2)") && second.contains("counted₁"),
+        "{second}"
+    );
+    let effects = app.apply(Action::NextLesson);
+    assert!(matches!(&effects[..], [Effect::Rebuild(_)]), "{effects:?}");
+    // Leaving it brings the scene back as it was turned to.
+    let effects = app.apply(Action::Tour);
+    let [Effect::Rebuild(own)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    assert_eq!(own.title, scene().title);
+    assert!((own.motion.slide_roll - 0.55).abs() < 1e-9);
+    app.rebuilt(setup_of((**own).clone()));
+    assert!(!text(&app, 160, 48).contains("One asperity"));
+}
+
+#[test]
+fn another_scene_is_put_together_judged_and_run() {
+    let mut app = running(plain());
+    app.apply(Action::Scene);
+    insta::assert_snapshot!("scene_80x24", text(&app, 80, 24));
+    // Lay of body 1, then its wavelength down to what no grid carries.
+    app.apply(Action::ChooseNext);
+    app.apply(Action::Turn(1));
+    app.apply(Action::ChooseNext);
+    for _ in 0..12 {
+        app.apply(Action::Turn(-1));
+    }
+    assert_eq!(app.apply(Action::Run), [], "what has no plan is not run");
+    insta::assert_snapshot!("scene_refused_80x24", text(&app, 80, 24));
+    for _ in 0..12 {
+        app.apply(Action::Turn(1));
+    }
+    let effects = app.apply(Action::Run);
+    let [Effect::Rebuild(next)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    let Surface::Sinusoid { wavelength_x_m, .. } = next.body_1.surface else {
+        panic!("body 1 is a wave");
+    };
+    assert!(wavelength_x_m.is_infinite(), "ridges along the motion");
+}
+
+/// One period of the fixture: S = 0.5, so 3 crests of body 1 while 5 of body 2 pass.
+fn settled(state: &State) -> Settled {
+    let wave_m = 1e-4;
+    let period_m = wave_m / (0.5 * state.slide_roll.abs()).max(0.25);
+    let step_m = 4.0 * tui_fixture::A_M / 128.0;
+    let steps = (period_m / step_m).round() as u64;
+    Settled {
+        frames: (0..steps)
+            .map(|step| Arc::new(frame(200 + step, state)))
+            .collect(),
+        period_s: steps as f64 * step_m / state.speed_m_s,
+        state: None,
+    }
+}
+
+#[test]
+fn a_passage_that_repeats_is_replayed_and_a_knob_ends_it() {
+    let mut app = running(plain());
+    let state = State::default();
+    let effects = app.take_settled(Some(Arc::new(settled(&state))));
+    assert_eq!(sent(&effects), [Command::Pause], "the cores are free");
+    for _ in 0..40 {
+        app.advance(Duration::from_millis(25));
+    }
+    insta::assert_snapshot!("replay_160x48", text(&app, 160, 48));
+    // Slower, held, frame by frame; the run is not asked for anything.
+    let before = app.frame().unwrap().step;
+    assert_eq!(app.apply(Action::StepForward), []);
+    assert_eq!(app.frame().unwrap().step, before + 1);
+    app.advance(Duration::from_secs(5));
+    assert_eq!(app.frame().unwrap().step, before + 1, "it stands");
+    assert_eq!(app.apply(Action::TogglePause), []);
+    app.apply(Action::ReplayFaster(1));
+    app.advance(Duration::from_millis(500));
+    assert_ne!(app.frame().unwrap().step, before + 1);
+    // A knob brings the run back.
+    let commands = sent(&app.apply(Action::Turn(1)));
+    assert!(
+        matches!(&commands[..], [Command::Set(..), Command::Pause]),
+        "{commands:?}"
+    );
+    assert_eq!(app.frame().unwrap().step, 96);
+    // And so does its key, which keeps it so.
+    app.take_settled(None);
+    app.take_settled(Some(Arc::new(settled(&state))));
+    assert_eq!(sent(&app.apply(Action::Replay)), [Command::Pause]);
+    assert_eq!(sent(&app.take_settled(None)), []);
+    assert_eq!(sent(&app.take_settled(Some(Arc::new(settled(&state))))), []);
+}
+
+#[test]
+fn the_material_point_is_chosen_by_body_depth_and_place() {
+    let mut app = running(plain());
+    let follow = |effects: &[Effect]| match sent(effects)[..] {
+        [Command::Follow(follow)] => follow,
+        ref other => panic!("{other:?}"),
+    };
+    assert_eq!(follow(&app.apply(Action::PointBody)).body, 2);
+    let one = follow(&app.apply(Action::PointDepth(1)));
+    let two = follow(&app.apply(Action::PointDepth(1)));
+    assert!(two.depth_m > one.depth_m && two.x_m.is_none());
+    let there = follow(&app.apply(Action::PutPoint(-0.5)));
+    assert!((there.x_m.unwrap() / tui_fixture::A_M + 0.5).abs() < 1e-9);
+    // The same in a replay, where it answers at once.
+    app.take_settled(Some(Arc::new(settled(&State::default()))));
+    app.advance(Duration::from_millis(1500));
+    app.apply(Action::PutPoint(0.25));
+    let point = app.point_now().unwrap();
+    let x = point.sample.x_m / app.frame().unwrap().a_m;
+    assert!((x - 0.25).abs() < 0.06, "{x}");
+    let screen = Rect::new(0, 0, 160, 48);
+    let areas = view::Areas::of(screen, view::Banner::None).unwrap();
+    let down = MouseEventKind::Down(MouseButton::Left);
+    let (column, row) = (areas.point.x + areas.point.width / 2, areas.point.y + 3);
+    let action = view::pointed(&app, screen, &mouse(down, column, row));
+    assert!(matches!(action, Some(Action::PutPoint(_))), "{action:?}");
+}
+
+#[test]
+fn swept_lives_fill_the_curve_with_their_bands() {
+    let mut app = running(plain());
+    let swept = |slide_roll: f64, life_relative: f64| SweepPoint {
+        slide_roll,
+        life: LifeEstimate {
+            life_relative,
+            life_relative_low: 0.5 * life_relative,
+            life_relative_high: 2.0 * life_relative,
+            settled: true,
+            ..LifeEstimate::default()
+        },
+        friction: 0.04,
+    };
+    let dots = |app: &App| text(app, 160, 48).matches('•').count();
+    let before = dots(&app);
+    app.take_swept(
+        vec![swept(0.0, 0.6), swept(-1.0, 0.02), swept(1.0, 0.02)],
+        Some((3, 18)),
+    );
+    assert_eq!(dots(&app), before + 3);
+    insta::assert_snapshot!("swept_160x48", text(&app, 160, 48));
+    app.apply(Action::Curve);
+    insta::assert_snapshot!("friction_160x48", text(&app, 160, 48));
+    app.apply(Action::Curve);
+    // Another load is another curve.
+    let heavier = State {
+        load_n: 900.0,
+        load_target_n: 900.0,
+        ..State::default()
+    };
+    app.apply(Action::Choose(1));
+    app.apply(Action::Turn(1));
+    play(&mut app, 300..=400, &heavier);
+    assert!(dots(&app) <= before + 1, "{}", text(&app, 160, 48));
 }
 
 #[test]

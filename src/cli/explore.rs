@@ -1,13 +1,16 @@
 //! `asperity explore`: the session behind the live screen, and what the screen's keys do outside of it.
 
+use std::cell::RefCell;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use asperity::observe::Overwrite;
-use asperity::run::{Activity, Ending, Request, Session, Status, Switch};
+use asperity::run::{Activity, Command, Ending, Ground, Request, Session, Status, Sweep};
 use asperity::tui::{
-    Health, LeftOut, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
+    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
 };
 use miette::miette;
 
@@ -16,7 +19,17 @@ use super::failure::Failure;
 use super::outputs::{Outputs, Pace};
 use super::run::conclude;
 use super::scenes::{self, Prepared};
-use super::view;
+use super::{report, view};
+
+/// A run behind the screen.
+struct Running {
+    prepared: Prepared,
+    session: Session,
+    outputs: Outputs,
+}
+
+/// All runs of one sitting, the last one going.
+type Runs = Rc<RefCell<Vec<Running>>>;
 
 /// Opens the explorer and runs until the user quits.
 pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
@@ -25,24 +38,17 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
         Some(path) => path.clone(),
         None => free_name(&prepared)?,
     };
-    let mut outputs = Outputs::open(args, &prepared, &path, Pace::Live)?;
-    let recording = outputs.recording.clone();
-    let session = Session::start(Request {
-        name: prepared.name.clone(),
-        scene: prepared.scene.clone(),
-        plan: prepared.plan.clone(),
-        threads: args.threads(),
-        watchers: outputs.take_watchers(),
-        ending: Ending::OnStop,
-    })?;
+    let outputs = Outputs::open(args, &prepared, &path, Pace::Live)?;
     let interrupt = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&interrupt);
     ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))
         .map_err(|error| Failure::stalled(miette!("signals cannot be watched: {error}")))?;
-    let shown = asperity::tui::explore(wiring(&prepared, &session, recording, interrupt));
-    session.send(asperity::run::Command::Stop);
-    let outcome = session.join()?;
-    let code = conclude(&prepared.scene, &outcome, None, outputs)?;
+    let first = start(args.threads(), prepared, outputs)?;
+    let mut wiring = wiring(&first, args.threads(), interrupt.clone());
+    let runs = Runs::new(RefCell::new(vec![first]));
+    wiring.rebuild = Some(rebuild(args, Rc::clone(&runs), interrupt));
+    let shown = asperity::tui::explore(wiring);
+    let code = end(&runs)?;
     match shown {
         Ok(()) => Ok(code),
         Err(error @ TuiError::NoScreen { .. }) => Err(Failure::input(miette!("{error}"))),
@@ -50,13 +56,90 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
     }
 }
 
-fn wiring(
-    prepared: &Prepared,
-    session: &Session,
-    recording: Option<(PathBuf, Switch)>,
-    interrupt: Arc<AtomicBool>,
-) -> Wiring {
+fn start(threads: usize, prepared: Prepared, mut outputs: Outputs) -> Result<Running, Failure> {
+    let session = Session::start(Request {
+        name: prepared.name.clone(),
+        scene: prepared.scene.clone(),
+        plan: prepared.plan.clone(),
+        threads,
+        watchers: outputs.take_watchers(),
+        ending: Ending::OnStop,
+    })?;
+    Ok(Running {
+        prepared,
+        session,
+        outputs,
+    })
+}
+
+/// Closes all runs in order; the summary is that of the last, the exit code the worst.
+fn end(runs: &Runs) -> Result<u8, Failure> {
+    let mut runs = runs.take();
+    let last = runs.pop();
+    let mut worst = 0;
+    for run in runs {
+        run.session.send(Command::Stop);
+        let outcome = run.session.join()?;
+        worst = worst.max(outcome.exit_code());
+        for complaint in report::complaints(&outcome) {
+            let _ = writeln!(std::io::stderr(), "{}: {complaint}", run.prepared.name);
+        }
+    }
+    if let Some(run) = last {
+        run.session.send(Command::Stop);
+        let outcome = run.session.join()?;
+        worst = worst.max(conclude(&run.prepared.scene, &outcome, None, run.outputs)?);
+    }
+    Ok(worst)
+}
+
+/// Another scene in place of the present one. Recordings are numbered on; tables, exports and viewers belong
+/// to the first scene.
+fn rebuild(args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
+    let (threads, no_record) = (args.threads(), args.no_record);
+    Box::new(move |scene| {
+        let words = |failure: Failure| failure.to_string();
+        let mut next = RunArgs::bare();
+        next.no_record = no_record;
+        let mut runs = runs.borrow_mut();
+        let name = runs
+            .last()
+            .map_or("scene", |run| &run.prepared.name)
+            .to_owned();
+        let mut scene = scene.clone();
+        scene.record = runs
+            .last()
+            .and_then(|run| run.prepared.scene.record.clone());
+        let prepared = scenes::finish(&next, scene, name).map_err(words)?;
+        let path = free_name(&prepared).map_err(words)?;
+        let outputs = Outputs::open(&next, &prepared, &path, Pace::Live).map_err(words)?;
+        let run = start(threads, prepared, outputs).map_err(words)?;
+        // It ends by itself while the new one starts; it is joined when all is over.
+        if let Some(old) = runs.last_mut() {
+            old.session.send(Command::Stop);
+        }
+        let mut wiring = wiring(&run, threads, Arc::clone(&interrupt));
+        wiring.rebuild = None;
+        // Where the summary goes was asked for once.
+        let mut run = run;
+        if let Some(old) = runs.last_mut() {
+            std::mem::swap(&mut old.outputs, &mut run.outputs);
+        }
+        runs.push(run);
+        Ok(wiring)
+    })
+}
+
+fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
+    let Running {
+        prepared,
+        session,
+        outputs,
+    } = run;
+    let recording = outputs.recording.clone();
     let plan = &prepared.plan;
+    let (settled, ground) = (session.settled_reader(), session.settled_reader());
+    let (scene, sweep_plan) = (prepared.scene.clone(), prepared.plan.clone());
     let status = session.status_reader();
     let recorded = recording.as_ref().map(|(path, _)| path.clone());
     let shown = recorded.clone();
@@ -78,6 +161,17 @@ fn wiring(
         frames: session.latest(),
         commands: session.commands(),
         status: Box::new(move || run_status(&status(), recorded.as_deref())),
+        settled: Box::new(settled),
+        start_sweep: Some(Box::new(move |values| {
+            let settled = ground()?;
+            let near = settled.frames.last()?.metrics.slide_roll;
+            let ground = Ground {
+                scene: scene.clone(),
+                plan: sweep_plan.clone(),
+                state: settled.state.clone()?,
+            };
+            Some(Sweep::start(ground, values, near, threads))
+        })),
         interrupt,
         toggle_recording: recording.map(|(_, switch)| {
             Box::new(move || {
@@ -90,6 +184,7 @@ fn wiring(
         }),
         open_viewer: shown.map(|path| Box::new(move || open_viewer(&path)) as _),
         save_scene: Some(Box::new(move |toml| save(&name, toml))),
+        rebuild: None,
     }
 }
 
@@ -107,7 +202,7 @@ fn run_status(status: &Status, recorded: Option<&Path>) -> RunStatus {
                 Activity::Failed => RecorderActivity::Stopped,
             },
             frames: output.frames,
-            skipped: 0,
+            skipped: output.skipped,
             bytes: std::fs::metadata(&output.output).map_or(0, |file| file.len()),
         });
     RunStatus {

@@ -200,6 +200,10 @@ pub trait Observer: Send {
     /// # Errors
     /// When the output failed.
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError>;
+    /// Frames that it could not keep up with so far.
+    fn skipped(&self) -> u64 {
+        0
+    }
     /// Nothing has come for a second (a queue calls it): what is held back may go on.
     ///
     /// # Errors

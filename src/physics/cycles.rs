@@ -55,9 +55,10 @@ pub struct Kinematics {
 }
 
 /// One of the two bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum BodyId {
     /// The body below.
+    #[default]
     One,
     /// The body above.
     Two,

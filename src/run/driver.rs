@@ -1,5 +1,7 @@
 //! The loop itself: commands, script, step, frames, in this order, on the simulation's thread.
 
+mod telling;
+
 use std::collections::VecDeque;
 use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex};
@@ -8,13 +10,11 @@ use std::time::Instant;
 use super::Command;
 use super::checkpoint::Checkpoint;
 use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
-use super::replay::Turn;
 use super::session::{Ending, SessionEvent, Shared, lock};
+use super::settled::Gather;
 use super::stepper::Stepper;
 use super::watcher::Watcher;
-use crate::observe::{
-    FramePool, Latest, ObserveError, ObserverReport, RunContext, RunEvent, RunEventKind, SetBy,
-};
+use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind, SetBy};
 use crate::scene::{Event, Scene};
 use crate::sim::{Frame, Knob, SimError, Stage, State};
 
@@ -35,14 +35,16 @@ pub(super) struct Driver {
     ending: Ending,
     watchers: Vec<Watcher>,
     script: VecDeque<Event>,
-    /// Knobs turned by hand in the run that is repeated, in order.
-    turns: VecDeque<Turn>,
+    /// What was done by hand in the run that is repeated, with the steps made by then.
+    turns: VecDeque<(u64, Command)>,
     /// Steps made, those of the start-up too.
     made: u64,
     inbox: Receiver<Command>,
     latest: Latest,
     shared: Arc<Mutex<Shared>>,
     pool: FramePool,
+    /// Of live runs: one period, once the passage repeats.
+    gather: Option<Gather>,
     pace: Pace,
     applied: Vec<AppliedCommand>,
     unconverged: Vec<Unconverged>,
@@ -74,6 +76,7 @@ impl Driver {
             latest,
             shared,
             pool: FramePool::new(FRAMES, &Frame::default()),
+            gather: (ending == Ending::OnStop).then(Gather::default),
             pace: Pace::Running,
             applied: Vec::new(),
             unconverged: Vec::new(),
@@ -92,8 +95,8 @@ impl Driver {
         self
     }
 
-    /// Turns the knobs again that were turned by hand in another run.
-    pub(super) fn repeating(mut self, turns: Vec<Turn>) -> Self {
+    /// Does again what was done by hand in another run: each command with the steps made by then.
+    pub(super) fn repeating(mut self, turns: Vec<(u64, Command)>) -> Self {
         self.turns = turns.into();
         self
     }
@@ -208,14 +211,16 @@ impl Driver {
         }
     }
 
-    /// Turns what was turned at this place in the run that is repeated.
+    /// Does what was done at this place in the run that is repeated.
     fn repeat_turns<S: Stepper>(&mut self, sim: &mut S) {
-        while let Some(turn) = self.turns.front()
-            && turn.steps_made <= self.made
+        while self
+            .turns
+            .front()
+            .is_some_and(|(made, _)| *made <= self.made)
         {
-            let Turn { knob, value, .. } = *turn;
-            self.turns.pop_front();
-            self.set(sim, knob, value, SetBy::Hand);
+            if let Some((_, command)) = self.turns.pop_front() {
+                self.carry_out(sim, command);
+            }
         }
     }
 
@@ -233,7 +238,7 @@ impl Driver {
             };
             match command {
                 Command::Stop => {
-                    self.log(sim, command);
+                    self.log(sim, command, SetBy::Hand);
                     return Some(End::Stopped);
                 }
                 Command::Pause => {
@@ -241,23 +246,41 @@ impl Driver {
                         Pace::Running => Pace::Paused,
                         Pace::Paused | Pace::OneStep => Pace::Running,
                     };
-                    self.log(sim, command);
+                    self.log(sim, command, SetBy::Hand);
                 }
                 Command::StepOnce => {
                     // Without a pause there is nothing to single-step; the next step comes anyway.
                     if self.pace == Pace::Paused {
                         self.pace = Pace::OneStep;
-                        self.log(sim, command);
+                        self.log(sim, command, SetBy::Hand);
                         return None;
                     }
                 }
-                Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
+                other => self.carry_out(sim, other),
             }
         }
     }
 
-    fn log<S: Stepper>(&mut self, sim: &S, command: Command) {
+    /// What leaves the pace alone, and what a run that is repeated does again.
+    fn carry_out<S: Stepper>(&mut self, sim: &mut S, command: Command) {
+        match command {
+            Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
+            Command::Follow(follow) => {
+                sim.show_point(follow);
+                self.log(sim, Command::Follow(follow), SetBy::Hand);
+            }
+            Command::Say(text) => {
+                self.log(sim, Command::Say(text.clone()), SetBy::Hand);
+                self.announce(sim, RunEventKind::Caption(text));
+            }
+            Command::Pause | Command::StepOnce | Command::Stop => {}
+        }
+    }
+
+    fn log<S: Stepper>(&mut self, sim: &S, command: Command, by: SetBy) {
         self.applied.push(AppliedCommand {
+            steps_made: self.made,
+            by,
             step: sim.passage_steps(),
             time_s: sim.time_s(),
             command,
@@ -267,7 +290,8 @@ impl Driver {
     fn set<S: Stepper>(&mut self, sim: &mut S, knob: Knob, value: f64, by: SetBy) {
         match sim.set(knob, value) {
             Ok(()) => {
-                self.log(sim, Command::Set(knob, value));
+                self.log(sim, Command::Set(knob, value), by);
+                self.forget_settled();
                 let kind = RunEventKind::Set {
                     key: knob.key().to_owned(),
                     value,
@@ -323,78 +347,11 @@ impl Driver {
         self.announce(sim, RunEventKind::NotConverged { residual });
     }
 
-    /// Gives the step to the screen, and to the outputs if it belongs to the results.
-    fn hand_out<S: Stepper>(&mut self, sim: &S) {
-        let frame = self.pool.fill(|frame| sim.fill(frame));
-        if sim.stage() == Stage::Passage {
-            self.passage_began.get_or_insert_with(Instant::now);
-            for index in 0..self.watchers.len() {
-                let written = self.watchers[index].frame(&frame);
-                self.note_output(written);
-            }
+    /// A knob was turned: what had settled is past.
+    fn forget_settled(&mut self) {
+        if let Some(gather) = &mut self.gather {
+            *gather = Gather::default();
+            lock(&self.shared).settled = None;
         }
-        self.latest.put(frame);
-    }
-
-    fn announce<S: Stepper>(&mut self, sim: &S, kind: RunEventKind) {
-        let event = RunEvent {
-            step: sim.passage_steps(),
-            time_s: sim.time_s(),
-            kind,
-        };
-        for index in 0..self.watchers.len() {
-            let written = self.watchers[index].event(&event);
-            self.note_output(written);
-        }
-        self.show(SessionEvent::Run(event));
-    }
-
-    fn show(&self, event: SessionEvent) {
-        lock(&self.shared).show(event);
-    }
-
-    fn note_output(&mut self, result: Result<(), ObserveError>) {
-        if let Err(error) = result {
-            self.show(SessionEvent::OutputFailed(error.clone()));
-            self.output_errors.push(error);
-        }
-    }
-
-    fn must_end_for_outputs(&self) -> bool {
-        self.ending != Ending::OnStop && !self.output_errors.is_empty()
-    }
-
-    fn tell_status<S: Stepper>(&self, sim: &S) {
-        let mut shared = lock(&self.shared);
-        let status = &mut shared.status;
-        status.stage = sim.stage();
-        status.progress = sim.progress();
-        status.steps = sim.passage_steps();
-        status.n_unconverged = self.n_unconverged;
-        status.outputs.clear();
-        status
-            .outputs
-            .extend(self.watchers.iter().map(Watcher::status));
-    }
-
-    fn tell_failure(&self, end: &End) {
-        let failure = match end {
-            End::Stalled(error) => error.to_string(),
-            End::NotStarted(error) => error.to_string(),
-            End::OutputFailed => "an output failed".to_owned(),
-            End::Done | End::Stopped => return,
-        };
-        lock(&self.shared).status.failure = Some(failure);
-    }
-
-    fn finish_outputs(&mut self) -> Vec<ObserverReport> {
-        let mut reports = Vec::new();
-        for watcher in &mut self.watchers {
-            match watcher.finish() {
-                Ok(report) => reports.extend(report),
-                Err(error) => self.output_errors.push(error),
-            }
-        }
-        reports
     }
 }

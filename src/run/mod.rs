@@ -6,6 +6,7 @@
 //!    send(Command) ──────────────> drained between steps, each logged with its step
 //!    latest().take() <──────────── newest frame          every frame ──> observers
 //!    status() <─────────────────── stage, progress, outputs, what happened
+//!    settled() <────────────────── one period of a passage that repeats, for replay and sweep
 //! Session::join <──────────────── Outcome
 //! ```
 
@@ -15,7 +16,9 @@ mod driver;
 mod outcome;
 mod replay;
 mod session;
+mod settled;
 mod stepper;
+mod sweep;
 mod watcher;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
@@ -23,10 +26,12 @@ pub use companion::{Companion, NoEstimate};
 pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
 pub use replay::Turn;
 pub use session::{Ending, Request, RunError, Session, SessionEvent, Status};
+pub use settled::Settled;
 pub use stepper::Stepper;
+pub use sweep::{Ground, NotSettled, Sweep, SweepPoint, life_at};
 pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 
-use crate::sim::Knob;
+use crate::sim::{Follow, Knob};
 
 /// What may be asked of a running session; taken between time steps only.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +42,10 @@ pub enum Command {
     Pause,
     /// Makes one step while paused.
     StepOnce,
+    /// Shows another material point. No result depends on it.
+    Follow(Follow),
+    /// Words for the outputs: a caption.
+    Say(String),
     /// Ends the run: outputs are closed, the outcome is returned.
     Stop,
 }

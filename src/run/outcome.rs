@@ -1,6 +1,6 @@
 //! How a run ended.
 
-use crate::observe::{ObserveError, ObserverReport};
+use crate::observe::{ObserveError, ObserverReport, SetBy};
 use crate::run::{Checkpoint, Command};
 use crate::sim::{SimError, StepError, Summary};
 
@@ -11,6 +11,10 @@ pub struct AppliedCommand {
     pub step: u64,
     /// Simulated time, s.
     pub time_s: f64,
+    /// Steps made by then, those of the start-up too.
+    pub steps_made: u64,
+    /// By whom.
+    pub by: SetBy,
     /// The command.
     pub command: Command,
 }

@@ -10,11 +10,12 @@ use thiserror::Error;
 use super::Command;
 use super::checkpoint::Checkpoint;
 use super::driver::Driver;
-use super::outcome::Outcome;
+use super::outcome::{AppliedCommand, Outcome};
 use super::replay::Turn;
+use super::settled::Settled;
 use super::stepper::Stepper;
 use super::watcher::{Watcher, WatcherStatus};
-use crate::observe::{Began, Latest, ObserveError, RunContext, RunEvent};
+use crate::observe::{Began, Latest, ObserveError, RunContext, RunEvent, SetBy};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::sim::{SimError, Simulation, Stage};
@@ -94,6 +95,7 @@ const EVENTS_KEPT: usize = 256;
 #[derive(Debug, Default)]
 pub(super) struct Shared {
     pub(super) status: Status,
+    pub(super) settled: Option<Arc<Settled>>,
     events: VecDeque<SessionEvent>,
 }
 
@@ -118,7 +120,7 @@ struct Start {
     /// Scripted events played and steps unconverged before.
     played: (usize, u64),
     began: Began,
-    turns: Vec<Turn>,
+    turns: Vec<(u64, Command)>,
 }
 
 /// A running session.
@@ -181,6 +183,22 @@ impl Session {
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
     pub fn repeat(request: Request, turns: Vec<Turn>) -> Result<Self, RunError> {
+        let turn = |turn: Turn| (turn.steps_made, Command::Set(turn.knob, turn.value));
+        Self::redo(request, turns.into_iter().map(turn).collect())
+    }
+
+    /// Same from a session's own log ([`Outcome::applied`]): what was done by hand is done again at the same
+    /// steps, what the scene's script did the scene does itself. Every frame is the same, bit for bit.
+    ///
+    /// # Errors
+    /// [`RunError::NoThread`] when the system gives no thread.
+    pub fn replay(request: Request, log: &[AppliedCommand]) -> Result<Self, RunError> {
+        let by_hand = log.iter().filter(|entry| entry.by == SetBy::Hand);
+        let commands = by_hand.map(|entry| (entry.steps_made, entry.command.clone()));
+        Self::redo(request, commands.collect())
+    }
+
+    fn redo(request: Request, turns: Vec<(u64, Command)>) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
         let start = Start {
@@ -254,6 +272,13 @@ impl Session {
     pub fn status_reader(&self) -> impl Fn() -> Status + Send + 'static {
         let shared = Arc::clone(&self.shared);
         move || lock(&shared).status.clone()
+    }
+
+    /// A way to ask, from elsewhere, for the period of a passage that repeats: filled in live sessions
+    /// ([`Ending::OnStop`]), emptied when a knob is turned.
+    pub fn settled_reader(&self) -> impl Fn() -> Option<Arc<Settled>> + Send + 'static {
+        let shared = Arc::clone(&self.shared);
+        move || lock(&shared).settled.clone()
     }
 
     /// What happened since the last call.

@@ -1,6 +1,8 @@
 //! What the loop needs of a simulation. One implementation runs; tests put in others that fail on purpose.
 
-use crate::sim::{Frame, Knob, Metrics, SimError, Simulation, Stage, State, StepError, Summary};
+use crate::sim::{
+    Follow, Frame, Knob, Metrics, SimError, Simulation, Stage, State, StepError, Summary,
+};
 
 /// A simulation as the loop sees it.
 pub trait Stepper {
@@ -14,6 +16,8 @@ pub trait Stepper {
     /// # Errors
     /// When the value is out of range.
     fn set(&mut self, knob: Knob, value: f64) -> Result<(), SimError>;
+    /// Shows another material point.
+    fn show_point(&mut self, _follow: Follow) {}
     /// Writes the last step into a frame.
     fn fill(&self, frame: &mut Frame);
     /// Scalars of the last step.
@@ -42,6 +46,9 @@ impl Stepper for Simulation {
     }
     fn set(&mut self, knob: Knob, value: f64) -> Result<(), SimError> {
         self.set(knob, value)
+    }
+    fn show_point(&mut self, follow: Follow) {
+        self.show_point(follow);
     }
     fn fill(&self, frame: &mut Frame) {
         self.fill(frame);

@@ -50,6 +50,8 @@ pub struct WatcherStatus {
     pub activity: Activity,
     /// Frames handed to it.
     pub frames: u64,
+    /// Frames that it could not keep up with, so far.
+    pub skipped: u64,
 }
 
 /// An observer with its cadence and switch.
@@ -90,6 +92,7 @@ impl Watcher {
 
     pub(super) fn status(&self) -> WatcherStatus {
         let mut status = self.status.clone();
+        status.skipped = self.observer.skipped();
         if status.activity != Activity::Failed && !self.switch.is_on() {
             status.activity = Activity::Off;
         }

@@ -243,7 +243,7 @@ pub const SECTIONS: &[Section] = &[
         need: Optional("no recording"),
         doc: "The recording (.rrd).",
         keys: &[
-            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "a frame every so many time steps; the plan takes more to keep the budget"),
+            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "pictures every so many time steps, scalars every one; the plan takes more to keep the budget"),
             key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "most that the recording may take"),
         ],
     },

@@ -22,7 +22,9 @@ pub(super) struct Counting {
     trackers: [MaterialTracker; 2],
     row: Vec<f32>,
     shown_depth: usize,
-    /// The shown point of body 1.
+    #[serde(default)]
+    shown_body: BodyId,
+    /// The shown point.
     pub(super) shown: Option<Sample>,
     profiles: [[Profile; 2]; 2],
     /// Greatest damage of one passage of the smooth contact, by ranges and by peaks.
@@ -81,6 +83,7 @@ impl Counting {
             trackers: [tracker(0), tracker(1)],
             row: vec![0.0; grid.nx],
             shown_depth,
+            shown_body: BodyId::One,
             shown: None,
             profiles: [0, 1].map(|_| [profile.clone(), profile.clone()]),
             reference: [1.0; 2],
@@ -171,7 +174,20 @@ impl Counting {
                 profile.known = known.then_some(());
             }
         }
-        self.shown = Some(self.trackers[0].shown(&line(BodyId::One)));
+        let shown = self.shown_body;
+        self.shown = Some(self.trackers[shown.index()].shown(&line(shown)));
+    }
+
+    /// Shows the point of `body` nearest to `x` (in a; `None`: the same point) at depth `k`.
+    pub(super) fn look_at(&mut self, body: BodyId, x: Option<f64>, k: usize) {
+        self.shown_depth = k;
+        self.shown_body = body;
+        self.trackers[body.index()].look_at(x, k);
+    }
+
+    /// Body of the shown point.
+    pub(super) fn shown_body(&self) -> BodyId {
+        self.shown_body
     }
 
     /// Index of the depth at which the shown point lies.

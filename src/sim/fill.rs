@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::door::Heading;
+use super::stress_stage::StressStage;
 use super::{DamageBlock, Frame, MaterialPoint, Simulation, StressPlane, StressSlice};
 use crate::physics::cycles::BodyId;
 use crate::plan::LINE_ROWS;
@@ -87,7 +88,7 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     {
         *c = u8::from(p > 0.0 && h <= contact_film);
     }
-    fill_slice(sim, frame);
+    fill_slices(sim, frame);
     frame.material_point = material_point(sim);
     fill_planes(sim, frame);
     for body in BodyId::BOTH {
@@ -106,12 +107,19 @@ fn frame_len(nx: usize, ny: usize) -> usize {
     nx * ny
 }
 
-fn fill_slice(sim: &Simulation, frame: &mut Frame) {
+/// Stress of both bodies in the plane y = 0.
+fn fill_slices(sim: &Simulation, frame: &mut Frame) {
     let Some(stress) = sim.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
-        frame.slice = None;
+        (frame.slice, frame.slice_2) = (None, None);
         return;
     };
-    let slice = frame.slice.get_or_insert_with(StressSlice::default);
+    fill_slice(sim, stress, BodyId::One, &mut frame.slice);
+    fill_slice(sim, stress, BodyId::Two, &mut frame.slice_2);
+}
+
+fn fill_slice(sim: &Simulation, stress: &StressStage, body: BodyId, to: &mut Option<StressSlice>) {
+    let from = stress.slice_in(body);
+    let slice = to.get_or_insert_with(StressSlice::default);
     if slice.depths_m.len() != stress.depths().len() {
         slice.depths_m = stress
             .depths()
@@ -130,10 +138,10 @@ fn fill_slice(sim: &Simulation, frame: &mut Frame) {
             to.chunks_exact_mut(nx).for_each(<[f32]>::reverse);
         }
     };
-    scaled(&stress.slice.effective, unit, &mut slice.effective_pa);
+    scaled(&from.effective, unit, &mut slice.effective_pa);
     // Shear along x changes its sign in the mirror.
     let shear_unit = heading.sign() as f32 * unit;
-    scaled(&stress.slice.sxz, shear_unit, &mut slice.tau_xz_pa);
+    scaled(&from.sxz, shear_unit, &mut slice.tau_xz_pa);
 }
 
 /// Way from a crest along +x; the solver's x is a mirror image where the flow runs towards −x.
@@ -235,7 +243,7 @@ fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) 
     block.pit_damage = pit.damage;
 }
 
-/// The shown point of body 1, its stress interpolated in the slice.
+/// The shown point, its stress interpolated in the slice of its body.
 fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
     let counting = sim.counting.as_ref()?;
     let shown = counting.shown?;
@@ -244,9 +252,11 @@ fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
     let place = ((shown.x - grid.x_min) / grid.dx).clamp(0.0, (grid.nx - 2) as f64);
     let (i, t) = (place as usize, place.fract());
     let at = depth * grid.nx + i;
-    let effective = |n: usize| f64::from(stress.slice.effective[n]);
+    let body = counting.shown_body();
+    let slice = stress.slice_in(body);
+    let effective = |n: usize| f64::from(slice.effective[n]);
     Some(MaterialPoint {
-        body: 1,
+        body: body.index() as u8 + 1,
         x_m: sim.door.place_m(shown.x),
         depth_m: sim.door.m_from_x(stress.depths()[depth]),
         pressure_pa: sim.door.pa_from_p(shown.pressure),

@@ -65,6 +65,8 @@ pub struct Frame {
     pub contact: Vec<u8>,
     /// Stress of body 1 in the plane y = 0; `None` where the scene asks for none.
     pub slice: Option<StressSlice>,
+    /// Same of body 2, depths counted into it.
+    pub slice_2: Option<StressSlice>,
     /// The material point that is followed through the contact.
     pub material_point: Option<MaterialPoint>,
     /// Risk by depth below y = 0 of body 1 and 2 (depths of the slice), Pa: half range of the orthogonal shear
@@ -122,7 +124,7 @@ pub struct DamageBlock {
     pub pit_damage: f64,
 }
 
-/// Stress in the plane y = 0 below body 1's surface: index `k * nx + i`, `k` over depths.
+/// Stress in the plane y = 0 below a body's surface: index `k * nx + i`, `k` over depths.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StressSlice {
     /// Depths below the surface, m, increasing.
@@ -131,6 +133,17 @@ pub struct StressSlice {
     pub effective_pa: Vec<f32>,
     /// Signed orthogonal shear, Pa.
     pub tau_xz_pa: Vec<f32>,
+}
+
+/// Which material point is shown. It changes no result.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Follow {
+    /// Body: 1 or 2.
+    pub body: u8,
+    /// The nearest depth that is computed, m.
+    pub depth_m: f64,
+    /// The nearest of the points that are counted, m; `None`: the one that is shown.
+    pub x_m: Option<f64>,
 }
 
 /// A point of body 1 or 2 that crosses the contact at its body's speed.

@@ -28,8 +28,8 @@ mod watching;
 
 pub use error::{SimError, StepError};
 pub use frame::{
-    DamageBlock, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics, Repeat,
-    Rhythm, Stage, StressPlane, StressSlice,
+    DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,
+    Repeat, Rhythm, Stage, StressPlane, StressSlice,
 };
 pub use knob::Knob;
 pub use simulation::Simulation;

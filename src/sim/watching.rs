@@ -4,7 +4,8 @@ use super::counting::contacts;
 use super::measure::{Measured, measure};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
-use super::{Knob, LifeEstimate};
+use super::{Follow, Knob, LifeEstimate};
+use crate::physics::cycles::BodyId;
 use crate::solve::traction::TractionLaw;
 
 impl Simulation {
@@ -48,6 +49,25 @@ impl Simulation {
                 self.next_volume = next_due(self.next_volume, self.way, every);
             }
         });
+    }
+
+    /// Shows another material point; nothing that is computed changes.
+    pub fn show_point(&mut self, follow: Follow) {
+        let Some(counting) = &mut self.counting else {
+            return;
+        };
+        let depths = self.stress.as_ref().map_or(&[][..], |s| s.depths());
+        let away = |k: usize| (self.door.m_from_x(depths[k]) - follow.depth_m).abs();
+        let nearest = (0..depths.len()).min_by(|&one, &two| away(one).total_cmp(&away(two)));
+        let body = if follow.body == 2 {
+            BodyId::Two
+        } else {
+            BodyId::One
+        };
+        let x = follow
+            .x_m
+            .map(|x_m| self.door.heading.sign() * x_m / self.door.a_m);
+        counting.look_at(body, x, nearest.unwrap_or(0));
     }
 
     /// Whether the passage repeats, after a step that began at the way `before`.

@@ -135,6 +135,9 @@ pub struct MaterialTracker {
     /// Samples of the shown point's crossing, oldest first from `oldest` on.
     trace: Vec<Sample>,
     oldest: usize,
+    /// Which point is shown.
+    #[serde(default)]
+    shown: usize,
     /// Way of the body, a.
     way: f64,
     map: Option<DamageMap>,
@@ -165,6 +168,7 @@ impl MaterialTracker {
             crossings: 0,
             trace: Vec::with_capacity(spec.trace.max(1)),
             oldest: 0,
+            shown: 0,
             way: 0.0,
             map: spec.map.map(|(block, _)| DamageMap::new(block)),
         };
@@ -190,6 +194,8 @@ impl MaterialTracker {
             && self.points.iter().all(whole)
             && self.map.as_ref().is_none_or(|map| map.is_sound(depths))
             && self.oldest < self.trace.len().max(1)
+            && self.shown < self.points.len()
+            && self.spec.shown_depth < depths.max(1)
     }
 
     /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are, and the
@@ -220,7 +226,7 @@ impl MaterialTracker {
             if self.advance(i, travel) {
                 self.crossings += u64::from(self.points[i].crossing == Crossing::Whole);
                 self.points[i].crossing = Crossing::Whole;
-                if i == 0 {
+                if i == self.shown {
                     self.trace.clear();
                     self.oldest = 0;
                 }
@@ -295,9 +301,24 @@ impl MaterialTracker {
         }
     }
 
+    /// Shows the point nearest to `x` (in a; `None`: the same as before) at depth `k`. What is counted stays
+    /// as it is.
+    pub fn look_at(&mut self, x: Option<f64>, k: usize) {
+        if let Some(x) = x {
+            let away = |i: usize| (self.points[i].x - x).abs();
+            let all = 0..self.points.len();
+            self.shown = all
+                .min_by(|&one, &two| away(one).total_cmp(&away(two)))
+                .unwrap_or(0);
+        }
+        self.spec.shown_depth = k.min(self.spec.depths.saturating_sub(1));
+        self.trace.clear();
+        self.oldest = 0;
+    }
+
     /// The point on the screen, as the line now is.
     pub fn shown(&self, line: &Line) -> Sample {
-        let point = &self.points[0];
+        let point = &self.points[self.shown];
         Sample {
             x: point.x,
             pressure: line.pressure_at(point.x),

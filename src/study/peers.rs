@@ -24,8 +24,10 @@ use crate::solve::newton::{Iterate, NewtonReport, Tolerance, Verdict};
 use crate::solve::reynolds::Medium;
 use crate::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry as StressSymmetry};
 
-/// Times that a case is solved; the best counts.
-const REPEATS: u32 = 3;
+/// Time that the runs of a case take together, s, and how many they are.
+const ENOUGH_S: f64 = 0.5;
+const FEWEST: f64 = 3.0;
+const MOST: f64 = 100.0;
 
 /// A clock of this thread's work, s.
 struct CpuClock {
@@ -78,20 +80,28 @@ fn tight(pressure: f64) -> Tolerance {
     }
 }
 
-/// The best of several solutions, each made by `solve` after its own `prepare`; also the best preparation.
-fn best<P, T>(prepare: impl Fn() -> P, solve: impl Fn(&mut P) -> T) -> Option<(P, T, f64, f64)> {
-    let (mut set_up_s, mut solve_s) = (f64::INFINITY, f64::INFINITY);
-    let mut last = None;
-    for _ in 0..REPEATS {
-        let clock = CpuClock::start();
-        let mut prepared = prepare();
-        set_up_s = set_up_s.min(clock.seconds());
-        let clock = CpuClock::start();
-        let out = solve(&mut prepared);
-        solve_s = solve_s.min(clock.seconds());
-        last = Some((prepared, out));
+/// What was prepared and found last, CPU time of preparing and of solving.
+///
+/// The system's count lags by up to some milliseconds, so that many runs are timed as one: all with both, then all with
+/// preparation alone.
+fn timed<P, T>(prepare: impl Fn() -> P, solve: impl Fn(&mut P) -> T) -> (P, T, f64, f64) {
+    let warm = Instant::now();
+    let mut prepared = prepare();
+    let mut out = solve(&mut prepared);
+    let runs = (ENOUGH_S / warm.elapsed().as_secs_f64()).ceil();
+    let runs = runs.clamp(FEWEST, MOST);
+    let clock = CpuClock::start();
+    for _ in 0..runs as u32 {
+        prepared = prepare();
+        out = solve(&mut prepared);
     }
-    last.map(|(prepared, out)| (prepared, out, set_up_s, solve_s))
+    let both_s = clock.seconds() / runs;
+    let clock = CpuClock::start();
+    for _ in 0..runs as u32 {
+        std::hint::black_box(prepare());
+    }
+    let set_up_s = clock.seconds() / runs;
+    (prepared, out, set_up_s, (both_s - set_up_s).max(0.0))
 }
 
 fn converged(name: &str, report: &NewtonReport) -> Result<(), String> {
@@ -128,7 +138,7 @@ fn hertz(n: usize, tolerance: f64) -> Result<Row, String> {
         march
     };
     let solve = |march: &mut March| march.attempt(&conditions, 1.0, Guess::Last);
-    let (march, report, set_up_s, solve_s) = best(prepare, solve).ok_or("nothing was solved")?;
+    let (march, report, set_up_s, solve_s) = timed(prepare, solve);
     converged("Hertz", &report)?;
     let (grid, p) = (&march.grid, &march.state.pressure);
     let exact = |at: usize| {
@@ -156,6 +166,9 @@ const BISINUSOIDAL: [(f64, f64, f64); 3] = [
     (0.5, 1.47934, 0.70510),
 ];
 
+/// Deflection, solver, pressure, gap, H0.
+type Periodic = (Elastic, Dry, Vec<f64>, Vec<f64>, f64);
+
 fn bisinusoidal(
     n: usize,
     tolerance: f64,
@@ -171,8 +184,7 @@ fn bisinusoidal(
         let zero = vec![0.0; grid.len()];
         (elastic, dry, zero.clone(), zero, 0.0)
     };
-    type Prepared = (Elastic, Dry, Vec<f64>, Vec<f64>, f64);
-    let solve = |prepared: &mut Prepared| {
+    let solve = |prepared: &mut Periodic| {
         let (elastic, dry, p, h, h0) = prepared;
         let problem = DryProblem {
             grid: &grid,
@@ -182,8 +194,7 @@ fn bisinusoidal(
         };
         dry.solve(elastic, &problem, &mut Iterate { p, h, h0 })
     };
-    let ((_, _, p, ..), report, set_up_s, solve_s) =
-        best(prepare, solve).ok_or("nothing was solved")?;
+    let ((_, _, p, ..), report, set_up_s, solve_s) = timed(prepare, solve);
     converged("bisinusoidal", &report)?;
     let greatest = p.iter().copied().fold(0.0, f64::max);
     let loaded = p.iter().filter(|p| **p > 0.0).count() as f64 / (n * n) as f64;
@@ -224,7 +235,7 @@ fn subsurface(n: usize, depths: usize) -> Result<Row, String> {
         engine.load(&p, None);
         Some(engine.volume(10.0).normal.peak.value)
     };
-    let (engine, sampled, set_up_s, solve_s) = best(prepare, solve).ok_or("nothing was solved")?;
+    let (engine, sampled, set_up_s, solve_s) = timed(prepare, solve);
     let mut engine = engine.map_err(|error| error.to_string())?;
     let mut slice = SliceOut::new(engine.spec());
     engine.slice(&mut slice);

@@ -1,8 +1,13 @@
-//! The tour: lessons that turn the knobs of the scene at hand and say what to look at.
+//! The tour: lessons that stage scenes, turn their knobs and say what to look at. What a caption claims of
+//! the numbers stands beside it and is tested (`tests/lessons.rs`).
 
-use crate::sim::Knob;
+mod script;
+
+use crate::scene::{Override, Scene, SceneError};
+use crate::sim::{Frame, Knob};
 use crate::tui::app::MapKind;
 use crate::tui::dial::Dial;
+pub use script::LESSONS;
 
 /// Where a beat puts a knob.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,9 +29,131 @@ impl Setting {
     }
 }
 
-/// One beat: knobs, a map, words, and how long they stay.
+/// The scene of a beat: a preset with some keys set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Staging {
+    /// Preset.
+    pub preset: &'static str,
+    /// `key=value`, as on the command line.
+    pub sets: &'static [&'static str],
+}
+
+impl Staging {
+    /// The scene.
+    ///
+    /// # Errors
+    /// When a key or value is not allowed (a test loads all of them).
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        let sets = self.sets.iter().map(|text| text.parse());
+        let sets = sets.collect::<Result<Vec<Override>, _>>()?;
+        Scene::load_with(self.preset, &sets)
+    }
+}
+
+/// A number that a caption points at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// n of body 1 by formula.
+    N1,
+    /// n of body 2 by formula.
+    N2,
+    /// Cycles counted of body 1.
+    Counted1,
+    /// Cycles counted of body 2.
+    Counted2,
+    /// λ.
+    Lambda,
+    /// Part of the contact that touches, %.
+    ContactPercent,
+    /// Greatest pressure over Hertz.
+    PeakPressure,
+    /// Depth of the greatest effective stress, a.
+    PeakDepth,
+    /// Part of the roughness that is left in the film, %: root mean square along y = 0 within half the contact,
+    /// ridges in, film out.
+    LeftPercent,
+    /// Relative life.
+    Life,
+}
+
+impl Figure {
+    /// Name on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::N1 => "n₁",
+            Self::N2 => "n₂",
+            Self::Counted1 => "counted₁",
+            Self::Counted2 => "counted₂",
+            Self::Lambda => "λ",
+            Self::ContactPercent => "contact %",
+            Self::PeakPressure => "p max/p_h",
+            Self::PeakDepth => "σ max at z/a",
+            Self::LeftPercent => "ripple left %",
+            Self::Life => "life",
+        }
+    }
+
+    /// Its value in a frame, where it is known.
+    pub fn of(self, frame: &Frame) -> Option<f64> {
+        let metrics = &frame.metrics;
+        match self {
+            Self::N1 => metrics.n_body_1,
+            Self::N2 => metrics.n_body_2,
+            Self::Counted1 => metrics.n_counted_body_1,
+            Self::Counted2 => metrics.n_counted_body_2,
+            Self::Lambda => metrics.lambda_ratio,
+            Self::ContactPercent => Some(100.0 * metrics.contact_ratio),
+            Self::PeakPressure => Some(metrics.p_max_pa / frame.p_hertz_pa),
+            Self::PeakDepth => metrics.sigma_eff_max_depth_m.map(|z| z / frame.a_m),
+            Self::LeftPercent => ripple_left(frame).map(|part| 100.0 * part),
+            Self::Life => metrics.life.map(|life| life.life_relative),
+        }
+    }
+}
+
+/// Ripple of the film over that of the roughness on y = 0, |x| < a/2. Straight lines are taken out.
+fn ripple_left(frame: &Frame) -> Option<f64> {
+    let row = frame.ny / 2 * frame.nx;
+    let inside = |i: &usize| (frame.x_min_m + *i as f64 * frame.dx_m).abs() < 0.5 * frame.a_m;
+    let places: Vec<usize> = (0..frame.nx).filter(inside).map(|i| row + i).collect();
+    let ripple = |value: &dyn Fn(usize) -> f64| {
+        let n = places.len() as f64;
+        let middle = 0.5 * (n - 1.0);
+        let (mut sum, mut slope, mut squares) = (0.0, 0.0, 0.0);
+        for (k, &place) in places.iter().enumerate() {
+            sum += value(place);
+            slope += (k as f64 - middle) * value(place);
+            squares += (k as f64 - middle).powi(2);
+        }
+        let rest = places.iter().enumerate().map(|(k, &place)| {
+            (value(place) - sum / n - slope / squares * (k as f64 - middle)).powi(2)
+        });
+        (rest.sum::<f64>() / n).sqrt()
+    };
+    if places.len() < 8 || frame.film_m.len() < frame.nx * frame.ny {
+        return None;
+    }
+    let rough = ripple(&|i| f64::from(frame.roughness_1_m[i]) + f64::from(frame.roughness_2_m[i]));
+    let film = ripple(&|i| f64::from(frame.film_m[i]));
+    (rough > 0.0).then(|| film / rough)
+}
+
+/// What a caption says of a number, at the end of its beat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Claim {
+    /// Which number: it is shown beside the caption.
+    pub figure: Figure,
+    /// Least value.
+    pub least: f64,
+    /// Greatest value.
+    pub most: f64,
+}
+
+/// One beat: scene, knobs, a map, words, and how long they stay.
 #[derive(Debug)]
 pub struct Beat {
+    /// The scene; `None`: that of the beat before.
+    pub staging: Option<Staging>,
     /// What to look at, and what the model leaves out.
     pub caption: &'static str,
     /// Knobs that are set when it begins.
@@ -35,6 +162,8 @@ pub struct Beat {
     pub map: Option<MapKind>,
     /// How long, in passages.
     pub passages: f64,
+    /// What is claimed of the numbers shown.
+    pub claims: &'static [Claim],
 }
 
 /// A lesson.
@@ -45,182 +174,6 @@ pub struct Lesson {
     /// Its beats.
     pub beats: &'static [Beat],
 }
-
-const fn beat(
-    caption: &'static str,
-    sets: &'static [(Knob, Setting)],
-    map: Option<MapKind>,
-    passages: f64,
-) -> Beat {
-    Beat {
-        caption,
-        sets,
-        map,
-        passages,
-    }
-}
-
-const S: Knob = Knob::SlideRoll;
-const LOAD: Knob = Knob::ForceN;
-const SPEED: Knob = Knob::EntrainmentMS;
-const A1: Knob = Knob::Amplitude1M;
-const A2: Knob = Knob::Amplitude2M;
-use MapKind::{Contact, Film, Pressure, Roughness, Stress};
-use Setting::{TimesHome, To};
-
-/// The lessons, in order.
-pub const LESSONS: &[Lesson] = &[
-    Lesson {
-        title: "One passage",
-        beats: &[
-            beat(
-                "Pure rolling, S = 0. Follow the diamond: a point of the surface crosses the contact and is pressed once. n = 1.",
-                &[(S, To(0.0))],
-                Some(Pressure),
-                1.5,
-            ),
-            beat(
-                "The asperities it carries cross with it, in step with those of the mate. Peaks stand on it, but they stay the same peaks.",
-                &[],
-                Some(Pressure),
-                1.0,
-            ),
-        ],
-    },
-    Lesson {
-        title: "Rolling against sliding: why the count explodes",
-        beats: &[
-            beat(
-                "S = 0: one cycle. Pin this (b) to compare.",
-                &[(S, To(0.0))],
-                Some(Pressure),
-                1.2,
-            ),
-            beat(
-                "S = 0.1: the mate's crests now overtake the point while it crosses. Each is a stress cycle of its own.",
-                &[(S, To(0.1))],
-                None,
-                1.5,
-            ),
-            beat(
-                "S = 0.5: the trace below has become a comb. Life falls by the count alone, before any peak has grown.",
-                &[(S, To(0.5))],
-                None,
-                2.0,
-            ),
-            beat(
-                "n is an upper bound on damage: it counts a small ripple like a full cycle. No wear here, and wear can reverse the trend with S.",
-                &[],
-                None,
-                1.0,
-            ),
-        ],
-    },
-    Lesson {
-        title: "Thin film: from full film to contact",
-        beats: &[
-            beat(
-                "Fast: the film is thicker than the roughness. No spots touch; λ is in the line at the foot.",
-                &[(SPEED, TimesHome(4.0))],
-                Some(Film),
-                1.5,
-            ),
-            beat(
-                "At the scene's speed.",
-                &[(SPEED, TimesHome(1.0))],
-                Some(Film),
-                1.5,
-            ),
-            beat(
-                "Slow: the film collapses, spots touch, friction rises to the boundary value there. Isothermal: no heat thins the oil.",
-                &[(SPEED, TimesHome(0.3))],
-                Some(Contact),
-                2.0,
-            ),
-        ],
-    },
-    Lesson {
-        title: "Waves that flatten",
-        beats: &[
-            beat(
-                "The heights as manufactured. In the contact pressure presses them flat: long waves and thin films most.",
-                &[(S, To(0.0))],
-                Some(Roughness),
-                1.0,
-            ),
-            beat("The film shows what is left of them.", &[], Some(Film), 1.5),
-            beat(
-                "Twice the height on both bodies: the pressure ripple grows, and life goes with about its tenth power.",
-                &[(A1, TimesHome(2.0)), (A2, TimesHome(2.0))],
-                Some(Pressure),
-                1.5,
-            ),
-        ],
-    },
-    Lesson {
-        title: "Which surface does it",
-        beats: &[
-            beat(
-                "Only body 2 is rough now: its crests load body 1, whose count is high. Body 2 meets a smooth mate: n₂ = 1.",
-                &[(S, To(0.5)), (A1, To(0.0))],
-                Some(Pressure),
-                1.5,
-            ),
-            beat(
-                "And the other way round: the rough surface imposes the micro-cycles on the other one.",
-                &[(A1, TimesHome(1.0)), (A2, To(0.0))],
-                None,
-                1.5,
-            ),
-        ],
-    },
-    Lesson {
-        title: "A gear tooth from dedendum to tip",
-        beats: &[
-            beat(
-                "Driver's dedendum: S > 0, body 1 (the driver) is the slower and counts most.",
-                &[(S, To(1.0)), (LOAD, TimesHome(0.8))],
-                Some(Pressure),
-                1.5,
-            ),
-            beat(
-                "Pitch point: pure rolling under full load.",
-                &[(S, To(0.0)), (LOAD, TimesHome(1.0))],
-                None,
-                1.5,
-            ),
-            beat(
-                "Tip: S < 0. Now body 2 is the slower. A real tooth changes radius and load on the way; here only S and the load move.",
-                &[(S, To(-0.8)), (LOAD, TimesHome(0.8))],
-                None,
-                1.5,
-            ),
-        ],
-    },
-    Lesson {
-        title: "Where does the pit start?",
-        beats: &[
-            beat(
-                "Stress below the surface. Smooth: the maximum lies at about half the contact's half-width, deep below.",
-                &[(S, To(0.0)), (A1, To(0.0)), (A2, To(0.0))],
-                Some(Stress),
-                1.5,
-            ),
-            beat(
-                "Rough: each pressure peak puts a stress peak just under the skin. Pits move from below to the surface.",
-                &[(A1, TimesHome(1.5)), (A2, TimesHome(1.5))],
-                Some(Stress),
-                1.5,
-            ),
-            beat(
-                "Heavier: both grow. Elastic body: no residual stress, no plastic shakedown of the asperities.",
-                &[(LOAD, TimesHome(2.0))],
-                Some(Stress),
-                1.5,
-            ),
-        ],
-    },
-];
 
 /// Where the tour is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -264,6 +217,15 @@ impl TourState {
             since: passages,
         })
     }
+
+    /// Same beat, which begins anew at so many passages.
+    #[must_use]
+    pub fn anew(&self, passages: f64) -> Self {
+        Self {
+            since: passages,
+            ..*self
+        }
+    }
 }
 
 #[cfg(test)]
@@ -271,28 +233,51 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lessons_have_words_and_time() {
+    fn lessons_have_words_time_and_scenes_that_load() {
         assert_eq!(LESSONS.len(), 7);
         for lesson in LESSONS {
             assert!(!lesson.title.is_empty() && !lesson.beats.is_empty());
+            assert!(lesson.beats[0].staging.is_some(), "{}", lesson.title);
             for beat in lesson.beats {
                 assert!(beat.passages > 0.0);
-                assert!((20..=180).contains(&beat.caption.len()), "{}", beat.caption);
+                assert!(
+                    (20..=190).contains(&beat.caption.chars().count()),
+                    "{}",
+                    beat.caption
+                );
+                assert!(beat.claims.iter().all(|claim| claim.least <= claim.most));
+                if let Some(staging) = beat.staging {
+                    let scene = staging.scene().map_err(|error| error.to_string());
+                    assert_eq!(scene.err(), None, "{staging:?}");
+                }
             }
         }
     }
 
     #[test]
-    fn beats_follow_each_other_by_passages_and_the_last_stays() {
-        let Some(first) = TourState::begin(0, 10.0) else {
-            panic!("there is a first lesson")
-        };
-        assert_eq!(first.after(11.4), None);
-        let Some(second) = first.after(11.6) else {
-            panic!("the second beat is due")
-        };
-        assert_eq!((second.lesson, second.beat), (0, 1));
-        assert_eq!(second.after(1000.0), None);
+    fn the_last_beats_say_what_the_model_leaves_out() {
+        for lesson in LESSONS {
+            let last = lesson.beats.last().map(|beat| beat.caption);
+            assert!(
+                last.is_some_and(|words| words.contains("Left out:")),
+                "{}",
+                lesson.title
+            );
+        }
+    }
+
+    #[test]
+    fn a_beat_ends_with_its_time_and_the_last_stays() {
+        let tour = TourState::begin(0, 10.0).expect("there is a lesson");
+        let length = tour.beat().passages;
+        assert_eq!(tour.after(10.0 + 0.9 * length), None);
+        let next = tour.after(10.0 + length).expect("a second beat");
+        assert_eq!(next.beat, 1);
+        let mut last = next;
+        while let Some(later) = last.after(1e6) {
+            last = later;
+        }
+        assert_eq!(last.beat + 1, last.lesson().beats.len());
         assert_eq!(TourState::begin(LESSONS.len(), 0.0), None);
     }
 }

@@ -11,9 +11,11 @@
 
 pub mod action;
 pub mod app;
+pub mod choice;
 pub mod dial;
 pub mod estimate;
 pub mod lessons;
+pub mod replay;
 mod terminal;
 pub mod theme;
 pub mod trace;
@@ -30,15 +32,20 @@ use std::time::{Duration, Instant};
 use crossterm::event::Event;
 use ratatui::layout::Rect;
 
-use crate::run::Command;
-use action::{Action, lookup};
+use crate::run::{Command, Sweep};
+use crate::scene::Scene;
+use action::lookup;
 use app::{App, Effect, ErrandKind, Setup};
 use terminal::{Input, Panics, Stage};
 use theme::{Capabilities, Contrast, Theme};
-pub use wiring::{Health, LeftOut, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring};
+pub use wiring::{
+    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
+};
 
-/// Longest wait between two drawings.
-const FRAME_TIME: Duration = Duration::from_millis(33);
+/// Time from one drawing to the next.
+const FRAME_TIME: Duration = Duration::from_millis(25);
+/// Least pause between two drawings, for a terminal that is slower.
+const LEAST_WAIT: Duration = Duration::from_millis(5);
 
 /// Whether the loop goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,9 +72,15 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
     theme.contrast = Contrast::detect(variable);
     let mut app = App::new(setup_of(&wiring, theme));
     let panics = Panics::watch();
-    let result = Stage::enter().and_then(|mut stage| {
+    let result = Stage::enter().and_then(|stage| {
         let input = Input::listen()?;
-        show(&mut stage, &input, &panics, &mut app, &mut wiring)
+        let mut show = Show {
+            stage,
+            app: &mut app,
+            wiring: &mut wiring,
+            sweep: None,
+        };
+        show.go_on(&input, &panics)
     });
     panics.report();
     // A run that has ended hears nothing, which is what is wanted.
@@ -80,6 +93,7 @@ fn setup_of(wiring: &Wiring, theme: Theme) -> Setup {
         (wiring.toggle_recording.is_some(), ErrandKind::Record),
         (wiring.open_viewer.is_some(), ErrandKind::View),
         (wiring.save_scene.is_some(), ErrandKind::Save),
+        (wiring.rebuild.is_some(), ErrandKind::Rebuild),
     ];
     Setup {
         scene: wiring.scene.clone(),
@@ -96,120 +110,169 @@ fn setup_of(wiring: &Wiring, theme: Theme) -> Setup {
     }
 }
 
-/// The loop: draw, wait for an event but not longer than a frame's time, take all that came.
-fn show(
-    stage: &mut Stage,
-    input: &Input,
-    panics: &Panics,
-    app: &mut App,
-    wiring: &mut Wiring,
-) -> io::Result<()> {
-    let start = Instant::now();
-    loop {
-        app.tick(start.elapsed());
-        take_news(app, wiring, panics);
-        stage.terminal.draw(|frame| view::draw(app, frame))?;
-        let drawn = Instant::now();
-        let mut wait = FRAME_TIME;
+/// The loop around the screen.
+struct Show<'a> {
+    stage: Stage,
+    app: &'a mut App,
+    wiring: &'a mut Wiring,
+    sweep: Option<Sweep>,
+}
+
+impl Show<'_> {
+    /// Draws, waits for an event but not longer than a frame's time, takes all that came; again.
+    fn go_on(&mut self, input: &Input, panics: &Panics) -> io::Result<()> {
+        let start = Instant::now();
+        let mut last = start.elapsed();
         loop {
-            if wiring.interrupt.load(Ordering::Relaxed) {
-                return Ok(());
-            }
-            match input.events.recv_timeout(wait) {
-                Ok(event) => {
-                    app.tick(start.elapsed());
-                    if take_event(stage, app, wiring, &event)? == Flow::Stop {
-                        return Ok(());
+            let now = start.elapsed();
+            self.app.tick(now);
+            self.take_news(panics, now.saturating_sub(last))?;
+            last = now;
+            let began = Instant::now();
+            let app = &*self.app;
+            self.stage.terminal.draw(|frame| view::draw(app, frame))?;
+            let drawn = Instant::now();
+            // Drawing counts: frames come every FRAME_TIME, not so long after each other.
+            let mut wait = FRAME_TIME.saturating_sub(drawn - began).max(LEAST_WAIT);
+            loop {
+                if self.wiring.interrupt.load(Ordering::Relaxed) {
+                    return Ok(());
+                }
+                match input.events.recv_timeout(wait) {
+                    Ok(event) => {
+                        self.app.tick(start.elapsed());
+                        if self.take_event(&event)? == Flow::Stop {
+                            return Ok(());
+                        }
+                    }
+                    Err(RecvTimeoutError::Timeout) => break,
+                    Err(RecvTimeoutError::Disconnected) => {
+                        return Err(io::Error::new(
+                            ErrorKind::UnexpectedEof,
+                            "no more keys come",
+                        ));
                     }
                 }
-                Err(RecvTimeoutError::Timeout) => break,
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Err(io::Error::new(
-                        ErrorKind::UnexpectedEof,
-                        "no more keys come",
-                    ));
+                // What has come already is taken before the next drawing, but a flood of events (a
+                // held key, a dragged mouse) does not keep the screen from being drawn.
+                wait = Duration::ZERO;
+                if drawn.elapsed() > FRAME_TIME {
+                    break;
                 }
             }
-            // What has come already is taken before the next drawing, but a flood of events (a
-            // held key, a dragged mouse) does not keep the screen from being drawn.
-            wait = Duration::ZERO;
-            if drawn.elapsed() > FRAME_TIME {
-                break;
-            }
         }
     }
-}
 
-fn take_news(app: &mut App, wiring: &mut Wiring, panics: &Panics) {
-    let mut status = (wiring.status)();
-    if let Some(text) = panics.first() {
-        status.health = Health::Failed(text);
+    fn take_news(&mut self, panics: &Panics, wall: Duration) -> io::Result<()> {
+        let mut status = (self.wiring.status)();
+        if let Some(text) = panics.first() {
+            status.health = Health::Failed(text);
+        }
+        self.app.take_status(status);
+        let mut effects = Vec::new();
+        if let Some(frame) = self.wiring.frames.take() {
+            let mut points = Vec::new();
+            self.wiring.frames.take_points(&mut points);
+            self.app.take_points(&points, frame.a_m);
+            effects = self.app.take_frame(frame);
+        }
+        effects.extend(self.app.take_settled((self.wiring.settled)()));
+        effects.extend(self.app.advance(wall));
+        let found = self.sweep.as_ref().map_or_else(Vec::new, Sweep::take);
+        let progress = self.sweep.as_ref().map(Sweep::progress);
+        self.app.take_swept(found, progress);
+        // Nothing that comes from the run asks for the end.
+        self.carry_out(effects).map(|_| ())
     }
-    app.take_status(status);
-    if let Some(frame) = wiring.frames.take() {
-        for effect in app.take_frame(frame) {
-            if let Effect::Send(command) = effect {
-                let _ = wiring.commands.send(command);
+
+    fn take_event(&mut self, event: &Event) -> io::Result<Flow> {
+        let action = match event {
+            Event::Key(key) => lookup(key),
+            Event::Mouse(mouse) => {
+                let size = self.stage.terminal.size()?;
+                view::pointed(self.app, Rect::new(0, 0, size.width, size.height), mouse)
             }
+            _ => None,
+        };
+        match action {
+            Some(action) => {
+                let effects = self.app.apply(action);
+                self.carry_out(effects)
+            }
+            None => Ok(Flow::Go),
         }
     }
-}
 
-fn take_event(
-    stage: &mut Stage,
-    app: &mut App,
-    wiring: &mut Wiring,
-    event: &Event,
-) -> io::Result<Flow> {
-    let action = match event {
-        Event::Key(key) => lookup(key),
-        Event::Mouse(mouse) => {
-            let size = stage.terminal.size()?;
-            view::pointed(app, Rect::new(0, 0, size.width, size.height), mouse)
+    fn carry_out(&mut self, effects: Vec<Effect>) -> io::Result<Flow> {
+        for effect in effects {
+            match effect {
+                // A run that has ended hears nothing; its last frame can still be looked at.
+                Effect::Send(command) => drop(self.wiring.commands.send(command)),
+                Effect::Errand(errand) => {
+                    let said = self.run_errand(errand).unwrap_or_else(|reason| reason);
+                    self.app.say(said);
+                }
+                Effect::Sweep(values) => {
+                    // The old one ends first: its cores are wanted.
+                    self.sweep = None;
+                    let start = self.wiring.start_sweep.as_mut();
+                    self.sweep = start.and_then(|start| start(values));
+                }
+                Effect::EndSweep => self.sweep = None,
+                Effect::Rebuild(scene) => self.rebuild(&scene),
+                Effect::Suspend => self.stage.suspend()?,
+                Effect::Quit => return Ok(Flow::Stop),
+            }
         }
-        _ => None,
-    };
-    match action {
-        Some(action) => act(stage, app, wiring, action),
-        None => Ok(Flow::Go),
+        Ok(Flow::Go)
     }
-}
 
-fn act(stage: &mut Stage, app: &mut App, wiring: &mut Wiring, action: Action) -> io::Result<Flow> {
-    for effect in app.apply(action) {
-        match effect {
-            // A run that has ended hears nothing; its last frame can still be looked at.
-            Effect::Send(command) => {
-                let _ = wiring.commands.send(command);
+    /// Another scene: another run behind the same screen.
+    fn rebuild(&mut self, scene: &Scene) {
+        let Some(mut rebuild) = self.wiring.rebuild.take() else {
+            return;
+        };
+        let made = rebuild(scene);
+        match made {
+            Ok(next) => {
+                self.sweep = None;
+                *self.wiring = next;
+                let setup = setup_of(self.wiring, self.app.theme);
+                let setup = app::Setup {
+                    errands: self.app.setup.errands.clone(),
+                    ..setup
+                };
+                for effect in self.app.rebuilt(setup) {
+                    if let Effect::Send(command) = effect {
+                        let _ = self.wiring.commands.send(command);
+                    }
+                }
             }
-            Effect::Errand(errand) => {
-                let said = run_errand(app, wiring, errand).unwrap_or_else(|reason| reason);
-                app.say(said);
-            }
-            Effect::Suspend => stage.suspend()?,
-            Effect::Quit => return Ok(Flow::Stop),
+            Err(reason) => self.app.not_rebuilt(reason),
         }
+        self.wiring.rebuild = Some(rebuild);
     }
-    Ok(Flow::Go)
-}
 
-fn run_errand(app: &App, wiring: &mut Wiring, errand: ErrandKind) -> Result<String, String> {
-    let missing = || Err("not wired".to_owned());
-    match errand {
-        ErrandKind::Record => wiring
-            .toggle_recording
-            .as_mut()
-            .map_or_else(missing, |run| run()),
-        ErrandKind::View => wiring
-            .open_viewer
-            .as_mut()
-            .map_or_else(missing, |run| run()),
-        ErrandKind::Save => {
-            let text = app.scene_toml();
-            match &mut wiring.save_scene {
-                Some(save) => save(&text).map(|path| format!("saved {}", path.display())),
-                None => missing(),
+    fn run_errand(&mut self, errand: ErrandKind) -> Result<String, String> {
+        let missing = || Err("not wired".to_owned());
+        let wiring = &mut *self.wiring;
+        match errand {
+            ErrandKind::Record => wiring
+                .toggle_recording
+                .as_mut()
+                .map_or_else(missing, |run| run()),
+            ErrandKind::View => wiring
+                .open_viewer
+                .as_mut()
+                .map_or_else(missing, |run| run()),
+            ErrandKind::Save => {
+                let text = self.app.scene_toml();
+                match &mut wiring.save_scene {
+                    Some(save) => save(&text).map(|path| format!("saved {}", path.display())),
+                    None => missing(),
+                }
             }
+            ErrandKind::Rebuild => missing(),
         }
     }
 }

@@ -13,7 +13,7 @@ use std::time::Duration;
 use crossterm::cursor::Show;
 use crossterm::event::{DisableMouseCapture, EnableMouseCapture, Event};
 use crossterm::terminal::{
-    EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
 use crossterm::{event, execute};
 use ratatui::Terminal;
@@ -51,7 +51,9 @@ impl Stage {
         // its prompt back. It returns when the shell continues the group.
         let stopped = process::Command::new("kill").args(["-TSTP", "0"]).status();
         take()?;
-        self.terminal.clear()?;
+        // Drawn anew from nothing. (`clear` would ask where the cursor is, and not every line answers.)
+        execute!(stdout(), Clear(ClearType::All))?;
+        self.terminal = Terminal::new(CrosstermBackend::new(stdout()))?;
         stopped.map(|_| ())
     }
 }

@@ -8,7 +8,7 @@ use std::sync::mpsc::Sender;
 use thiserror::Error;
 
 use crate::observe::Latest;
-use crate::run::Command;
+use crate::run::{Command, Settled, Sweep};
 use crate::scene::Scene;
 
 /// A stage that the plan leaves out, and why.
@@ -74,6 +74,13 @@ pub type Errand = Box<dyn FnMut() -> Result<String, String>>;
 /// Writes a scene (its TOML text) and says where.
 pub type SaveScene = Box<dyn FnMut(&str) -> Result<PathBuf, String>>;
 
+/// Starts a sweep over values of S from where the run has settled.
+pub type StartSweep = Box<dyn FnMut(Vec<f64>) -> Option<Sweep>>;
+
+/// Ends the run and starts one of another scene; what it gives replaces the whole wiring (but for
+/// [`Wiring::rebuild`] itself, which stays).
+pub type Rebuild = Box<dyn FnMut(&Scene) -> Result<Wiring, String>>;
+
 /// What the program itself fills in. An errand that is `None` has no key and no row in the help.
 pub struct Wiring {
     /// The scene that runs.
@@ -94,12 +101,18 @@ pub struct Wiring {
     pub commands: Sender<Command>,
     /// Asked before each drawing; must not block.
     pub status: Box<dyn FnMut() -> RunStatus>,
+    /// One period of the passage, once it repeats; asked before each drawing.
+    pub settled: Box<dyn FnMut() -> Option<Arc<Settled>>>,
+    /// Sweeps S beside the run.
+    pub start_sweep: Option<StartSweep>,
     /// Raised when the process is asked to end (SIGTERM, SIGHUP): the screen closes.
     pub interrupt: Arc<AtomicBool>,
     /// Switches recording on and off.
     pub toggle_recording: Option<Errand>,
     /// Opens the recording in the viewer.
     pub open_viewer: Option<Errand>,
+    /// Runs another scene.
+    pub rebuild: Option<Rebuild>,
     /// Saves the scene as it now is.
     pub save_scene: Option<SaveScene>,
 }

@@ -7,9 +7,9 @@ Not part of CI. Needs Python 3.11 or newer with venv, a package index, and a rel
     python3 tests/peers/peers.py --binary target/release/asperity --out assets/reports/peers.md
 
 The first run makes an environment beside the build (--venv, default target/peers-venv) from requirements.txt, and the
-script starts itself again in it. Everything runs on one thread. Times are CPU seconds of the working thread, best of
-three, of the solution alone and of making what it needs (kernels, plans, memory); asperity's come from
-`asperity study peers`.
+script starts itself again in it. Everything runs on one thread. Times are CPU seconds of the working thread, of the
+solution alone and of making what it needs (kernels, plans, memory): the peers' best of three, asperity's mean of many
+(`asperity study peers`; the counter that it reads is coarse).
 
 Cases (steel, E 210 GPa, nu 0.3, R 10 mm, p0 1 GPa; n intervals or pixels a side)
   hertz           non-periodic, domain 3 a, from a uniform pressure; error 1: greatest pressure, error 2: L2 of the field
@@ -286,7 +286,7 @@ def main():
     rows = ours(args.binary, args.quick) + list(theirs(args.quick))
     rows.sort(key=lambda r: (r["case"], int(r["n"])))
     lines = ["# Peers", "", "`python3 tests/peers/peers.py`; versions: " +
-             ", ".join((HERE / "requirements.txt").read_text().split()) + ". CPU seconds, one thread, best of three.", ""]
+             ", ".join((HERE / "requirements.txt").read_text().split()) + ". CPU seconds, one thread.", ""]
     lines.append("| " + " | ".join(COLUMNS) + " |")
     lines.append("|---" * len(COLUMNS) + "|")
     lines += ["| " + " | ".join(str(r[name]) for name in COLUMNS) + " |" for r in rows]

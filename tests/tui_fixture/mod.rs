@@ -110,7 +110,7 @@ pub(crate) fn app(theme: Theme) -> App {
                 reason: "both bodies have the same elastic constants, so shear does not part them".into(),
             },
         ],
-        errands: vec![ErrandKind::Record, ErrandKind::Save],
+        errands: vec![ErrandKind::Record, ErrandKind::Save, ErrandKind::Rebuild],
         theme,
     })
 }

@@ -16,10 +16,12 @@ const FONT: &str = "sans-serif";
 /// Width of a picture's axes, pixels.
 const WIDE: u32 = 720;
 /// Room around the axes, pixels.
-const LEFT: u32 = 76;
+const LEFT: u32 = 92;
 const ABOVE: u32 = 74;
 const BELOW: u32 = 58;
 const RIGHT: u32 = 116;
+/// The axes' titles stand on their left edge.
+const EDGE: u32 = 18;
 /// Where bodies touch.
 const CONTACT: [u8; 3] = [60, 230, 240];
 /// Values above the range, where they would drown the rest.
@@ -132,8 +134,9 @@ type Drawn<'a> = Result<(), DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBa
 fn draw_map<'a>(area: &Area<'a>, map: &Map) -> Drawn<'a> {
     let mut chart = ChartBuilder::on(area)
         .margin_top(ABOVE)
+        .margin_left(EDGE)
         .x_label_area_size(BELOW)
-        .y_label_area_size(LEFT)
+        .y_label_area_size(LEFT - EDGE)
         .build_cartesian_2d(map.x[0]..map.x[1], map.y[0]..map.y[1])?;
     let size = chart.plotting_area().dim_in_pixel();
     let corner = (map.x[0], map.y[1]);
@@ -244,9 +247,11 @@ fn draw_figure<'a>(area: &Area<'a>, figure: &Figure) -> Drawn<'a> {
     let x = figure.x[0]..figure.x[1];
     let mut chart = ChartBuilder::on(area)
         .margin_top(ABOVE)
+        .margin_left(EDGE)
+        .margin_right(EDGE)
         .x_label_area_size(BELOW)
-        .y_label_area_size(LEFT)
-        .right_y_label_area_size(LEFT)
+        .y_label_area_size(LEFT - EDGE)
+        .right_y_label_area_size(LEFT - EDGE)
         .build_cartesian_2d(x.clone(), 0.0..figure.left_top)?
         .set_secondary_coord(x, 0.0..figure.right.top);
     chart
@@ -296,7 +301,7 @@ fn style(curve: &Curve) -> ShapeStyle {
     RGBColor(r, g, b).stroke_width(2)
 }
 
-fn legend<'a>(series: &mut SeriesAnno<'a, BitMapBackend<'_>>, curve: &Curve) {
+fn legend(series: &mut SeriesAnno<'_, BitMapBackend<'_>>, curve: &Curve) {
     let style = style(curve);
     series
         .label(curve.name)

@@ -13,10 +13,10 @@ use rerun::external::re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
 use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
-/// Messages from which on the file gets no footer: an index for partial loading, 1.6 kB a message, which would be
+/// Messages from which on the file gets no footer: an index for partial loading, 5.6 kB a message, which would be
 /// kept in memory until the end. Without it a viewer reads the file from its beginning, as it does after a kill.
-/// Recordings of some minutes stay below.
-const MOST_INDEXED: u64 = 4096;
+/// Recordings of a few passages stay below.
+const MOST_INDEXED: u64 = 512;
 
 /// A recording's file, shared by the library's thread, which writes, and the recorder, which asks.
 #[derive(Clone)]

@@ -5,9 +5,10 @@ use rerun::Mesh3D;
 use super::colour::hillshade;
 use super::geometry::Geometry;
 
-/// Most columns and rows of a sheet: more than a screen shows, few enough to keep files small.
-const MOST_COLUMNS: usize = 96;
-const MOST_ROWS: usize = 24;
+/// Most columns and rows of the film's sheet: what a screen shows, few enough to keep files small.
+pub(super) const FINE: [usize; 2] = [96, 24];
+/// Of the bodies' sheets, which only give the picture its frame.
+pub(super) const COARSE: [usize; 2] = [48, 24];
 
 /// Every so-many-th node of a window of the grid: from the plane y = 0 backwards (the front half is
 /// cut away), around the contact in x.
@@ -22,13 +23,17 @@ pub(super) struct Window {
 
 impl Window {
     /// The window |x| ≤ `reach_x`, 0 ≤ y ≤ `reach_y`; `None` if it holds no whole cell.
-    pub(super) fn new(g: Geometry, reach_x: f64, reach_y: f64) -> Option<Self> {
+    pub(super) fn new(
+        g: Geometry,
+        [reach_x, reach_y]: [f64; 2],
+        [most_columns, most_rows]: [usize; 2],
+    ) -> Option<Self> {
         let inside_x: Vec<usize> = (0..g.nx).filter(|&i| g.x(i).abs() <= reach_x).collect();
         let inside_y: Vec<usize> = (g.centre_row()..g.ny)
             .filter(|&j| g.y(j) <= reach_y)
             .collect();
-        let step_i = inside_x.len().div_ceil(MOST_COLUMNS).max(1);
-        let step_j = inside_y.len().div_ceil(MOST_ROWS).max(1);
+        let step_i = inside_x.len().div_ceil(most_columns).max(1);
+        let step_j = inside_y.len().div_ceil(most_rows).max(1);
         let columns: Vec<usize> = inside_x.into_iter().step_by(step_i).collect();
         let rows: Vec<usize> = inside_y.into_iter().step_by(step_j).collect();
         if columns.len() < 2 || rows.len() < 2 {
@@ -128,8 +133,8 @@ mod tests {
                 a: 1.0,
                 b: 1.0,
             };
-            let window = Window::new(g, 1.4, 1.2).expect("a window");
-            assert!(window.columns <= MOST_COLUMNS && window.rows <= MOST_ROWS);
+            let window = Window::new(g, [1.4, 1.2], FINE).expect("a window");
+            assert!(window.columns <= FINE[0] && window.rows <= FINE[1]);
             assert!(
                 window
                     .xy()

@@ -30,6 +30,7 @@ mod space;
 mod stream;
 mod text;
 mod trace;
+mod waiting;
 
 pub use live::Live;
 pub use recorder::Recorder;

@@ -138,8 +138,7 @@ impl Recorder {
         if let Some(views) = &mut self.views {
             views.series.send(&self.stream)?;
         }
-        self.stream.send_on();
-        Ok(())
+        self.stream.send_on()
     }
 }
 
@@ -270,8 +269,7 @@ impl Observer for Recorder {
         let first = format!("recorded by {}; {}", context.program, text::CAUTION);
         text::log_line(&self.stream, &first, TextLogLevel::INFO)?;
         // What repeats the run is on the disk before it starts.
-        self.stream.send_on();
-        Ok(())
+        self.stream.send_on()
     }
 
     /// Records a frame of the passage; the start-up is not part of the results.

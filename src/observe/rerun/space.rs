@@ -11,7 +11,7 @@ use rerun::{Arrows3D, Color, Mesh3D, Points3D, Radius};
 
 use super::colour::{GREEN, ORANGE, Ramp, SKY};
 use super::geometry::Geometry;
-use super::mesh::Window;
+use super::mesh::{COARSE, FINE, Window};
 use super::slice::Rows;
 use super::stream::Stream;
 use crate::observe::ObserveError;
@@ -32,7 +32,8 @@ pub(super) struct Tops {
 /// The 3-D view.
 pub(super) struct Space {
     geometry: Geometry,
-    window: Window,
+    film: Window,
+    bodies: Window,
     slice: Option<SliceSheet>,
     tops: Tops,
     exaggeration: f64,
@@ -67,7 +68,9 @@ impl Space {
         first: &Frame,
         tops: Tops,
     ) -> Result<Option<Self>, ObserveError> {
-        let Some(window) = Window::new(geometry, 1.45 * geometry.a, 1.25 * geometry.b) else {
+        let reach = [1.45 * geometry.a, 1.25 * geometry.b];
+        let window = |most| Window::new(geometry, reach, most);
+        let (Some(film), Some(bodies)) = (window(FINE), window(COARSE)) else {
             return Ok(None);
         };
         let a = geometry.a;
@@ -83,7 +86,8 @@ impl Space {
             .and_then(|slice| SliceSheet::new(geometry, slice));
         let mut space = Self {
             geometry,
-            window,
+            film,
+            bodies,
             slice,
             tops,
             exaggeration: exaggeration(geometry, first),
@@ -148,11 +152,11 @@ impl Space {
     fn log_film(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let factor = (MM * self.exaggeration) as f32;
         let cap = self.levels.film_cap as f32;
-        let nodes = self.window.nodes();
+        let nodes = self.film.nodes();
         self.heights.clear();
         self.heights
             .extend(nodes.iter().map(|&at| (frame.film_m[at] * factor).min(cap)));
-        let shades = self.window.shades(&self.heights);
+        let shades = self.film.shades(&self.heights);
         let top = self.tops.pressure_pa as f32;
         self.colours.clear();
         self.colours
@@ -160,7 +164,7 @@ impl Space {
                 // Only half of the shading, so that colours can still be read.
                 pressure_colour(frame.pressure_pa[at] / top, (0.5 + 0.5 * shade).min(1.0))
             }));
-        let sheet = self.window.sheet(&self.heights, &self.colours);
+        let sheet = self.film.sheet(&self.heights, &self.colours);
         stream.log(format!("{SPACE}/film_coloured_by_pressure"), &sheet)
     }
 
@@ -174,13 +178,13 @@ impl Space {
     ) -> Result<(), ObserveError> {
         let factor = (MM * factor) as f32;
         self.heights.clear();
-        let nodes = self.window.nodes();
+        let nodes = self.bodies.nodes();
         self.heights
             .extend(nodes.iter().map(|&at| level as f32 + field[at] * factor));
-        let shades = self.window.shades(&self.heights);
+        let shades = self.bodies.shades(&self.heights);
         self.colours.clear();
         self.colours.extend(shades.into_iter().map(steel));
-        let sheet = self.window.sheet(&self.heights, &self.colours);
+        let sheet = self.bodies.sheet(&self.heights, &self.colours);
         stream.log(format!("{SPACE}/{name}"), &sheet)
     }
 
@@ -206,7 +210,7 @@ impl Space {
     /// Where the bodies touch, on the film's sheet.
     fn log_spots(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let factor = MM * self.exaggeration;
-        let spots = self.window.nodes().iter().zip(self.window.xy());
+        let spots = self.film.nodes().iter().zip(self.film.xy());
         let spots = spots
             .filter(|(at, _)| frame.contact[**at] > 0)
             .map(|(&at, &[x, y])| [x, y, (f64::from(frame.film_m[at]) * factor) as f32]);

@@ -1,9 +1,11 @@
 //! The stream that is recorded to: opening, logging, closing, and the errors of each.
 
+use std::cell::RefCell;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use rerun::log::ChunkBatcherConfig;
+use rerun::time::TimePoint;
 use rerun::{
     AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars, TimeCell,
     TimeColumn,
@@ -11,6 +13,7 @@ use rerun::{
 
 use super::file::RecordingFile;
 use super::live::{self, Link, Live};
+use super::waiting::Waiting;
 use crate::observe::{ObserveError, Overwrite};
 
 /// Name under which viewers group recordings and remember layouts.
@@ -68,6 +71,8 @@ pub(super) struct Stream {
     output: String,
     closed: bool,
     sent: Instant,
+    now: RefCell<TimePoint>,
+    waiting: RefCell<Waiting>,
 }
 
 enum Destination {
@@ -122,6 +127,8 @@ impl Stream {
             output,
             closed: false,
             sent: Instant::now(),
+            now: RefCell::default(),
+            waiting: RefCell::default(),
         }
     }
 
@@ -149,9 +156,22 @@ impl Stream {
         entity: impl Into<EntityPath>,
         data: &(impl AsComponents + ?Sized),
     ) -> Result<(), ObserveError> {
-        self.recording
-            .log(entity, data)
-            .map_err(|error| self.failed(&error.to_string()))
+        let now = self.now.borrow().clone();
+        let mut waiting = self.waiting.borrow_mut();
+        waiting.push(entity.into(), now, data);
+        if waiting.is_full() {
+            drop(waiting);
+            self.send_rows()?;
+        }
+        Ok(())
+    }
+
+    fn send_rows(&self) -> Result<(), ObserveError> {
+        let chunks = self.waiting.borrow_mut().take();
+        for chunk in chunks.map_err(|error| self.failed(&error.to_string()))? {
+            self.recording.send_chunk(chunk);
+        }
+        Ok(())
     }
 
     /// Logs what holds for the whole recording.
@@ -165,12 +185,12 @@ impl Stream {
             .map_err(|error| self.failed(&error.to_string()))
     }
 
-    /// Sets the time of what is logged next. Timelines belong to the thread that sets them.
+    /// Sets the time of what is logged next.
     pub(super) fn set_time(&self, now: Moment) {
-        self.recording.set_time_sequence(STEP, now.step);
-        let nanos = TimeCell::from_duration_nanos(now.nanos);
-        self.recording.set_time(SIMULATED_TIME, nanos);
-        self.recording.set_time_sequence(PASSAGE, now.passage);
+        *self.now.borrow_mut() = TimePoint::default()
+            .with_index(STEP, TimeCell::from_sequence(now.step))
+            .with_index(SIMULATED_TIME, TimeCell::from_duration_nanos(now.nanos))
+            .with_index(PASSAGE, TimeCell::from_sequence(now.passage));
     }
 
     /// Sends the scalars of many steps at once: `width` of each.
@@ -197,10 +217,12 @@ impl Stream {
     }
 
     /// Sends what waits on to the file now.
-    pub(super) fn send_on(&mut self) {
+    pub(super) fn send_on(&mut self) -> Result<(), ObserveError> {
         self.sent = Instant::now();
+        self.send_rows()?;
         // Errors of the file are kept in it, for `check`.
         drop(self.recording.flush_async());
+        Ok(())
     }
 
     /// Whether a tick has passed since. The library's own tick is left out whenever some entity has filled a
@@ -236,6 +258,7 @@ impl Stream {
             return self.check();
         }
         self.closed = true;
+        let sent = self.send_rows();
         let Destination::File(file) = &self.to else {
             // What a viewer does not take in time it does not get: nobody waits for it.
             drop(self.recording.flush_with_timeout(LIVE_CLOSE_TIMEOUT));
@@ -243,6 +266,7 @@ impl Stream {
         };
         let flushed = self.recording.flush_with_timeout(CLOSE_TIMEOUT);
         file.finish().map_err(|reason| self.failed(&reason))?;
+        sent?;
         flushed.map_err(|error| self.failed(&error.to_string()))
     }
 

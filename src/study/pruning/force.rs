@@ -76,7 +76,10 @@ impl Forced {
             ),
             Self::TimeSteps => (5e-3, "what the start-up had not settled"),
             Self::Rheology => (5e-3, "asinh at a large finite stress"),
-            Self::Film => (2e-2, "the thin oil still carries a little"),
+            Self::Film => (
+                2e-2,
+                "the thin oil still carries a little; film against a²/R",
+            ),
             Self::Stress | Self::Spread | Self::EveryFrame => {
                 (0.0, "it is not looked at by the solver")
             }
@@ -193,10 +196,11 @@ impl Forced {
     }
 }
 
-/// An oil whose film is no thicker than rounding.
+/// An oil whose film is some nanometres where the contact is some micrometres deep. A thinner one would be no
+/// continuum, and its steps do not converge.
 fn thinnest() -> Lubricant {
     Lubricant {
-        viscosity_pa_s: 1e-6,
+        viscosity_pa_s: 1e-3,
         pressure_viscosity_per_pa: 0.0,
         viscosity_law: crate::scene::ViscosityLaw::Barus,
         density_law: crate::scene::DensityLaw::Incompressible,

@@ -8,10 +8,13 @@ use crate::scene::Scene;
 use crate::sim::{Frame, Simulation, Stage, Stats};
 use crate::solve::stress::{StressEngine, StressSpec, Symmetry};
 
+/// Film that counts as one, m: the solver's own least film.
+const LEAST_FILM_M: f64 = 1e-9;
+
 /// What a run left.
 pub(super) struct Ran {
     frame: Frame,
-    life: Option<f64>,
+    stress_factor: Option<f64>,
     stats: Stats,
     pub(super) seconds: f64,
     threads: usize,
@@ -31,9 +34,10 @@ enum Frames {
 pub struct Difference {
     /// Σ|Δp|/Σp of the last step.
     pub pressure: f64,
-    /// Σ|Δh|/Σh inside the Hertz ellipse.
+    /// Σ|Δh|/Σh inside the Hertz ellipse, films counted as a nanometre at least (what is thinner is not resolved).
     pub film: f64,
-    /// |Δ ln| of the relative life, where there is one in both.
+    /// |Δ ln| of life's stress factor, where there is one in both. The cycle factor is a formula of the scene: waves of
+    /// no height have crests, too.
     pub life: Option<f64>,
 }
 
@@ -51,6 +55,13 @@ pub struct PruningRow {
     pub preset: String,
     /// Stage.
     pub stage: Forced,
+    /// What it changes and costs, or why the run with it did not finish.
+    pub found: Result<Gain, String>,
+}
+
+/// What a stage that is left out would change and cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gain {
     /// What it changes.
     pub difference: Difference,
     /// Time with the stage over time without.
@@ -64,7 +75,9 @@ pub struct PruningRow {
 impl PruningRow {
     /// Whether leaving it out changes no more than it may.
     pub fn is_harmless(&self) -> bool {
-        self.difference.greatest() <= self.stage.allowed().0
+        self.found
+            .as_ref()
+            .is_ok_and(|gain| gain.difference.greatest() <= self.stage.allowed().0)
     }
 }
 
@@ -84,45 +97,53 @@ pub(super) fn forced(
     stage: Forced,
     (scene, plan): (&Scene, &Plan),
     base: &Ran,
-) -> Option<Result<PruningRow, String>> {
+) -> Option<PruningRow> {
     let (other_scene, other_plan) = stage.apply(scene, plan)?;
-    let row = |difference, time_ratio, work_ratio, transform_ratio| PruningRow {
+    let least_m = match stage {
+        // Against no film at all its own thickness tells nothing: against the Hertz contact's depth.
+        Forced::Film => plan.hertz.a_m * plan.hertz.a_m / scene.contact.rx_m,
+        _ => LEAST_FILM_M,
+    };
+    let found = if stage == Forced::DeepWaves {
+        deep_waves(scene, plan, base)
+    } else {
+        let frames = if stage == Forced::EveryFrame {
+            Frames::Every(1)
+        } else {
+            cadence(plan)
+        };
+        let mut other = run(&other_scene, &other_plan, base.threads, frames);
+        if let (Forced::Waves, Ok(other)) = (stage, &mut other) {
+            // Crests of no height still count, and may make the other body the weaker one.
+            other.stress_factor = None;
+        }
+        other.map(|other| gain(base, &other, least_m))
+    };
+    Some(PruningRow {
         preset: preset.to_owned(),
         stage,
-        difference,
-        time_ratio,
-        work_ratio,
-        transform_ratio,
-    };
-    if stage == Forced::DeepWaves {
-        let found = deep_waves(scene, plan, base);
-        return Some(found.map(|(error, ratio)| {
-            let difference = Difference {
-                pressure: 0.0,
-                film: 0.0,
-                life: Some(error),
-            };
-            row(difference, ratio, 1.0, 1.0)
-        }));
-    }
-    let frames = match stage {
-        Forced::EveryFrame => Frames::Every(1),
-        _ => cadence(plan),
-    };
-    let other = match run(&other_scene, &other_plan, base.threads, frames) {
-        Ok(other) => other,
-        Err(reason) => return Some(Err(reason)),
-    };
-    let ratio = |with: u64, without: u64| with as f64 / without.max(1) as f64;
-    Some(Ok(row(
-        difference(base, &other),
-        other.seconds / base.seconds,
-        ratio(other.stats.linear_iterations, base.stats.linear_iterations),
-        ratio(other.stats.ffts, base.stats.ffts),
-    )))
+        found,
+    })
 }
 
+fn gain(base: &Ran, other: &Ran, least_m: f64) -> Gain {
+    let ratio = |with: u64, without: u64| with as f64 / without.max(1) as f64;
+    Gain {
+        difference: difference(base, other, least_m),
+        time_ratio: other.seconds / base.seconds,
+        work_ratio: ratio(other.stats.linear_iterations, base.stats.linear_iterations),
+        transform_ratio: ratio(other.stats.ffts, base.stats.ffts),
+    }
+}
+
+/// The faster of two runs, which are alike in all but time.
 fn run(scene: &Scene, plan: &Plan, threads: usize, frames: Frames) -> Result<Ran, String> {
+    let one = run_once(scene, plan, threads, frames)?;
+    let two = run_once(scene, plan, threads, frames)?;
+    Ok(if two.seconds < one.seconds { two } else { one })
+}
+
+fn run_once(scene: &Scene, plan: &Plan, threads: usize, frames: Frames) -> Result<Ran, String> {
     let mut sim =
         Simulation::new(scene, plan.clone(), threads).map_err(|error| error.to_string())?;
     let mut frame = Frame::default();
@@ -140,19 +161,19 @@ fn run(scene: &Scene, plan: &Plan, threads: usize, frames: Frames) -> Result<Ran
     sim.fill(&mut frame);
     Ok(Ran {
         frame,
-        life: sim.summary().life_relative,
+        stress_factor: sim.summary().stress_factor,
         stats: *sim.stats(),
         seconds,
         threads,
     })
 }
 
-fn difference(one: &Ran, two: &Ran) -> Difference {
-    let apart = |a: &[f32], b: &[f32], counts: &dyn Fn(usize) -> bool| {
+fn difference(one: &Ran, two: &Ran, least_m: f64) -> Difference {
+    let apart = |a: &[f32], b: &[f32], least: f64, counts: &dyn Fn(usize) -> bool| {
         let (mut off, mut all) = (0.0, 0.0);
         for (_, (a, b)) in a.iter().zip(b).enumerate().filter(|(n, _)| counts(*n)) {
             off += f64::from((a - b).abs());
-            all += f64::from(a.abs());
+            all += f64::from(a.abs()).max(least);
         }
         off / all.max(f64::MIN_POSITIVE)
     };
@@ -163,25 +184,22 @@ fn difference(one: &Ran, two: &Ran) -> Difference {
         x * x + y * y < 1.0
     };
     Difference {
-        pressure: apart(&frame.pressure_pa, &two.frame.pressure_pa, &|_| true),
-        film: apart(&frame.film_m, &two.frame.film_m, &inside),
+        pressure: apart(&frame.pressure_pa, &two.frame.pressure_pa, 0.0, &|_| true),
+        film: apart(&frame.film_m, &two.frame.film_m, least_m, &inside),
         life: one
-            .life
-            .zip(two.life)
+            .stress_factor
+            .zip(two.stress_factor)
             .map(|(one, two)| (one / two).ln().abs()),
     }
 }
 
 /// The life integral of the last pressure with all waves in every layer against the truncated one: relative
 /// difference in the integral, and time of the one over the other.
-fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<(f64, f64), String> {
+fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<Gain, String> {
     /// ε that keeps what single precision can hold.
     const ALL_WAVES: f64 = 1e-8;
     const REPEATS: u32 = 4;
     let frame = &base.frame;
-    if scene.kind() == crate::scene::ContactKind::Line {
-        return Err("a line's layers are not truncated".to_owned());
-    }
     let (p_h, a_m) = (frame.p_hertz_pa as f32, frame.a_m);
     let p: Vec<f32> = frame.pressure_pa.iter().map(|p| p / p_h).collect();
     let stress = plan.stress.ok_or("no stress")?;
@@ -208,5 +226,14 @@ fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<(f64, f64), Stri
         }
     }
     let [(truncated, quick), (whole, slow)] = measured;
-    Ok(((truncated - whole).abs(), slow / quick))
+    Ok(Gain {
+        difference: Difference {
+            pressure: 0.0,
+            film: 0.0,
+            life: Some((truncated - whole).abs()),
+        },
+        time_ratio: slow / quick,
+        work_ratio: 1.0,
+        transform_ratio: 1.0,
+    })
 }

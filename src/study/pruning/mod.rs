@@ -10,7 +10,7 @@ mod measure;
 use std::fmt::Write as _;
 
 pub use force::Forced;
-pub use measure::{Difference, PruningRow};
+pub use measure::{Difference, Gain, PruningRow};
 
 use super::table::{Table, figure};
 use super::{Extent, Progress, StudyError};
@@ -23,9 +23,15 @@ type Variant = (String, &'static str, Vec<String>);
 /// Scenes in which stages are left out that no preset leaves out.
 const VARIANTS: [(&str, &str, &[&str]); 4] = [
     (
-        "demonstration, dry",
+        "demonstration, dry, smooth",
         "demonstration",
-        &["lubricant=none", "stress=none", "life=none"],
+        &[
+            "lubricant=none",
+            "stress=none",
+            "life=none",
+            "body_1.surface.kind=smooth",
+            "body_2.surface.kind=smooth",
+        ],
     ),
     (
         "demonstration, Newtonian",
@@ -52,6 +58,7 @@ fn variants(extent: Extent, only: Option<&str>) -> Vec<Variant> {
         let mut sets = vec![
             format!("time.passages={passages}"),
             "numerics.error_estimate=none".to_owned(),
+            "record.every_steps=16".to_owned(),
         ];
         sets.extend(nodes.map(|nodes| format!("grid.nodes={nodes}")));
         sets
@@ -100,9 +107,7 @@ pub fn pruning(
                 continue;
             }
             progress(&format!("{name}: {}", stage.name()), n, variants.len());
-            if let Some(row) = measure::forced(name, stage, (&scene, &plan), &base) {
-                rows.push(row.map_err(failed)?);
-            }
+            rows.extend(measure::forced(name, stage, (&scene, &plan), &base));
         }
     }
     Ok(rows)
@@ -126,7 +131,7 @@ pub fn pruning_table(rows: &[PruningRow]) -> Table {
         "stage forced in",
         "pressure",
         "film",
-        "ln life",
+        "ln stress factor",
         "allowed",
         "why",
         "time, with/without",
@@ -135,17 +140,22 @@ pub fn pruning_table(rows: &[PruningRow]) -> Table {
     ]);
     for row in rows {
         let (allowed, why) = row.stage.allowed();
+        let gain = row.found.as_ref().ok();
+        let cell = |value: &dyn Fn(&measure::Gain) -> Option<f64>| figure(gain.and_then(value));
         table.rows.push(vec![
             row.preset.clone(),
             row.stage.name().to_owned(),
-            figure(Some(row.difference.pressure)),
-            figure(Some(row.difference.film)),
-            figure(row.difference.life),
+            cell(&|gain| Some(gain.difference.pressure)),
+            cell(&|gain| Some(gain.difference.film)),
+            cell(&|gain| gain.difference.life),
             figure(Some(allowed)),
-            why.to_owned(),
-            figure(Some(row.time_ratio)),
-            figure(Some(row.work_ratio)),
-            figure(Some(row.transform_ratio)),
+            match &row.found {
+                Ok(_) => why.to_owned(),
+                Err(reason) => format!("the run with it ended: {reason}"),
+            },
+            cell(&|gain| Some(gain.time_ratio)),
+            cell(&|gain| Some(gain.work_ratio)),
+            cell(&|gain| Some(gain.transform_ratio)),
         ]);
     }
     table
@@ -154,7 +164,7 @@ pub fn pruning_table(rows: &[PruningRow]) -> Table {
 /// The whole report as Markdown: the table, and each stage over all scenes.
 pub fn pruning_text(rows: &[PruningRow]) -> String {
     let mut text = String::from(
-        "Relative differences of the last step's fields and of life, with the stage against without; times and work of \
+        "Relative differences of the last step's fields and of life's stress factor, with the stage against without; times and work of \
          the whole run, start-up included.\n\n",
     );
     text.push_str(&pruning_table(rows).markdown());
@@ -162,15 +172,19 @@ pub fn pruning_text(rows: &[PruningRow]) -> String {
         "\n| stage | scenes | greatest difference | allowed | time, with/without |\n|---|---|---|---|---|\n",
     );
     for stage in Forced::ALL {
-        let of_stage: Vec<&PruningRow> = rows.iter().filter(|row| row.stage == stage).collect();
+        let of_stage: Vec<&Gain> = rows
+            .iter()
+            .filter(|row| row.stage == stage)
+            .filter_map(|row| row.found.as_ref().ok())
+            .collect();
         if of_stage.is_empty() {
             continue;
         }
         let greatest = of_stage
             .iter()
-            .map(|row| row.difference.greatest())
+            .map(|gain| gain.difference.greatest())
             .fold(0.0, f64::max);
-        let ratios = || of_stage.iter().map(|row| row.time_ratio);
+        let ratios = || of_stage.iter().map(|gain| gain.time_ratio);
         let _ = writeln!(
             text,
             "| {} | {} | {} | {} | {} to {} |",

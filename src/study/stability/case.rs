@@ -67,7 +67,7 @@ fn one() -> f64 {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Set {
+struct File {
     scene: String,
     set: Vec<String>,
     case: Vec<Case>,
@@ -132,11 +132,11 @@ impl CaseSet {
     /// # Errors
     /// What is wrong with the data.
     pub fn shipped() -> Result<Self, String> {
-        let set: Set = toml::from_str(CASES).map_err(|error| error.to_string())?;
+        let file: File = toml::from_str(CASES).map_err(|error| error.to_string())?;
         Ok(Self {
-            scene: set.scene,
-            set: set.set,
-            cases: set.case,
+            scene: file.scene,
+            set: file.set,
+            cases: file.case,
         })
     }
 

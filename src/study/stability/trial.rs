@@ -244,20 +244,18 @@ impl Watch {
             .min(f64::from(least(&frame.pressure_pa)) / scale);
         let h_min_nm = 1e9 * f64::from(least(&frame.film_m));
         trial.h_min_nm = trial.h_min_nm.min(h_min_nm);
-        if !metrics.converged {
-            self.unconverged += 1;
-        } else {
+        if metrics.converged {
             let deepest = self.overlap.map_or(OVERLAP_NM, |overlap| overlap.depth_nm);
             if -h_min_nm > deepest {
                 self.overlap = Overlap::of(frame);
             }
             let tolerance = ready.scene.numerics.tolerance;
             if self.wrong.is_none() && metrics.residual > tolerance {
-                self.wrong = Some(format!(
-                    "a converged step of residual {:.1e}",
-                    metrics.residual
-                ));
+                let residual = metrics.residual;
+                self.wrong = Some(format!("a converged step of residual {residual:.1e}"));
             }
+        } else {
+            self.unconverged += 1;
         }
         let p_max = metrics.p_max_pa / scale;
         let resting = [

@@ -75,7 +75,7 @@ impl Keys<'_> {
             .as_array()
             .and_then(|list| list.iter().map(number).collect());
         match list.as_deref() {
-            Some([one, two]) if [one, two].iter().all(|v| (range.0..=range.1).contains(v)) => {
+            Some([one, two]) if [*one, *two].iter().all(|v| (range.0..=range.1).contains(v)) => {
                 Ok(Some([*one, *two]))
             }
             _ => Err(SceneError::value(

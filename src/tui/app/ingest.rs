@@ -4,8 +4,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::physics::estimate::{Anchor, OperatingPoint};
-use crate::sim::{Frame, Stage};
-use crate::tui::app::{App, Effect, LifeSample, Ranges};
+use crate::sim::{Frame, MaterialPoint, Stage};
+use crate::tui::app::held::SAME_S;
+use crate::tui::app::{App, Effect, LifePoint, LifeSample, Ranges};
 use crate::tui::dial::{Dial, knob_target, knob_value};
 use crate::tui::units::nice_ceiling;
 
@@ -36,15 +37,27 @@ impl App {
         }
         self.take_knobs(&frame);
         grow(&mut self.ranges, &frame);
-        if let Some(point) = &frame.material_point {
+        if let Some(point) = &frame.material_point
+            && self.replay.is_none()
+        {
             self.trace.push(point, frame.a_m);
         }
         self.take_rate(&frame);
         self.take_life(&frame);
-        let passages = frame.passages;
         self.keep(frame);
         self.refresh_estimate();
+        let passages = self.passages();
         self.tour_on(passages)
+    }
+
+    /// Takes the material points of all steps since the last frame: the screen is slower than the run, and a
+    /// crossing that is sampled by the screen would lose its teeth.
+    pub fn take_points(&mut self, points: &[MaterialPoint], a_m: f64) {
+        if self.replay.is_none() {
+            for point in points {
+                self.trace.push(point, a_m);
+            }
+        }
     }
 
     fn take_knobs(&mut self, frame: &Frame) {
@@ -95,7 +108,20 @@ impl App {
             amplitude_1_m: metrics.amplitude_1_m,
             amplitude_2_m: metrics.amplitude_2_m,
         };
-        self.keep_settled(at, life.life_relative);
+        self.keep_settled(
+            [
+                at.load_n,
+                at.amplitude_1_m,
+                at.amplitude_2_m,
+                metrics.entrainment_m_s,
+            ],
+            LifePoint {
+                slide_roll: at.slide_roll,
+                life_relative: life.life_relative,
+                band: [life.life_relative_low, life.life_relative_high],
+                friction: metrics.friction_coefficient,
+            },
+        );
         self.anchor = Some(Anchor {
             at,
             cycle_factor: life.cycle_factor,
@@ -104,23 +130,27 @@ impl App {
         });
     }
 
-    /// The curve of life against S holds for one load, one roughness; another begins another.
-    fn keep_settled(&mut self, at: OperatingPoint, life_relative: f64) {
-        let close = |one: f64, other: f64| (one - other).abs() <= 1e-3 * one.abs().max(1e-12);
-        let same = self.anchor.is_none_or(|anchor| {
-            close(anchor.at.load_n, at.load_n)
-                && close(anchor.at.amplitude_1_m, at.amplitude_1_m)
-                && close(anchor.at.amplitude_2_m, at.amplitude_2_m)
-        });
+    /// The curve of life against S holds for one load, roughness and speed; others begin another.
+    fn keep_settled(&mut self, at: [f64; 4], point: LifePoint) {
+        let close = |(one, other): (f64, f64)| (one - other).abs() <= 1e-3 * one.abs().max(1e-12);
+        let same = self
+            .settled_at
+            .is_some_and(|old| old.into_iter().zip(at).all(close));
         if !same {
             self.settled.clear();
+            self.settled_at = Some(at);
         }
+        self.keep_point(point);
+    }
+
+    /// The newer of two points at the same S stays.
+    pub(super) fn keep_point(&mut self, point: LifePoint) {
         self.settled
-            .retain(|(slide_roll, _)| (slide_roll - at.slide_roll).abs() > 0.01);
+            .retain(|old| (old.slide_roll - point.slide_roll).abs() > SAME_S);
         if self.settled.len() == SETTLED {
             self.settled.remove(0);
         }
-        self.settled.push((at.slide_roll, life_relative));
+        self.settled.push(point);
     }
 
     fn keep(&mut self, frame: Arc<Frame>) {
@@ -137,7 +167,7 @@ impl App {
         }
     }
 
-    fn tour_on(&mut self, passages: f64) -> Vec<Effect> {
+    pub(super) fn tour_on(&mut self, passages: f64) -> Vec<Effect> {
         let Some(tour) = self.tour else {
             return Vec::new();
         };

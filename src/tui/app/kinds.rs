@@ -8,6 +8,8 @@ pub enum MapKind {
     Pressure,
     /// Film thickness.
     Film,
+    /// Film thickness as white light shows it between glass and steel.
+    Fringes,
     /// Contact spots over the pressure.
     Contact,
     /// Sum of both roughnesses.
@@ -18,9 +20,10 @@ pub enum MapKind {
 
 impl MapKind {
     /// All maps in the order of the key.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Pressure,
         Self::Film,
+        Self::Fringes,
         Self::Contact,
         Self::Roughness,
         Self::Stress,
@@ -31,6 +34,7 @@ impl MapKind {
         match self {
             Self::Pressure => "pressure",
             Self::Film => "film",
+            Self::Fringes => "interferogram",
             Self::Contact => "contact spots",
             Self::Roughness => "roughness",
             Self::Stress => "stress below",
@@ -61,6 +65,47 @@ pub enum PointQuantity {
     Pressure,
     /// Orthogonal shear at its depth.
     Shear,
+    /// Effective stress at its depth.
+    Effective,
+}
+
+impl PointQuantity {
+    pub(super) fn next(self) -> Self {
+        match self {
+            Self::Pressure => Self::Shear,
+            Self::Shear => Self::Effective,
+            Self::Effective => Self::Pressure,
+        }
+    }
+}
+
+/// What is drawn against S.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Curve {
+    /// Relative life, logarithmic.
+    #[default]
+    Life,
+    /// Friction coefficient.
+    Friction,
+}
+
+impl Curve {
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::Life => Self::Friction,
+            Self::Friction => Self::Life,
+        }
+    }
+}
+
+/// Whether a passage that repeats is replayed of itself, which leaves the cores to the sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AutoReplay {
+    /// It is.
+    #[default]
+    On,
+    /// The user went back to the live run; until a knob is turned.
+    Off,
 }
 
 /// What lies over the screen.
@@ -73,6 +118,8 @@ pub enum Overlay {
     Help,
     /// The plan.
     Plan,
+    /// Another scene, and what of it only a new run can change.
+    Scene,
 }
 
 /// Whether the run steps.

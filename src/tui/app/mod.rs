@@ -1,110 +1,33 @@
 //! The screen's state, and the reducer: (state, action) → state and effects. Nothing here draws,
 //! waits or reads a clock, so every screen can be made in a test.
 
+mod data;
+mod held;
 mod ingest;
 mod kinds;
 mod reduce;
+mod staged;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
 use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, OperatingPoint};
-use crate::run::Command;
+use crate::run::Settled;
 use crate::scene::Scene;
 use crate::sim::{Frame, Knob, LifeEstimate};
+use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
 use crate::tui::estimate::{basis, life_at_pressure};
-use crate::tui::lessons::TourState;
+use crate::tui::lessons::{Staging, TourState};
+use crate::tui::replay::Replay;
 use crate::tui::theme::Theme;
-use crate::tui::trace::Trace;
+use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
-use crate::tui::wiring::{Health, LeftOut, RunStatus};
-pub use kinds::{Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
-
-/// What a key does outside of the screen and the run, where the program offers it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ErrandKind {
-    /// Switches recording on and off.
-    Record,
-    /// Opens the viewer.
-    View,
-    /// Saves the scene.
-    Save,
-}
-
-/// What the app asks of the loop around it.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Effect {
-    /// A command for the run.
-    Send(Command),
-    /// An errand.
-    Errand(ErrandKind),
-    /// To the shell.
-    Suspend,
-    /// The end.
-    Quit,
-}
-
-/// A state to compare with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pinned {
-    /// Relative life (same-load reference).
-    pub life_relative: f64,
-    /// Life on the scale of the scene's load: what is compared.
-    pub life_comparable: f64,
-    /// Which number was pinned.
-    pub leading: Leading,
-    /// S.
-    pub slide_roll: f64,
-    /// Hertz pressure, Pa.
-    pub p_hertz_pa: f64,
-}
-
-/// The upper ends of the colour bars and axes; they only grow, so that frames can be compared.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Ranges {
-    /// Pressure, Pa.
-    pub pressure_pa: f64,
-    /// Film, m.
-    pub film_m: f64,
-    /// Height of roughness to either side, m.
-    pub height_m: f64,
-    /// Effective stress, Pa.
-    pub stress_pa: f64,
-    /// Shear of the material point to either side, Pa.
-    pub shear_pa: f64,
-}
-
-/// One point of the life's history.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LifeSample {
-    /// Passages travelled.
-    pub passages: f64,
-    /// Relative life.
-    pub life_relative: f64,
-}
-
-/// What an app is made of; plain data, so that a test can make it.
-#[derive(Debug, Clone)]
-pub struct Setup {
-    /// The scene that runs.
-    pub scene: Arc<Scene>,
-    /// Load, N; of a line N/m.
-    pub load_n: f64,
-    /// Hertz half-width along x at that load, m.
-    pub half_width_m: f64,
-    /// Hertz pressure at that load, Pa.
-    pub p_hertz_pa: f64,
-    /// The plan as text.
-    pub plan_text: String,
-    /// What it leaves out.
-    pub left_out: Vec<LeftOut>,
-    /// Errands that are offered.
-    pub errands: Vec<ErrandKind>,
-    /// Looks.
-    pub theme: Theme,
-}
+use crate::tui::wiring::{Health, RunStatus};
+pub use data::{Effect, ErrandKind, LifePoint, LifeSample, Pinned, Ranges, Setup};
+pub use held::PointNow;
+pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
 /// The screen's state.
 #[derive(Debug, Clone)]
@@ -117,6 +40,7 @@ pub struct App {
     pub(crate) map: MapKind,
     pub(crate) zoom: Zoom,
     pub(crate) quantity: PointQuantity,
+    pub(crate) curve: Curve,
     pub(crate) overlay: Overlay,
     /// Rows that the plan has been moved up.
     pub(crate) scroll: u16,
@@ -127,9 +51,26 @@ pub struct App {
     pub(crate) ranges: Ranges,
     pub(crate) trace: Trace,
     pub(crate) history: VecDeque<LifeSample>,
-    /// Settled lives at other S, load and roughness as now.
-    pub(crate) settled: Vec<(f64, f64)>,
+    /// Settled lives at other S, all else as now.
+    pub(crate) settled: Vec<LifePoint>,
+    /// All else: load, roughness and speed for which they hold.
+    settled_at: Option<[f64; 4]>,
+    /// Values of S done and in all, while a sweep is under way.
+    pub(crate) sweep: Option<(usize, usize)>,
+    /// One period of the passage, once it repeats.
+    held: Option<Arc<Settled>>,
+    pub(crate) replay: Option<Replay>,
+    /// Whether a passage that repeats is replayed without being asked.
+    auto_replay: AutoReplay,
+    /// The material point that was chosen, or that a replay began with.
+    pub(crate) point: Option<Chosen>,
     pub(crate) tour: Option<TourState>,
+    /// The lesson's scene that runs; `None`: the user's own.
+    staged: Option<Staging>,
+    /// The user's own scene, for the end of the tour.
+    own_scene: Arc<Scene>,
+    /// A scene in the making.
+    pub(crate) draft: Option<Draft>,
     pub(crate) estimate: Estimate,
     /// Whether the estimate has a simulated state to scale from.
     pub(crate) anchor: Option<Anchor>,
@@ -160,6 +101,7 @@ impl App {
             map: MapKind::default(),
             zoom: Zoom::default(),
             quantity: PointQuantity::default(),
+            curve: Curve::default(),
             overlay: Overlay::default(),
             scroll: 0,
             pace: Pace::default(),
@@ -170,7 +112,16 @@ impl App {
             trace: Trace::default(),
             history: VecDeque::new(),
             settled: Vec::new(),
+            settled_at: None,
+            sweep: None,
+            held: None,
+            replay: None,
+            auto_replay: AutoReplay::default(),
+            point: None,
             tour: None,
+            staged: None,
+            own_scene: Arc::clone(&setup.scene),
+            draft: None,
             estimate,
             anchor: None,
             basis,
@@ -206,8 +157,11 @@ impl App {
         self.message = Some((text.into(), self.now + Duration::from_secs(5)));
     }
 
-    /// The frame on the screen: the newest, or one of the past.
+    /// The frame on the screen: the newest, one of the past, or one of the orbit that is replayed.
     pub fn frame(&self) -> Option<&Arc<Frame>> {
+        if let Some(replay) = &self.replay {
+            return Some(replay.frame());
+        }
         let place = self.past.len().checked_sub(1 + self.back)?;
         self.past.get(place)
     }
@@ -294,11 +248,16 @@ impl App {
 
     /// The scene with the knobs where they are going, as TOML.
     pub fn scene_toml(&self) -> String {
+        self.scene_now().to_toml()
+    }
+
+    /// The scene with the knobs where they are going.
+    fn scene_now(&self) -> Scene {
         let mut scene = (*self.setup.scene).clone();
         for dial in &self.dials {
             put(&mut scene, dial);
         }
-        scene.to_toml()
+        scene
     }
 
     fn refresh_estimate(&mut self) {

@@ -2,13 +2,15 @@
 
 use crate::run::Command;
 use crate::tui::action::{Action, KEYS};
-use crate::tui::app::{App, Effect, ErrandKind, Overlay, Pace, Pinned, PointQuantity, Zoom};
+use crate::tui::app::{App, Effect, ErrandKind, Overlay, Pace, Pinned, Zoom};
 use crate::tui::dial::Life;
-use crate::tui::lessons::TourState;
 
 impl App {
     /// Does what an action asks, and says what the loop has to do about it.
     pub fn apply(&mut self, action: Action) -> Vec<Effect> {
+        if let Some(effects) = self.draft_takes(action) {
+            return effects;
+        }
         match action {
             Action::Quit => vec![Effect::Quit],
             Action::Suspend => vec![Effect::Suspend],
@@ -33,6 +35,11 @@ impl App {
             Action::Record => self.errand(ErrandKind::Record),
             Action::View => self.errand(ErrandKind::View),
             Action::Save => self.errand(ErrandKind::Save),
+            Action::Replay => self.toggle_replay(),
+            Action::PointBody => self.other_body(),
+            Action::PointDepth(by) => self.point_depth(by),
+            Action::MovePoint(quarters) => self.move_point(quarters),
+            Action::PutPoint(x) => self.put_point(x),
             Action::Tour => self.toggle_tour(),
             Action::NextLesson => self.next_lesson(),
             shown => {
@@ -56,16 +63,14 @@ impl App {
             Action::Probe(x, y) => self.probe = Some((x, y)),
             Action::Pin => self.pin(),
             Action::Unpin => self.pinned = None,
-            Action::PointQuantity => {
-                self.quantity = match self.quantity {
-                    PointQuantity::Pressure => PointQuantity::Shear,
-                    PointQuantity::Shear => PointQuantity::Pressure,
-                }
-            }
+            Action::PointQuantity => self.quantity = self.quantity.next(),
+            Action::ReplayFaster(times) => self.replay_faster(times),
+            Action::Curve => self.curve = self.curve.other(),
             Action::Units => self.units = self.units.next(),
             Action::Contrast => self.theme.next_contrast(),
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
+            Action::Scene => self.toggle_draft(),
             Action::Close => self.close(),
             _ => {}
         }
@@ -75,7 +80,7 @@ impl App {
     fn scroll(&mut self, action: Action) {
         let last = match self.overlay {
             Overlay::Plan => self.setup.plan_text.lines().count() + self.setup.left_out.len(),
-            Overlay::Help | Overlay::None => KEYS.len(),
+            Overlay::Help | Overlay::Scene | Overlay::None => KEYS.len(),
         };
         self.scroll = if action == Action::ChooseNext {
             (self.scroll + 1).min(last as u16)
@@ -129,10 +134,15 @@ impl App {
         self.set_at[place] = Some(self.now);
         self.back = 0;
         self.refresh_estimate();
-        vec![Effect::Send(command)]
+        let mut effects = vec![Effect::Send(command)];
+        effects.extend(self.unsettle());
+        effects
     }
 
     fn toggle_pause(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(0) {
+            return Vec::new();
+        }
         self.pace = match self.pace {
             Pace::Running => Pace::Paused,
             Pace::Paused => Pace::Running,
@@ -142,6 +152,9 @@ impl App {
     }
 
     fn step_forward(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(1) {
+            return Vec::new();
+        }
         if self.back > 0 {
             self.back -= 1;
             return Vec::new();
@@ -152,12 +165,15 @@ impl App {
     }
 
     fn step_back(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(-1) {
+            return Vec::new();
+        }
         let effects = self.paused_first();
         self.back = (self.back + 1).min(self.past.len().saturating_sub(1));
         effects
     }
 
-    fn paused_first(&mut self) -> Vec<Effect> {
+    pub(super) fn paused_first(&mut self) -> Vec<Effect> {
         match self.pace {
             Pace::Paused => Vec::new(),
             Pace::Running => {
@@ -177,6 +193,7 @@ impl App {
                 "no viewer is at hand; `asperity view FILE.rrd` says how to get one"
             }
             ErrandKind::Save => "this scene cannot be saved from here",
+            ErrandKind::Rebuild => "this run cannot be changed for another from here",
         });
         Vec::new()
     }
@@ -198,6 +215,7 @@ impl App {
 
     fn toggle(&mut self, overlay: Overlay) {
         self.scroll = 0;
+        self.draft = None;
         self.overlay = if self.overlay == overlay {
             Overlay::None
         } else {
@@ -213,47 +231,7 @@ impl App {
             self.back = 0;
         } else {
             self.overlay = Overlay::None;
+            self.draft = None;
         }
-    }
-
-    fn toggle_tour(&mut self) -> Vec<Effect> {
-        if self.tour.take().is_some() {
-            return self.apply(Action::HomeAll);
-        }
-        self.overlay = Overlay::None;
-        self.begin_lesson(0)
-    }
-
-    fn next_lesson(&mut self) -> Vec<Effect> {
-        self.tour
-            .map_or_else(Vec::new, |tour| self.begin_lesson(tour.lesson + 1))
-    }
-
-    fn begin_lesson(&mut self, lesson: usize) -> Vec<Effect> {
-        let passages = self.frame().map_or(0.0, |frame| frame.passages);
-        self.tour = TourState::begin(lesson, passages);
-        let mut effects = self.apply(Action::HomeAll);
-        if let Some(tour) = self.tour {
-            effects.extend(self.play(tour));
-        } else {
-            self.say("that was the last lesson");
-        }
-        effects
-    }
-
-    /// Sets what a beat of a lesson sets.
-    pub(super) fn play(&mut self, tour: TourState) -> Vec<Effect> {
-        let beat = tour.beat();
-        if let Some(map) = beat.map {
-            self.map = map;
-        }
-        let mut effects = Vec::new();
-        for (knob, setting) in beat.sets {
-            if let Some(place) = self.dials.iter().position(|dial| dial.answers(*knob)) {
-                let value = setting.value(&self.dials[place]);
-                effects.extend(self.set(place, value));
-            }
-        }
-        effects
     }
 }

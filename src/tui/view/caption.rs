@@ -6,8 +6,9 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::app::App;
-use crate::tui::lessons::{Beat, LESSONS};
+use crate::tui::lessons::{Beat, Claim, LESSONS};
 use crate::tui::theme::Role;
+use crate::tui::units::sig_or_dash;
 use crate::tui::view::{ascii_text, put, put_right};
 
 /// Words to show.
@@ -15,6 +16,8 @@ pub(super) struct Caption<'a> {
     title: String,
     text: &'a str,
     hint: &'static str,
+    /// The numbers that the words speak of, as they are now.
+    figures: String,
     /// Letters of the longest text of a lesson, so that the screen keeps its shape from beat to beat.
     longest: usize,
 }
@@ -42,6 +45,7 @@ pub(super) fn of(app: &App) -> Option<Caption<'_>> {
             ),
             text: tour.beat().caption,
             hint: " n next  t ends ",
+            figures: figures(app, tour.beat().claims),
             longest: longest(tour.lesson().beats),
         });
     }
@@ -49,8 +53,21 @@ pub(super) fn of(app: &App) -> Option<Caption<'_>> {
         title: "the scene says".to_owned(),
         text,
         hint: "",
+        figures: String::new(),
         longest: text.chars().count(),
     })
+}
+
+/// `n₁ 14.0  counted₁ 13.1`.
+fn figures(app: &App, claims: &[Claim]) -> String {
+    let Some(frame) = app.frame() else {
+        return String::new();
+    };
+    let shown = |claim: &Claim| {
+        let value = claim.figure.of(frame);
+        format!("   {} {}", claim.figure.name(), sig_or_dash(value, 3))
+    };
+    claims.iter().map(shown).collect()
 }
 
 fn longest(beats: &[Beat]) -> usize {
@@ -92,7 +109,11 @@ pub(super) fn render(app: &App, caption: &Caption<'_>, area: Rect, buffer: &mut 
         width: text.width.saturating_sub(hint.width() as u16),
         ..text
     };
-    put(beside, 0, &Line::from(title), buffer);
+    let figures = Span::styled(
+        ascii_text(theme, &caption.figures),
+        theme.style(Role::Strong),
+    );
+    put(beside, 0, &Line::from(vec![title, figures]), buffer);
     put_right(text, 0, &hint, buffer);
     let below = Rect {
         y: text.y + 1,

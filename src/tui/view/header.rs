@@ -43,6 +43,14 @@ fn state(app: &App) -> (&'static str, String, Role) {
     if back > 0 {
         return (theme.pick("◀ ", "< "), format!("{back} back"), Role::Warn);
     }
+    if app.replay.is_some() && app.status.health == Health::Running {
+        let word = if app.replay_stands() {
+            "orbit, held"
+        } else {
+            "orbit"
+        };
+        return (theme.pick("↻ ", "@ "), word.into(), Role::Good);
+    }
     match (&app.status.health, app.pace) {
         (Health::Failed(_), _) => (theme.pick("✖ ", "! "), "failed".into(), Role::Bad),
         (Health::Finished, _) => (theme.pick("■ ", "# "), "done".into(), Role::Good),

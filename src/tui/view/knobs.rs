@@ -9,9 +9,10 @@ use crate::scene::ContactKind;
 use crate::sim::Knob;
 use crate::tui::action::Action;
 use crate::tui::app::App;
+use crate::tui::choice::Choice;
 use crate::tui::dial::{Dial, Life};
 use crate::tui::theme::Role;
-use crate::tui::units::{sig, tick};
+use crate::tui::units::{sig, sig_or_dash, tick};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
@@ -69,7 +70,10 @@ fn fraction(track: Rect, column: u16) -> f64 {
 }
 
 fn rows_each(areas: &Areas) -> u16 {
-    (inside(areas, areas.knobs).height / 5).clamp(2, 4)
+    // Three rows are enough; the fourth is air, where there is plenty.
+    let height = inside(areas, areas.knobs).height;
+    let most = if height >= 44 { 4 } else { 3 };
+    (height / 5).clamp(2, most)
 }
 
 /// The rows of a knob, inside the panel's frame.
@@ -314,6 +318,7 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
         put_right(area, row, &Line::styled(value, theme.style(*role)), buffer);
     }
     let below = lines.len() as u16 + 1;
+    let below = below + fixed(app, area, below, buffer);
     for (row, (name, meaning)) in SYMBOLS.iter().enumerate() {
         let line = Line::from(vec![
             Span::styled(
@@ -324,6 +329,39 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
         ]);
         put(area, below + row as u16, &line, buffer);
     }
+}
+
+/// What only a new run changes (`e`); the rows used.
+fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
+    let theme = app.theme;
+    let scene = &app.setup.scene;
+    let shown = |choice: Choice| choice.of_scene(scene, app.units);
+    let lines = [
+        ("lay 1", shown(Choice::Lay(0)), Role::Body1),
+        ("lay 2", shown(Choice::Lay(1)), Role::Body2),
+        ("waves W/a", waves_over_a(app), Role::Text),
+        ("oil", shown(Choice::Viscosity), Role::Film),
+    ];
+    if area.height < from + lines.len() as u16 + SYMBOLS.len() as u16 {
+        return 0;
+    }
+    for (row, (name, value, role)) in (from..).zip(&lines) {
+        let name = Line::from(vec![
+            Span::styled("e ", theme.style(Role::Key)),
+            Span::styled(*name, theme.style(Role::Dim)),
+        ]);
+        put(area, row, &name, buffer);
+        let value = Line::styled(ascii_text(theme, value), theme.style(*role));
+        put_right(area, row, &value, buffer);
+    }
+    lines.len() as u16 + 1
+}
+
+fn waves_over_a(app: &App) -> String {
+    let waves = [0, 1].map(|body| Choice::wave_m(&app.setup.scene, body));
+    let over = |wave: Option<f64>| sig_or_dash(wave.map(|w| w / app.setup.half_width_m), 2);
+    let [one, two] = waves.map(over);
+    format!("{one}, {two}")
 }
 
 /// What the letters on the screen mean; the help screen says it too.

@@ -5,8 +5,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use crate::tui::app::App;
+use crate::tui::app::{App, Curve};
 use crate::tui::theme::Role;
+use crate::tui::units::{nice_ceiling, sig};
 use crate::tui::view::chart::{Chart, Pen};
 use crate::tui::view::{ascii_text, put, put_right};
 
@@ -49,23 +50,98 @@ fn pen(app: &App, role: Role, letter: char) -> Pen {
 
 /// Formula over the whole range of S; dots where the simulation settled.
 fn against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
+    match app.curve {
+        Curve::Life => life_against_slide_roll(app, area, buffer),
+        Curve::Friction => friction_against_slide_roll(app, area, buffer),
+    }
+}
+
+/// The traction curve: no formula, only what was simulated.
+fn friction_against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let heading = Line::from(vec![
-        Span::styled("life against S ", theme.style(Role::Title)),
-        Span::styled(theme.pick("┄ ", ". "), theme.style(Role::Formula)),
-        Span::styled("formula ", theme.style(Role::Dim)),
+        Span::styled("y ", theme.style(Role::Key)),
+        Span::styled("friction against S ", theme.style(Role::Title)),
         Span::styled(theme.pick("• ", "o "), theme.style(Role::Good)),
-        Span::styled("simulated", theme.style(Role::Dim)),
+        Span::styled("simulated ", theme.style(Role::Dim)),
     ]);
     put(area, 0, &heading, buffer);
+    sweeping(app, area, &heading, buffer);
     let dial = &app.dials[0];
     let range = [dial.min, dial.max];
-    let plot = Rect {
+    let plot = plot_of(area);
+    let most = app.settled.iter().map(|point| point.friction);
+    let most = nice_ceiling(most.fold(0.01, f64::max));
+    let mut chart = Chart::new(plot, range, [0.0, most]);
+    chart.upright(dial.target, pen(app, Role::Dim, ':'));
+    chart.render(theme.is_ascii(), buffer);
+    for point in &app.settled {
+        let along = (point.slide_roll - range[0]) / (range[1] - range[0]);
+        let down = 1.0 - point.friction / most;
+        if plot.is_empty() || !(0.0..=1.0).contains(&along) || !(0.0..=1.0).contains(&down) {
+            continue;
+        }
+        let at = (
+            plot.x + (along * f64::from(plot.width - 1)).round() as u16,
+            plot.y + (down * f64::from(plot.height - 1)).round() as u16,
+        );
+        if let Some(cell) = buffer.cell_mut(at) {
+            cell.set_symbol(theme.pick("•", "o"))
+                .set_style(theme.style(Role::Good));
+        }
+    }
+    foot(app, plot, range, buffer);
+    let dim = theme.style(Role::Dim);
+    let axis = Rect {
+        y: plot.y,
+        width: 4,
+        height: plot.height,
+        ..area
+    };
+    put_right(axis, 0, &Line::styled(sig(most, 1), dim), buffer);
+    let last = plot.height.saturating_sub(1);
+    put_right(axis, last, &Line::styled("0", dim), buffer);
+}
+
+/// How far a sweep is, in the corner or below it.
+fn sweeping(app: &App, area: Rect, heading: &Line<'_>, buffer: &mut Buffer) {
+    let theme = app.theme;
+    if let Some((done, all)) = app.sweep {
+        let text = format!("{}{done}/{all}", theme.pick("⟳ ", "@ "));
+        let line = Line::styled(text, theme.style(Role::Warn));
+        let room = (heading.width() + line.width()) as u16 <= area.width;
+        let corner = Rect {
+            y: area.y + u16::from(!room),
+            ..area
+        };
+        put_right(corner, 0, &line, buffer);
+    }
+}
+
+fn plot_of(area: Rect) -> Rect {
+    Rect {
         x: area.x + 5,
         y: area.y + 1,
         width: area.width.saturating_sub(5),
         height: area.height.saturating_sub(2),
-    };
+    }
+}
+
+fn life_against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let heading = Line::from(vec![
+        Span::styled("y ", theme.style(Role::Key)),
+        Span::styled("life against S ", theme.style(Role::Title)),
+        Span::styled(theme.pick("┄ ", ". "), theme.style(Role::Formula)),
+        Span::styled("formula ", theme.style(Role::Dim)),
+        Span::styled(theme.pick("• ", "o "), theme.style(Role::Good)),
+        Span::styled("simulated ", theme.style(Role::Dim)),
+    ]);
+    put(area, 0, &heading, buffer);
+    sweeping(app, area, &heading, buffer);
+    let dial = &app.dials[0];
+    let range = [dial.min, dial.max];
+    let plot = plot_of(area);
     let fine = usize::from(plot.width) * 2;
     let at = |i: usize| range[0] + (range[1] - range[0]) * i as f64 / fine.max(1) as f64;
     let formula: Vec<(f64, f64)> = (0..=fine)
@@ -78,13 +154,18 @@ fn against_slide_roll(app: &App, area: Rect, buffer: &mut Buffer) {
     let settled: Vec<(f64, f64)> = app
         .settled
         .iter()
-        .map(|(slide_roll, life)| (*slide_roll, life.log10()))
+        .map(|point| (point.slide_roll, point.life_relative.log10()))
         .collect();
     let known = formula.iter().chain(&settled).map(|(_, decade)| *decade);
     let decades = decades(known);
     let mut chart = Chart::new(plot, range, decades);
     chart.upright(dial.target, pen(app, Role::Dim, ':'));
     chart.line(formula, pen(app, Role::Formula, '.'));
+    for point in &app.settled {
+        // The band: an upright bar through the point.
+        let ends = point.band.map(|life| (point.slide_roll, life.log10()));
+        chart.line(ends, pen(app, Role::Good, '|'));
+    }
     chart.render(theme.is_ascii(), buffer);
     let spot =
         |(slide_roll, decade): (f64, f64), symbol: &'static str, role, buffer: &mut Buffer| {
@@ -139,6 +220,12 @@ fn labels(
         &Line::styled(power(decades[0]), dim),
         buffer,
     );
+    foot(app, plot, range, buffer);
+}
+
+/// Ends and middle of the axis of S.
+fn foot(app: &App, plot: Rect, range: [f64; 2], buffer: &mut Buffer) {
+    let dim = app.theme.style(Role::Dim);
     let foot = Rect {
         y: plot.bottom(),
         height: 1,

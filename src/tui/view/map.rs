@@ -188,7 +188,7 @@ fn image_area(window: &Window, picture: Rect) -> Rect {
 
 /// Where the material point is: on the centre line, or at its depth.
 fn marker(app: &App, frame: &Frame, window: &Window, image: Rect, buffer: &mut Buffer) {
-    let Some(point) = &frame.material_point else {
+    let Some(point) = app.point_now() else {
         return;
     };
     let y = if app.map == MapKind::Stress {
@@ -196,7 +196,14 @@ fn marker(app: &App, frame: &Frame, window: &Window, image: Rect, buffer: &mut B
     } else {
         0.0
     };
-    place(app, window, image, (point.x_m / frame.a_m, y), "◆", buffer);
+    place(
+        app,
+        window,
+        image,
+        (point.sample.x_m / frame.a_m, y),
+        "◆",
+        buffer,
+    );
 }
 
 fn place(

@@ -149,6 +149,7 @@ pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
         (Some(reason), _) => overlay::fault(app, reason, body, buffer),
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
+        (None, Overlay::Scene) => overlay::scene(app, body, buffer),
         (None, Overlay::None) => {}
     }
 }
@@ -170,10 +171,10 @@ pub fn pointed(app: &App, screen: Rect, event: &MouseEvent) -> Option<Action> {
     match event.kind {
         MouseEventKind::Down(MouseButton::Left) => knobs::pressed(app, &areas, at)
             .or_else(|| map::pressed(app, &areas, at))
-            .or_else(|| areas.point.contains(at).then_some(Action::PointQuantity)),
-        MouseEventKind::Drag(MouseButton::Left) => {
-            knobs::dragged(app, &areas, at).or_else(|| map::pressed(app, &areas, at))
-        }
+            .or_else(|| point::pressed(&areas, at)),
+        MouseEventKind::Drag(MouseButton::Left) => knobs::dragged(app, &areas, at)
+            .or_else(|| map::pressed(app, &areas, at))
+            .or_else(|| point::dragged(&areas, at)),
         MouseEventKind::Down(MouseButton::Right) => Some(Action::Close),
         MouseEventKind::ScrollUp => wheel(app, &areas, at, 1),
         MouseEventKind::ScrollDown => wheel(app, &areas, at, -1),
@@ -299,6 +300,9 @@ fn ascii_text(theme: Theme, text: &str) -> String {
             '±' => plain.push_str("+-"),
             '·' => plain.push('.'),
             '…' => plain.push_str("..."),
+            '⏎' => plain.push_str("CR"),
+            '◂' => plain.push('<'),
+            '▸' => plain.push('>'),
             other if other.is_ascii() => plain.push(other),
             _ => plain.push('?'),
         }

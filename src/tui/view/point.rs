@@ -2,22 +2,23 @@
 //! that were counted. At S = 0 one cycle, at S = 0.5 a comb.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
 use crate::sim::Frame;
-use crate::tui::app::{App, PointQuantity};
+use crate::tui::action::Action;
+use crate::tui::app::{App, PointNow, PointQuantity};
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
 use crate::tui::units::{sig, sig_or_dash, tick};
 use crate::tui::view::chart::{Chart, Pen};
-use crate::tui::view::{Areas, Density, ascii_text, panel, put, put_right, title};
+use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
     let inner = panel(theme, areas, areas.point, heading(app), buffer);
     let Some(frame) = app.frame() else { return };
-    let Some(point) = &frame.material_point else {
+    let Some(point) = app.point_now() else {
         put(
             inner,
             0,
@@ -26,23 +27,14 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         );
         return;
     };
-    let words = if areas.density == Density::Full {
-        26
-    } else {
-        20
-    };
+    let words = words(areas);
     let left = Rect {
         width: words.min(inner.width),
         ..inner
     };
-    numbers(app, frame, left, buffer);
-    let plot = Rect {
-        x: left.right() + 6,
-        width: inner.width.saturating_sub(words + 7),
-        height: inner.height.saturating_sub(1),
-        ..inner
-    };
-    if plot.width < 8 || plot.height < 2 {
+    numbers(app, frame, &point, left, buffer);
+    let plot = plot(areas);
+    if plot.is_empty() {
         return;
     }
     trace(app, frame, plot, buffer);
@@ -50,51 +42,91 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     axis(app, plot, point.depth_m, buffer);
 }
 
+/// Columns of the numbers.
+fn words(areas: &Areas) -> u16 {
+    if areas.density == Density::Full {
+        26
+    } else {
+        20
+    }
+}
+
+/// Where the trace is drawn; empty where there is no room for it.
+fn plot(areas: &Areas) -> Rect {
+    let inner = inside(areas, areas.point);
+    let words = words(areas);
+    let left = words.min(inner.width);
+    let plot = Rect {
+        x: inner.x + left + 6,
+        width: inner.width.saturating_sub(words + 7),
+        height: inner.height.saturating_sub(1),
+        ..inner
+    };
+    if plot.width < 8 || plot.height < 2 {
+        return Rect::default();
+    }
+    plot
+}
+
+/// A press on the trace chooses the point that is there now, elsewhere what is shown of it.
+pub(super) fn pressed(areas: &Areas, at: Position) -> Option<Action> {
+    let elsewhere = || areas.point.contains(at).then_some(Action::PointQuantity);
+    dragged(areas, at).or_else(elsewhere)
+}
+
+/// A drag along the trace takes the point with it.
+pub(super) fn dragged(areas: &Areas, at: Position) -> Option<Action> {
+    let plot = plot(areas);
+    plot.contains(at).then(|| {
+        let part = f64::from(at.x - plot.x) / f64::from(plot.width - 1);
+        Action::PutPoint(X_RANGE[0] + (X_RANGE[1] - X_RANGE[0]) * part)
+    })
+}
+
 fn heading(app: &App) -> Line<'static> {
     let theme = app.theme;
     let name = match app.quantity {
         PointQuantity::Pressure => "material point: pressure on it",
         PointQuantity::Shear => "material point: shear below it",
+        PointQuantity::Effective => "material point: effective stress below it",
     };
     let mut line = title(theme, "p", name);
-    let note = match app.frame().and_then(|frame| frame.material_point) {
-        Some(point) => format!("body {} ", point.body),
-        None => String::new(),
-    };
-    line.push_span(Span::styled(note, theme.style(Role::Dim)));
+    if let Some(point) = app.point_now() {
+        let note = format!("body {} ", point.body);
+        line.push_span(Span::styled("P ", theme.style(Role::Key)));
+        line.push_span(Span::styled(note, theme.style(Role::Dim)));
+    }
     line
 }
 
-fn numbers(app: &App, frame: &Frame, area: Rect, buffer: &mut Buffer) {
+fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    let Some(point) = &frame.material_point else {
-        return;
-    };
-    let metrics = &frame.metrics;
-    let (formula, counted) = match point.body {
-        2 => (metrics.n_body_2, metrics.n_counted_body_2),
-        _ => (metrics.n_body_1, metrics.n_counted_body_1),
-    };
     let role = if point.body == 2 {
         Role::Body2
     } else {
         Role::Body1
     };
     let pressure = app.units.pressure();
+    let sample = point.sample;
+    let crossing = if app.replay.is_some() {
+        "this crossing"
+    } else {
+        "a crossing"
+    };
     let lines = [
-        ("cycles so far", sig(point.cycles_counted, 3), Role::Cycles),
-        ("a crossing", sig_or_dash(counted, 3), Role::Strong),
-        ("n by formula", sig_or_dash(formula, 3), Role::Formula),
-        ("x", format!("{:.2} a", point.x_m / frame.a_m), role),
+        ("cycles so far", sig(sample.cycles, 3), Role::Cycles),
+        (crossing, sig_or_dash(point.counted, 3), Role::Strong),
+        ("n by formula", sig_or_dash(point.formula, 3), Role::Formula),
+        ("x", format!("{:.2} a", sample.x_m / frame.a_m), role),
         (
             "pressure",
-            pressure.show(point.pressure_pa, 3),
+            pressure.show(sample.pressure_pa, 3),
             Role::Pressure,
         ),
-        ("shear τxz", pressure.show(point.tau_xz_pa, 2), Role::Shear),
+        ("shear τxz", pressure.show(sample.tau_xz_pa, 2), Role::Shear),
         (
             "effective",
-            pressure.show(point.effective_pa, 3),
+            pressure.show(sample.effective_pa, 3),
             Role::Text,
         ),
         (
@@ -116,6 +148,7 @@ fn value(quantity: PointQuantity, sample: &TraceSample) -> f64 {
     match quantity {
         PointQuantity::Pressure => sample.pressure_pa,
         PointQuantity::Shear => sample.tau_xz_pa,
+        PointQuantity::Effective => sample.effective_pa,
     }
 }
 
@@ -146,6 +179,7 @@ fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
     let role = match quantity {
         PointQuantity::Pressure => Role::Pressure,
         PointQuantity::Shear => Role::Shear,
+        PointQuantity::Effective => Role::Peaks,
     };
     chart.line(points(app.trace.current()), pen(role, '*'));
     chart.render(theme.is_ascii(), buffer);
@@ -174,6 +208,7 @@ fn range(app: &App) -> [f64; 2] {
             let most = app.ranges.shear_pa.max(1.0);
             [-most, most]
         }
+        PointQuantity::Effective => [0.0, app.ranges.stress_pa.max(1.0)],
     }
 }
 
@@ -237,7 +272,7 @@ fn axis(app: &App, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
     if plot.height >= 4 {
         put_right(left, 1, &Line::styled(pressure.name, dim), buffer);
     }
-    if app.quantity == PointQuantity::Shear && plot.height >= 5 {
+    if app.quantity != PointQuantity::Pressure && plot.height >= 5 {
         let depth = app.units.length().show(depth_m, 2);
         let text = ascii_text(theme, &format!("at depth {depth}"));
         put_right(plot, 0, &Line::styled(text, dim), buffer);

@@ -75,6 +75,13 @@ fn progress(app: &App, frame: &Frame) -> Words {
         };
         words.push((what, Role::Good));
     }
+    if let Some(replay) = &app.replay {
+        let speed = format!("replayed at 1/{} of its speed", sig(1.0 / replay.rate(), 2));
+        words.push((speed, Role::Text));
+    }
+    if let Some((done, all)) = app.sweep {
+        words.push((format!("sweeping S {done}/{all}"), Role::Warn));
+    }
     words
 }
 
@@ -202,6 +209,7 @@ fn hints(app: &App) -> Vec<(&'static str, &'static str)> {
         ("space", "pause"),
         ("b", "pin"),
         ("t", "tour"),
+        ("e", "scene"),
     ];
     if app.offers(ErrandKind::Record) {
         hints.push(("r", "record"));

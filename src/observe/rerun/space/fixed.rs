@@ -3,7 +3,7 @@
 use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
 
 use super::super::colour::{GREY, Ramp, WHITE, faded};
-use super::super::mesh::triangles;
+use super::super::mesh::{Window, triangles};
 use super::super::stream::Stream;
 use super::{SPACE, Space, steel};
 use crate::observe::ObserveError;
@@ -11,19 +11,22 @@ use crate::observe::scales::{GPA, number, ticks};
 
 impl Space {
     pub(super) fn log_static(&mut self, stream: &Stream) -> Result<(), ObserveError> {
-        let triangles = self.window.triangles();
-        let sheet = |name: &str, colour: [u8; 4]| {
+        let sheet = |name: &str, window: &Window, colour: [u8; 4]| {
             let albedo = AlbedoFactor::from(Rgba32::from_unmultiplied_rgba(
                 colour[0], colour[1], colour[2], colour[3],
             ));
             let mesh = Mesh3D::update_fields()
-                .with_triangle_indices(triangles.iter().copied())
+                .with_triangle_indices(window.triangles())
                 .with_albedo_factor(albedo);
             stream.log_static(format!("{SPACE}/{name}"), &mesh)
         };
-        sheet("film_coloured_by_pressure", [255, 255, 255, 255])?;
-        sheet("body_1_surface", [200, 222, 245, 255])?;
-        sheet("body_2_surface", [250, 222, 190, 150])?;
+        sheet(
+            "film_coloured_by_pressure",
+            &self.film,
+            [255, 255, 255, 255],
+        )?;
+        sheet("body_1_surface", &self.bodies, [200, 222, 245, 255])?;
+        sheet("body_2_surface", &self.bodies, [250, 222, 190, 150])?;
         self.log_smooth_bodies(stream)?;
         self.log_cut(stream)?;
         self.log_legends(stream)?;
@@ -38,9 +41,9 @@ impl Space {
         ];
         for (body, name, level) in bodies {
             if !self.tops.rough[body] {
-                let n = self.window.nodes().len();
+                let n = self.bodies.nodes().len();
                 let sheet = self
-                    .window
+                    .bodies
                     .sheet(&vec![level as f32; n], &vec![steel(1.0); n]);
                 stream.log_static(format!("{SPACE}/{name}"), &sheet)?;
             }

@@ -24,7 +24,7 @@ pub(super) fn look(app: &App) -> Look {
         MapKind::Pressure | MapKind::Contact => {
             (Ramp::Heat, 0.0, ranges.pressure_pa, app.units.pressure())
         }
-        MapKind::Film => (Ramp::Depth, 0.0, ranges.film_m, app.units.film()),
+        MapKind::Film | MapKind::Fringes => (Ramp::Depth, 0.0, ranges.film_m, app.units.film()),
         MapKind::Roughness => (
             Ramp::Diverging,
             -ranges.height_m,
@@ -52,6 +52,16 @@ impl Look {
     }
 }
 
+/// Two-beam interference in three colours, `I = ½ (1 + cos(4π n h/λ))`: n = 1.5 of the oil, λ in red, green
+/// and blue. Orders repeat; as everywhere the colour bar says which film is which colour.
+fn fringe(film_m: f64) -> [u8; 3] {
+    const INDEX: f64 = 1.5;
+    [610e-9, 550e-9, 465e-9].map(|wave_m: f64| {
+        let phase = 4.0 * std::f64::consts::PI * INDEX * film_m.max(0.0) / wave_m;
+        (127.5 * (1.0 + phase.cos())) as u8
+    })
+}
+
 pub(super) fn paint(
     theme: Theme,
     raster: &Raster,
@@ -63,6 +73,9 @@ pub(super) fn paint(
 ) {
     let pixel = |column: usize, row: usize| {
         let t = look.part(f64::from(raster.at(column, row)));
+        if kind == MapKind::Fringes {
+            return theme.rgb(fringe(f64::from(raster.at(column, row))));
+        }
         let spot = kind == MapKind::Contact && raster.spot(column, row);
         let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
         if spot {
@@ -106,6 +119,10 @@ fn ink(
         MapKind::Contact if raster.spot(column, row) => "#",
         MapKind::Contact if ring => "o",
         MapKind::Contact => Theme::map_ink(0.3 * t),
+        MapKind::Fringes => {
+            let [_, green, _] = fringe(f64::from(raster.at(column, row)));
+            Theme::map_ink(f32::from(green) / 255.0)
+        }
         _ => Theme::map_ink(t),
     }
 }
@@ -124,18 +141,23 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
     }
     let pixels = f64::from(2 * bar.height - 1);
     for row in 0..bar.height {
-        let part = |half: u16| {
+        let value = |half: u16| {
             let down = f64::from(2 * row + half) / pixels;
-            look.part(look.high - (look.high - look.low) * down)
+            look.high - (look.high - look.low) * down
+        };
+        let dim = if kind == MapKind::Contact { 0.45 } else { 1.0 };
+        let color = |half: u16| match kind {
+            MapKind::Fringes => theme.rgb(fringe(value(half))),
+            _ => theme.map_color(look.ramp, dim * look.part(value(half))),
         };
         if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
             if theme.paints() {
-                let dim = if kind == MapKind::Contact { 0.45 } else { 1.0 };
-                cell.set_symbol("▀")
-                    .set_fg(theme.map_color(look.ramp, dim * part(0)))
-                    .set_bg(theme.map_color(look.ramp, dim * part(1)));
+                cell.set_symbol("▀").set_fg(color(0)).set_bg(color(1));
+            } else if kind == MapKind::Fringes {
+                let [_, green, _] = fringe(value(0));
+                cell.set_symbol(Theme::map_ink(f32::from(green) / 255.0));
             } else {
-                cell.set_symbol(Theme::map_ink(part(0)));
+                cell.set_symbol(Theme::map_ink(look.part(value(0))));
             }
         }
     }
@@ -168,5 +190,20 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
             Span::styled("spot", dim),
         ]);
         put(text, bar.height - 3, &spot, buffer);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fringes_follow_the_film() {
+        assert_eq!(fringe(0.0), [255; 3]);
+        // Dark where the way through the oil and back is half a wave: h = λ/(4 n); bright again at twice that.
+        let [_, green, _] = fringe(550e-9 / 6.0);
+        assert!(green < 2);
+        let [_, green, _] = fringe(550e-9 / 3.0);
+        assert!(green > 253);
     }
 }

@@ -97,7 +97,7 @@ pub(super) fn rasterize(
     let mut spots = Vec::new();
     let values = match kind {
         MapKind::Pressure | MapKind::Stress => take(&frame.pressure_pa),
-        MapKind::Film => take(&frame.film_m),
+        MapKind::Film | MapKind::Fringes => take(&frame.film_m),
         MapKind::Roughness => take(&frame.roughness_1_m)
             .into_iter()
             .zip(take(&frame.roughness_2_m))

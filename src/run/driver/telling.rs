@@ -1,0 +1,93 @@
+//! What the loop tells others: frames, events, status, failures.
+
+use std::time::Instant;
+
+use super::Driver;
+use crate::observe::{ObserveError, ObserverReport, RunEvent, RunEventKind};
+use crate::run::outcome::End;
+use crate::run::session::{Ending, SessionEvent, lock};
+use crate::run::stepper::Stepper;
+use crate::run::watcher::Watcher;
+use crate::sim::Stage;
+
+impl Driver {
+    /// Gives the step to the screen, and to the outputs if it belongs to the results.
+    pub(super) fn hand_out<S: Stepper>(&mut self, sim: &S) {
+        let frame = self.pool.fill(|frame| sim.fill(frame));
+        if sim.stage() == Stage::Passage {
+            self.passage_began.get_or_insert_with(Instant::now);
+            for index in 0..self.watchers.len() {
+                let written = self.watchers[index].frame(&frame);
+                self.note_output(written);
+            }
+        }
+        if let Some(gather) = &mut self.gather
+            && let Some(settled) = gather.take(&frame, || sim.save())
+        {
+            lock(&self.shared).settled = Some(settled);
+        }
+        self.latest.put(frame);
+    }
+
+    pub(super) fn announce<S: Stepper>(&mut self, sim: &S, kind: RunEventKind) {
+        let event = RunEvent {
+            step: sim.passage_steps(),
+            time_s: sim.time_s(),
+            kind,
+        };
+        for index in 0..self.watchers.len() {
+            let written = self.watchers[index].event(&event);
+            self.note_output(written);
+        }
+        self.show(SessionEvent::Run(event));
+    }
+
+    pub(super) fn show(&self, event: SessionEvent) {
+        lock(&self.shared).show(event);
+    }
+
+    pub(super) fn note_output(&mut self, result: Result<(), ObserveError>) {
+        if let Err(error) = result {
+            self.show(SessionEvent::OutputFailed(error.clone()));
+            self.output_errors.push(error);
+        }
+    }
+
+    pub(super) fn must_end_for_outputs(&self) -> bool {
+        self.ending != Ending::OnStop && !self.output_errors.is_empty()
+    }
+
+    pub(super) fn tell_status<S: Stepper>(&self, sim: &S) {
+        let mut shared = lock(&self.shared);
+        let status = &mut shared.status;
+        status.stage = sim.stage();
+        status.progress = sim.progress();
+        status.steps = sim.passage_steps();
+        status.n_unconverged = self.n_unconverged;
+        status.outputs.clear();
+        status
+            .outputs
+            .extend(self.watchers.iter().map(Watcher::status));
+    }
+
+    pub(super) fn tell_failure(&self, end: &End) {
+        let failure = match end {
+            End::Stalled(error) => error.to_string(),
+            End::NotStarted(error) => error.to_string(),
+            End::OutputFailed => "an output failed".to_owned(),
+            End::Done | End::Stopped => return,
+        };
+        lock(&self.shared).status.failure = Some(failure);
+    }
+
+    pub(super) fn finish_outputs(&mut self) -> Vec<ObserverReport> {
+        let mut reports = Vec::new();
+        for watcher in &mut self.watchers {
+            match watcher.finish() {
+                Ok(report) => reports.extend(report),
+                Err(error) => self.output_errors.push(error),
+            }
+        }
+        reports
+    }
+}

@@ -1,0 +1,258 @@
+//! The key table itself.
+
+use crossterm::event::{KeyCode, KeyModifiers};
+
+use super::{Action, Chord, Group, Row};
+
+const fn key(code: KeyCode) -> Chord {
+    Chord {
+        code,
+        modifiers: KeyModifiers::NONE,
+    }
+}
+const fn ch(letter: char) -> Chord {
+    key(KeyCode::Char(letter))
+}
+const fn shift(code: KeyCode) -> Chord {
+    Chord {
+        code,
+        modifiers: KeyModifiers::SHIFT,
+    }
+}
+const fn ctrl(letter: char) -> Chord {
+    Chord {
+        code: KeyCode::Char(letter),
+        modifiers: KeyModifiers::CONTROL,
+    }
+}
+const fn row(
+    keys: &'static [(Chord, Action)],
+    shown: &'static str,
+    help: &'static str,
+    group: Group,
+) -> Row {
+    Row {
+        keys,
+        shown,
+        help,
+        group,
+    }
+}
+
+/// The key table: what the keyboard does, and what `?` shows.
+pub const KEYS: &[Row] = &[
+    row(
+        &[
+            (key(KeyCode::Up), Action::ChoosePrevious),
+            (ch('k'), Action::ChoosePrevious),
+            (key(KeyCode::Down), Action::ChooseNext),
+            (ch('j'), Action::ChooseNext),
+            (key(KeyCode::Tab), Action::ChooseNext),
+        ],
+        "↑↓ kj",
+        "choose a knob",
+        Group::Knobs,
+    ),
+    row(
+        &[
+            (key(KeyCode::Left), Action::Turn(-1)),
+            (ch('h'), Action::Turn(-1)),
+            (key(KeyCode::Right), Action::Turn(1)),
+            (ch('l'), Action::Turn(1)),
+        ],
+        "←→ hl",
+        "turn it",
+        Group::Knobs,
+    ),
+    row(
+        &[
+            (shift(KeyCode::Left), Action::TurnFar(-1)),
+            (ch('H'), Action::TurnFar(-1)),
+            (key(KeyCode::PageDown), Action::TurnFar(-1)),
+            (shift(KeyCode::Right), Action::TurnFar(1)),
+            (ch('L'), Action::TurnFar(1)),
+            (key(KeyCode::PageUp), Action::TurnFar(1)),
+        ],
+        "⇧←→ HL",
+        "by a big step",
+        Group::Knobs,
+    ),
+    row(
+        &[
+            (ch('1'), Action::Typical(0)),
+            (ch('2'), Action::Typical(1)),
+            (ch('3'), Action::Typical(2)),
+            (ch('4'), Action::Typical(3)),
+            (ch('5'), Action::Typical(4)),
+            (ch('6'), Action::Typical(5)),
+            (ch('7'), Action::Typical(6)),
+            (ch('8'), Action::Typical(7)),
+            (ch('9'), Action::Typical(8)),
+        ],
+        "1-9",
+        "to a typical value",
+        Group::Knobs,
+    ),
+    row(
+        &[
+            (ch('x'), Action::Home),
+            (key(KeyCode::Home), Action::Home),
+            (ch('X'), Action::HomeAll),
+        ],
+        "x X",
+        "the scene's value; all knobs",
+        Group::Knobs,
+    ),
+    row(
+        &[(ch(' '), Action::TogglePause)],
+        "space",
+        "pause, go on",
+        Group::Time,
+    ),
+    row(
+        &[(ch('.'), Action::StepForward), (ch(','), Action::StepBack)],
+        ". ,",
+        "one step; one frame back",
+        Group::Time,
+    ),
+    row(
+        &[(ch('o'), Action::Replay)],
+        "o",
+        "replay the orbit; go on live",
+        Group::Time,
+    ),
+    row(
+        &[
+            (ch('-'), Action::ReplayFaster(-1)),
+            (ch('+'), Action::ReplayFaster(1)),
+            (ch('='), Action::ReplayFaster(1)),
+        ],
+        "- +",
+        "replay slower, faster",
+        Group::Time,
+    ),
+    row(
+        &[(ch('t'), Action::Tour), (ch('n'), Action::NextLesson)],
+        "t n",
+        "tour on or off; next lesson",
+        Group::Time,
+    ),
+    row(
+        &[(ch('m'), Action::NextMap), (ch('M'), Action::PreviousMap)],
+        "m M",
+        "next map; map before",
+        Group::Show,
+    ),
+    row(
+        &[(ch('z'), Action::Zoom)],
+        "z",
+        "contact or whole domain",
+        Group::Show,
+    ),
+    row(
+        &[(ch('p'), Action::PointQuantity)],
+        "p",
+        "point: p, shear, stress",
+        Group::Show,
+    ),
+    row(
+        &[
+            (ch('P'), Action::PointBody),
+            (ch('['), Action::PointDepth(-1)),
+            (ch(']'), Action::PointDepth(1)),
+        ],
+        "P [ ]",
+        "point: body; its depth",
+        Group::Show,
+    ),
+    row(
+        &[
+            (ch('<'), Action::MovePoint(-1)),
+            (ch('>'), Action::MovePoint(1)),
+        ],
+        "< >",
+        "another point of the body",
+        Group::Show,
+    ),
+    row(
+        &[(ch('b'), Action::Pin), (ch('B'), Action::Unpin)],
+        "b B",
+        "pin to compare; forget it",
+        Group::Show,
+    ),
+    row(
+        &[(ch('y'), Action::Curve)],
+        "y",
+        "curve: life or friction",
+        Group::Show,
+    ),
+    row(&[(ch('u'), Action::Units)], "u", "other units", Group::Show),
+    row(
+        &[(ch('c'), Action::Contrast)],
+        "c",
+        "contrast: high, light",
+        Group::Show,
+    ),
+    row(
+        &[(ch('i'), Action::Plan)],
+        "i",
+        "plan: what is left out, why",
+        Group::Show,
+    ),
+    row(
+        &[(ch('e'), Action::Scene), (key(KeyCode::Enter), Action::Run)],
+        "e ⏎",
+        "other scene, lay, oil, model",
+        Group::Program,
+    ),
+    row(
+        &[(ch('r'), Action::Record)],
+        "r",
+        "recording on or off",
+        Group::Program,
+    ),
+    row(
+        &[(ch('v'), Action::View)],
+        "v",
+        "open the recording",
+        Group::Program,
+    ),
+    row(
+        &[(ch('s'), Action::Save)],
+        "s",
+        "save the scene as it is now",
+        Group::Program,
+    ),
+    row(
+        &[(ch('?'), Action::Help), (key(KeyCode::F(1)), Action::Help)],
+        "?",
+        "these keys",
+        Group::Program,
+    ),
+    row(
+        &[(key(KeyCode::Esc), Action::Close)],
+        "Esc",
+        "close; back to the present",
+        Group::Program,
+    ),
+    row(
+        &[(ctrl('z'), Action::Suspend)],
+        "^Z",
+        "to the shell; fg returns",
+        Group::Program,
+    ),
+    row(
+        &[(ch('q'), Action::Quit), (ctrl('c'), Action::Quit)],
+        "q ^C",
+        "quit",
+        Group::Program,
+    ),
+];
+
+/// What the mouse does, for the help screen.
+pub const MOUSE: &[(&str, &str)] = &[
+    ("drag", "a slider"),
+    ("wheel", "turns the knob under it"),
+    ("click", "on the map: read it there"),
+    ("click", "on the trace: that point"),
+];

@@ -1,0 +1,114 @@
+//! What the screen's state is made of, and what it asks for.
+
+use std::sync::Arc;
+
+use crate::run::Command;
+use crate::scene::Scene;
+use crate::tui::app::Leading;
+use crate::tui::theme::Theme;
+use crate::tui::wiring::LeftOut;
+
+/// What a key does outside of the screen and the run, where the program offers it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ErrandKind {
+    /// Switches recording on and off.
+    Record,
+    /// Opens the viewer.
+    View,
+    /// Saves the scene.
+    Save,
+    /// Runs another scene.
+    Rebuild,
+}
+
+/// What the app asks of the loop around it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Effect {
+    /// A command for the run.
+    Send(Command),
+    /// An errand.
+    Errand(ErrandKind),
+    /// Compute life at these S beside the run, from where it has settled.
+    Sweep(Vec<f64>),
+    /// Call that off.
+    EndSweep,
+    /// Run this scene in place of the present one.
+    Rebuild(Box<Scene>),
+    /// To the shell.
+    Suspend,
+    /// The end.
+    Quit,
+}
+
+/// A state to compare with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pinned {
+    /// Relative life (same-load reference).
+    pub life_relative: f64,
+    /// Life on the scale of the scene's load: what is compared.
+    pub life_comparable: f64,
+    /// Which number was pinned.
+    pub leading: Leading,
+    /// S.
+    pub slide_roll: f64,
+    /// Hertz pressure, Pa.
+    pub p_hertz_pa: f64,
+}
+
+/// The upper ends of the colour bars and axes; they only grow, so that frames can be compared.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ranges {
+    /// Pressure, Pa.
+    pub pressure_pa: f64,
+    /// Film, m.
+    pub film_m: f64,
+    /// Height of roughness to either side, m.
+    pub height_m: f64,
+    /// Effective stress, Pa.
+    pub stress_pa: f64,
+    /// Shear of the material point to either side, Pa.
+    pub shear_pa: f64,
+}
+
+/// A settled life at one S.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LifePoint {
+    /// S.
+    pub slide_roll: f64,
+    /// Relative life.
+    pub life_relative: f64,
+    /// Its band.
+    pub band: [f64; 2],
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+/// One point of the life's history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LifeSample {
+    /// Passages travelled.
+    pub passages: f64,
+    /// Relative life.
+    pub life_relative: f64,
+}
+
+/// What an app is made of; plain data, so that a test can make it.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// The scene that runs.
+    pub scene: Arc<Scene>,
+    /// Load, N; of a line N/m.
+    pub load_n: f64,
+    /// Hertz half-width along x at that load, m.
+    pub half_width_m: f64,
+    /// Hertz pressure at that load, Pa.
+    pub p_hertz_pa: f64,
+    /// The plan as text.
+    pub plan_text: String,
+    /// What it leaves out.
+    pub left_out: Vec<LeftOut>,
+    /// Errands that are offered.
+    pub errands: Vec<ErrandKind>,
+    /// Looks.
+    pub theme: Theme,
+}

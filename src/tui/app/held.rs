@@ -1,0 +1,295 @@
+//! A passage that repeats: its replay, the sweep of S beside it, and the material point.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::run::{Command, Settled, SweepPoint};
+use crate::sim::Follow;
+use crate::tui::app::{App, AutoReplay, Effect, LifePoint, Pace};
+use crate::tui::replay::{Motion, Replay};
+use crate::tui::trace::{Chosen, Trace, TraceSample};
+
+/// Values of S that a sweep visits, of either sign: close where life falls fastest.
+const SWEPT: [f64; 10] = [0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
+/// Values of S that are as good as the same.
+pub(super) const SAME_S: f64 = 0.02;
+
+impl App {
+    /// Takes what the run says of a passage that repeats; `None`: it does not (any more).
+    pub fn take_settled(&mut self, settled: Option<Arc<Settled>>) -> Vec<Effect> {
+        match (&self.held, settled) {
+            (None, None) => Vec::new(),
+            (Some(old), Some(new)) if Arc::ptr_eq(old, &new) => Vec::new(),
+            (_, None) => {
+                self.held = None;
+                Vec::new()
+            }
+            (_, Some(new)) => {
+                self.held = Some(new);
+                let mut effects = self.begin_sweep();
+                if self.auto_replay == AutoReplay::On && self.pace == Pace::Running {
+                    effects.extend(self.begin_replay());
+                }
+                effects
+            }
+        }
+    }
+
+    /// Takes lives that a sweep has found; `progress`: values done and in all, `None` when there is no sweep.
+    pub fn take_swept(&mut self, points: Vec<SweepPoint>, progress: Option<(usize, usize)>) {
+        self.sweep = progress.filter(|(done, all)| done < all);
+        for point in points {
+            let life = point.life;
+            self.keep_point(LifePoint {
+                slide_roll: point.slide_roll,
+                life_relative: life.life_relative,
+                band: [life.life_relative_low, life.life_relative_high],
+                friction: point.friction,
+            });
+        }
+    }
+
+    /// Lets time go by: the replay goes on, the tour follows.
+    pub fn advance(&mut self, wall: Duration) -> Vec<Effect> {
+        let Some(replay) = &mut self.replay else {
+            return Vec::new();
+        };
+        replay.advance(wall.as_secs_f64());
+        self.retrace();
+        let passages = self.passages();
+        self.tour_on(passages)
+    }
+
+    /// Passages of 4 a since the start, those of a replay too.
+    pub(super) fn passages(&self) -> f64 {
+        let newest = self.past.back().map_or(0.0, |frame| frame.passages);
+        newest + self.replay.as_ref().map_or(0.0, Replay::passages)
+    }
+
+    fn begin_sweep(&mut self) -> Vec<Effect> {
+        let Some(held) = &self.held else {
+            return Vec::new();
+        };
+        let has_life = held.frames.last().is_some_and(|f| f.metrics.life.is_some());
+        if !has_life || held.state.is_none() {
+            return Vec::new();
+        }
+        let dial = &self.dials[0];
+        let mut values: Vec<f64> = SWEPT
+            .iter()
+            .flat_map(|s| [*s, -*s])
+            .filter(|s| (dial.min..=dial.max).contains(s))
+            .filter(|s| {
+                let known = self.settled.iter();
+                known
+                    .map(|point| point.slide_roll)
+                    .all(|old| (old - s).abs() > SAME_S)
+            })
+            .collect();
+        values.dedup();
+        if values.is_empty() {
+            return Vec::new();
+        }
+        vec![Effect::Sweep(values)]
+    }
+
+    fn begin_replay(&mut self) -> Vec<Effect> {
+        let replay = self.held.clone().and_then(Replay::new);
+        let Some(replay) = replay else {
+            return Vec::new();
+        };
+        self.back = 0;
+        self.replay = Some(replay);
+        self.retrace();
+        self.paused_first()
+    }
+
+    /// Back to the run, which goes on.
+    pub(super) fn end_replay(&mut self) -> Vec<Effect> {
+        if self.replay.take().is_none() {
+            return Vec::new();
+        }
+        self.trace = Trace::default();
+        match self.pace {
+            Pace::Running => Vec::new(),
+            Pace::Paused => {
+                self.pace = Pace::Running;
+                vec![Effect::Send(Command::Pause)]
+            }
+        }
+    }
+
+    /// What a knob that is turned ends.
+    pub(super) fn unsettle(&mut self) -> Vec<Effect> {
+        let mut effects = self.end_replay();
+        self.held = None;
+        self.auto_replay = AutoReplay::On;
+        if self.sweep.take().is_some() {
+            effects.push(Effect::EndSweep);
+        }
+        effects
+    }
+
+    pub(super) fn toggle_replay(&mut self) -> Vec<Effect> {
+        if self.replay.is_some() {
+            self.auto_replay = AutoReplay::Off;
+            return self.end_replay();
+        }
+        let effects = self.begin_replay();
+        if self.replay.is_none() {
+            self.say("nothing to replay yet: the passage does not repeat");
+        }
+        effects
+    }
+
+    pub(super) fn replay_faster(&mut self, times: i32) {
+        match &mut self.replay {
+            Some(replay) => replay.faster(times),
+            None => self.say("speed is that of the run; o replays a passage that repeats"),
+        }
+    }
+
+    /// Pause and single frames of a replay; false: there is none.
+    pub(super) fn replay_stepped(&mut self, frames: i32) -> bool {
+        let Some(replay) = &mut self.replay else {
+            return false;
+        };
+        match frames {
+            0 => replay.toggle(),
+            n => replay.step(n),
+        }
+        self.retrace();
+        true
+    }
+
+    /// Whether a replay stands.
+    pub fn replay_stands(&self) -> bool {
+        self.replay
+            .as_ref()
+            .is_some_and(|replay| replay.motion() == Motion::Frozen)
+    }
+
+    /// The point that was chosen; before that the one that the run shows.
+    fn aimed(&mut self) -> &mut Chosen {
+        let shown = self.frame().and_then(|frame| {
+            let (point, slice) = (frame.material_point?, frame.slice.as_ref()?);
+            let above = |z: &&f64| **z < point.depth_m * (1.0 - 1e-6);
+            Some(Chosen {
+                body: point.body,
+                depth: slice.depths_m.iter().take_while(above).count(),
+                place_m: 0.0,
+            })
+        });
+        self.point.get_or_insert(shown.unwrap_or_default())
+    }
+
+    fn retrace(&mut self) {
+        let point = *self.aimed();
+        let Some(replay) = &self.replay else { return };
+        let trace = Trace::replayed(replay.settled(), point, replay.at_s());
+        self.trace = trace.unwrap_or_default();
+    }
+
+    pub(super) fn other_body(&mut self) -> Vec<Effect> {
+        let point = self.aimed();
+        point.body = 3 - point.body;
+        self.followed(None)
+    }
+
+    pub(super) fn point_depth(&mut self, by: i32) -> Vec<Effect> {
+        let last = self.depths().saturating_sub(1) as i32;
+        let point = self.aimed();
+        point.depth = (point.depth as i32 + by).clamp(0, last) as usize;
+        self.followed(None)
+    }
+
+    /// The point that is so many quarters of a further on, now.
+    pub(super) fn move_point(&mut self, quarters: i32) -> Vec<Effect> {
+        let Some(frame) = self.frame() else {
+            return Vec::new();
+        };
+        let by_m = 0.25 * f64::from(quarters) * frame.a_m;
+        let here = self.trace.current().last().map_or(0.0, |sample| sample.x_m);
+        self.put_point_m(here + by_m)
+    }
+
+    /// The point that is at x/a now.
+    pub(super) fn put_point(&mut self, x: f64) -> Vec<Effect> {
+        let a_m = self.frame().map_or(0.0, |frame| frame.a_m);
+        self.put_point_m(x * a_m)
+    }
+
+    fn put_point_m(&mut self, x_m: f64) -> Vec<Effect> {
+        let here = self.trace.current().last().map(|sample| sample.x_m);
+        if let (Some(replay), Some(here)) = (&self.replay, here) {
+            // Bodies that run towards −x enter on the other side.
+            let heading = replay.frame().metrics.entrainment_m_s.signum();
+            self.aimed().place_m += heading * (x_m - here);
+        }
+        self.followed(Some(x_m))
+    }
+
+    fn depths(&self) -> usize {
+        let slice = self.frame().and_then(|frame| frame.slice.as_ref());
+        slice.map_or(0, |slice| slice.depths_m.len())
+    }
+
+    /// Tells the run which point is followed.
+    fn followed(&mut self, x_m: Option<f64>) -> Vec<Effect> {
+        self.retrace();
+        let point = *self.aimed();
+        let slice = self.frame().and_then(|frame| frame.slice.as_ref());
+        let Some(depth_m) = slice.and_then(|s| s.depths_m.get(point.depth).copied()) else {
+            self.say("no stress is computed, so only the pressure can be followed");
+            return Vec::new();
+        };
+        let body = point.body;
+        vec![Effect::Send(Command::Follow(Follow { body, depth_m, x_m }))]
+    }
+
+    /// The material point on the screen, as it is now: the run's, or that of the replay.
+    pub fn point_now(&self) -> Option<PointNow> {
+        let frame = self.frame()?;
+        let metrics = &frame.metrics;
+        let of_body = |body: u8| match body {
+            2 => (metrics.n_body_2, metrics.n_counted_body_2),
+            _ => (metrics.n_body_1, metrics.n_counted_body_1),
+        };
+        if let (Some(_), Some(whole)) = (&self.replay, self.trace.counted()) {
+            let sample = *self.trace.current().last()?;
+            let (body, depth_m) = self.trace.point();
+            let (formula, _) = of_body(body);
+            return Some(PointNow {
+                body,
+                depth_m,
+                sample,
+                formula,
+                counted: Some(whole),
+            });
+        }
+        let point = frame.material_point?;
+        let (formula, counted) = of_body(point.body);
+        Some(PointNow {
+            body: point.body,
+            depth_m: point.depth_m,
+            sample: TraceSample::of(&point),
+            formula,
+            counted,
+        })
+    }
+}
+
+/// A material point now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointNow {
+    /// Body: 1 or 2.
+    pub body: u8,
+    /// Depth at which its stress is given, m.
+    pub depth_m: f64,
+    /// Where it is and what it feels.
+    pub sample: TraceSample,
+    /// n by formula.
+    pub formula: Option<f64>,
+    /// Cycles counted: in a replay of this crossing, else in the mean of crossings.
+    pub counted: Option<f64>,
+}

@@ -1,0 +1,347 @@
+//! The explorer's session with the real simulation: mashed knobs, the log replayed, a sweep, lives at other S.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use asperity::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
+use asperity::plan::Plan;
+use asperity::run::{
+    Command, End, Ending, Ground, NotSettled, Request, Session, Settled, Sweep, Watcher, life_at,
+};
+use asperity::scene::{Override, Scene};
+use asperity::sim::{Follow, Frame, Knob, Simulation, Stage};
+
+/// Keeps every bit of every frame, and every event.
+struct Keeper(Arc<Mutex<Vec<String>>>);
+
+impl Observer for Keeper {
+    fn begin(&mut self, _context: &RunContext) -> Result<(), ObserveError> {
+        Ok(())
+    }
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+        // Debug prints floats with as many digits as tell them apart.
+        self.0.lock().unwrap().push(format!("{frame:?}"));
+        Ok(())
+    }
+    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        self.0.lock().unwrap().push(format!("{event:?}"));
+        Ok(())
+    }
+    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        Ok(ObserverReport::default())
+    }
+}
+
+type Kept = Arc<Mutex<Vec<String>>>;
+
+fn small() -> Scene {
+    scene(&["grid.nodes=65", "stress.depths=8"])
+}
+
+/// Waves that 65 nodes carry well enough to see that the passage repeats.
+fn repeating() -> Scene {
+    scene(&[
+        "grid.nodes=65",
+        "stress.depths=8",
+        "body_1.surface.wavelength_x_m=4e-4",
+        "body_2.surface.wavelength_x_m=4e-4",
+        "body_2.surface.wavelength_y_m=4e-4",
+    ])
+}
+
+fn scene(sets: &[&str]) -> Scene {
+    let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
+    Scene::load_with("demonstration", &sets).unwrap()
+}
+
+fn request(scene: &Scene, ending: Ending) -> (Request, Kept) {
+    let kept = Kept::default();
+    let keeper = Watcher::new("keeper", Box::new(Keeper(kept.clone())), 1);
+    let request = Request {
+        name: "test".to_owned(),
+        scene: Arc::new(scene.clone()),
+        plan: Plan::new(scene).unwrap(),
+        threads: 1,
+        watchers: vec![keeper],
+        ending,
+    };
+    (request, kept)
+}
+
+fn wait_for(session: &Session, ready: impl Fn(&Session) -> bool) {
+    while !ready(session) {
+        assert!(!session.is_finished(), "the session ended");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// A fixed scramble.
+fn scramble(seed: u64) -> u64 {
+    let mut x = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+/// Any command, also ones that are refused; pauses come in pairs with steps so that the run goes on.
+fn mashed(i: u64) -> Command {
+    let x = scramble(i);
+    let part = (x >> 11) as f64 / (1_u64 << 53) as f64;
+    match x % 10 {
+        0..=2 => Command::Set(Knob::SlideRoll, 4.4 * part - 2.2),
+        3 => Command::Set(Knob::ForceN, 100.0 + 2000.0 * part),
+        4 => Command::Set(Knob::Amplitude1M, 5e-7 * part),
+        5 => Command::Set(Knob::Amplitude2M, 5e-7 * part),
+        6 => Command::Set(Knob::EntrainmentMS, 0.05 + 2.0 * part),
+        7 => Command::Follow(Follow {
+            body: 1 + (x >> 8) as u8 % 2,
+            depth_m: 1e-3 * part,
+            x_m: Some(1e-3 * part - 5e-4),
+        }),
+        8 => Command::Set(Knob::ForceNPerM, 1e5),
+        _ => Command::StepOnce,
+    }
+}
+
+/// A thousand commands within seconds, in all parts of the run: none breaks it, and the log with the scene
+/// gives every frame again, bit for bit.
+#[test]
+fn a_thousand_mashed_commands_never_break_the_run_and_the_log_replays_it() {
+    let scene = small();
+    let (request, kept) = self::request(&scene, Ending::OnStop);
+    let session = Session::start(request).unwrap();
+    for i in 0..1000 {
+        session.send(mashed(i));
+        if i % 50 == 49 {
+            let steps = session.status().steps;
+            session.send(Command::Pause);
+            session.send(Command::Pause);
+            // From the passage on each burst is answered by steps.
+            if steps > 0 {
+                wait_for(&session, |session| session.status().steps > steps + 1);
+            } else {
+                std::thread::sleep(Duration::from_millis(50));
+            }
+        }
+    }
+    wait_for(&session, |session| session.status().steps > 10);
+    session.send(Command::Stop);
+    let outcome = session.join().unwrap();
+    assert!(matches!(outcome.end, End::Stopped), "{:?}", outcome.end);
+    println!(
+        "{} steps, {} commands applied, {} steps not converged",
+        outcome.steps,
+        outcome.applied.len(),
+        outcome.n_unconverged
+    );
+    assert!(outcome.applied.len() > 500);
+
+    let (request, again) = self::request(&scene, Ending::Steps(outcome.steps));
+    let replayed = Session::replay(request, &outcome.applied).unwrap();
+    assert_eq!(replayed.join().unwrap().steps, outcome.steps);
+    let (one, two) = (kept.lock().unwrap(), again.lock().unwrap());
+    assert_eq!(one.len(), two.len());
+    let differs = one.iter().zip(two.iter()).position(|(one, two)| one != two);
+    assert_eq!(differs, None, "entry that differs");
+}
+
+fn until_settled(session: &Session) -> Arc<Settled> {
+    let read = session.settled_reader();
+    wait_for(session, |_| read().is_some());
+    read().unwrap()
+}
+
+/// The period that is kept for the replay closes, and a knob empties it.
+#[test]
+fn a_passage_that_repeats_leaves_one_period() {
+    let scene = repeating();
+    let (request, _) = self::request(&scene, Ending::OnStop);
+    let session = Session::start(request).unwrap();
+    let settled = until_settled(&session);
+    let (first, last) = (
+        &settled.frames[0],
+        &settled.frames[settled.frames.len() - 1],
+    );
+    let step_s = settled.frames[1].time_s - first.time_s;
+    assert!((last.time_s + step_s - first.time_s - settled.period_s).abs() < step_s);
+    let apart = |one: &Frame, other: &Frame| {
+        let pairs = one.pressure_pa.iter().zip(&other.pressure_pa);
+        let (moved, all) = pairs.fold((0.0, 0.0), |(moved, all), (p, q)| {
+            (moved + f64::from((p - q).abs()), all + f64::from(p + q))
+        });
+        2.0 * moved / all
+    };
+    // The end leads to the beginning like any step to the next.
+    let usual = apart(first, &settled.frames[1]);
+    assert!(
+        apart(last, first) < 1.5 * usual,
+        "{} {usual}",
+        apart(last, first)
+    );
+    // Other orbits are told from this one: half a period on the fields differ more.
+    let middle = &settled.frames[settled.frames.len() / 2];
+    assert!(apart(first, middle) > apart(last, first));
+    session.send(Command::Set(Knob::SlideRoll, 0.4));
+    let read = session.settled_reader();
+    wait_for(&session, |_| read().is_none());
+    session.send(Command::Stop);
+    session.join().unwrap();
+}
+
+/// A sweep from a settled run gives the life that a run of its own gives at that S.
+#[test]
+fn a_sweep_finds_the_lives_of_runs_of_their_own() {
+    let scene = repeating();
+    let (request, _) = self::request(&scene, Ending::OnStop);
+    let session = Session::start(request).unwrap();
+    let settled = until_settled(&session);
+    session.send(Command::Stop);
+    session.join().unwrap();
+    let ground = Ground {
+        scene: Arc::new(scene.clone()),
+        plan: Plan::new(&scene).unwrap(),
+        state: settled.state.clone().unwrap(),
+    };
+    let sweep = Sweep::start(ground, vec![1.0, 0.25], 0.5, 2);
+    let mut points = Vec::new();
+    while sweep.progress().0 < 2 {
+        points.extend(sweep.take());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    points.extend(sweep.take());
+    assert_eq!(points.len(), 2);
+    for point in points {
+        let mut own = scene.clone();
+        own.motion.slide_roll = point.slide_roll;
+        let plan = Plan::new(&own).unwrap();
+        let mut sim = Simulation::new(&own, plan, 1).unwrap();
+        while !sim.metrics().life.is_some_and(|life| life.settled) {
+            sim.step().unwrap();
+        }
+        let life = sim.metrics().life.unwrap().life_relative;
+        println!(
+            "S = {}: swept {}, own {life}",
+            point.slide_roll, point.life.life_relative
+        );
+        // Means over a window that begins in another phase of the orbit.
+        assert!((point.life.life_relative / life - 1.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn a_sweep_that_is_called_off_ends() {
+    let scene = small();
+    let plan = Plan::new(&scene).unwrap();
+    let mut sim = Simulation::new(&scene, plan.clone(), 1).unwrap();
+    let stopped = life_at(&mut sim, &plan, 1.0, &AtomicBool::new(true));
+    assert!(matches!(stopped, Err(NotSettled::Stopped)), "{stopped:?}");
+    let refused = life_at(&mut sim, &plan, 3.0, &AtomicBool::new(false));
+    assert!(matches!(refused, Err(NotSettled::Sim(_))), "{refused:?}");
+}
+
+/// How soon a life is there after a turn of S on the default scene: printed, for a quiet machine.
+#[test]
+#[ignore = "prints a time"]
+fn time_from_a_turn_of_s_to_its_life() {
+    let scene = Scene::load("demonstration").unwrap();
+    let plan = Plan::new(&scene).unwrap();
+    let mut sim = Simulation::new(&scene, plan, 2).unwrap();
+    let settled = |sim: &Simulation| sim.metrics().life.is_some_and(|life| life.settled);
+    while sim.stage() == Stage::StartUp || !settled(&sim) {
+        sim.step().unwrap();
+    }
+    sim.set(Knob::SlideRoll, 0.55).unwrap();
+    let (began, mut steps, mut first) = (Instant::now(), 0, None);
+    while !settled(&sim) {
+        sim.step().unwrap();
+        steps += 1;
+        if first.is_none() && sim.metrics().life.is_some_and(|life| life.phases > 0) {
+            first = Some(began.elapsed());
+        }
+    }
+    println!(
+        "S 0.50 to 0.55: first simulated life after {:.2?}, settled after {:.2?} and {steps} steps",
+        first.unwrap_or_default(),
+        began.elapsed()
+    );
+}
+
+/// What drawing costs the simulation: steps of the default scene in four seconds on two threads with and
+/// without a screen of 160 x 48 in true colour, in turn. Printed, for a quiet machine.
+#[cfg(feature = "tui")]
+#[test]
+#[ignore = "prints a ratio of times"]
+fn drawing_costs_the_simulation() {
+    use asperity::tui::app::{App, Setup};
+    use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
+    use asperity::tui::view;
+    use ratatui::backend::CrosstermBackend;
+    use ratatui::layout::Rect;
+    use ratatui::{Terminal, TerminalOptions, Viewport};
+
+    let scene = Arc::new(Scene::load("demonstration").unwrap());
+    let plan = Plan::new(&scene).unwrap();
+    let request = Request {
+        name: "test".to_owned(),
+        scene: scene.clone(),
+        plan: plan.clone(),
+        threads: 2,
+        watchers: Vec::new(),
+        ending: Ending::OnStop,
+    };
+    let session = Session::start(request).unwrap();
+    wait_for(&session, |session| session.status().steps > 8);
+    let mut app = App::new(Setup {
+        scene,
+        load_n: plan.force_n,
+        half_width_m: plan.hertz.a_m,
+        p_hertz_pa: plan.hertz.p_max_pa,
+        plan_text: plan.to_string(),
+        left_out: Vec::new(),
+        errands: Vec::new(),
+        theme: Theme::new(Capabilities {
+            depth: ColorDepth::True,
+            glyphs: Glyphs::Unicode,
+        }),
+    });
+    let options = TerminalOptions {
+        viewport: Viewport::Fixed(Rect::new(0, 0, 160, 48)),
+    };
+    let backend = CrosstermBackend::new(std::io::sink());
+    let mut terminal = Terminal::with_options(backend, options).unwrap();
+    let latest = session.latest();
+    let (mut steps, mut drawing, mut frames) = ([0, 0], Duration::ZERO, 0_u32);
+    let began = Instant::now();
+    for turn in 0..16 {
+        let watched = turn % 2;
+        let (from, until) = (
+            session.status().steps,
+            Instant::now() + Duration::from_millis(500),
+        );
+        while Instant::now() < until {
+            if watched == 1 {
+                let now = Instant::now();
+                app.tick(began.elapsed());
+                if let Some(frame) = latest.take() {
+                    app.take_frame(frame);
+                }
+                terminal.draw(|frame| view::draw(&app, frame)).unwrap();
+                drawing += now.elapsed();
+                frames += 1;
+            }
+            std::thread::sleep(Duration::from_millis(22));
+        }
+        steps[watched] += session.status().steps - from;
+    }
+    session.send(Command::Stop);
+    session.join().unwrap();
+    println!(
+        "steps in 4 s: {} unwatched, {} watched ({:+.1} %); {:.2} ms a frame, {frames} frames",
+        steps[0],
+        steps[1],
+        100.0 * (steps[1] as f64 / steps[0] as f64 - 1.0),
+        1e3 * drawing.as_secs_f64() / f64::from(frames)
+    );
+}

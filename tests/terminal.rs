@@ -1,0 +1,328 @@
+//! The explorer in a terminal of its own: a shell in a pseudo-terminal starts the binary, as a person would.
+//! Whatever ends it, the shell has its terminal back.
+#![cfg(all(feature = "tui", unix))]
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::io::{Read, Write};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+use vt100::{MouseProtocolMode, Parser, Screen};
+
+/// Longest wait for anything: a hang is told, a slow machine is not.
+const PATIENCE: Duration = Duration::from_mins(2);
+/// A contact that starts within a second or so.
+const SMALL: &str = "--no-record --threads 1 --set grid.nodes=65 --set stress.depths=8";
+
+struct Terminal {
+    parser: Arc<Mutex<Parser>>,
+    master: Option<Box<dyn MasterPty + Send>>,
+    keys: Option<Box<dyn Write + Send>>,
+    shell: Box<dyn Child + Send + Sync>,
+    folder: tempfile::TempDir,
+}
+
+fn size(cols: u16, rows: u16) -> PtySize {
+    PtySize {
+        rows,
+        cols,
+        pixel_width: 0,
+        pixel_height: 0,
+    }
+}
+
+impl Terminal {
+    /// A shell with job control.
+    fn open(variables: &[(&str, &str)]) -> Self {
+        let pair = native_pty_system().openpty(size(100, 30)).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let mut command = CommandBuilder::new("sh");
+        command.args(["-i"]);
+        command.cwd(folder.path());
+        for name in ["NO_COLOR", "COLORTERM", "LC_ALL", "LC_CTYPE", "ENV"] {
+            command.env_remove(name);
+        }
+        command.env("PS1", "READY> ");
+        command.env("TERM", "xterm-256color");
+        command.env("LANG", "C.UTF-8");
+        command.env("ASPERITY", env!("CARGO_BIN_EXE_asperity"));
+        for (name, value) in variables {
+            command.env(name, value);
+        }
+        let shell = pair.slave.spawn_command(command).unwrap();
+        let mut reader = pair.master.try_clone_reader().unwrap();
+        let keys = pair.master.take_writer().unwrap();
+        let parser = Arc::new(Mutex::new(Parser::new(30, 100, 0)));
+        let screen = Arc::clone(&parser);
+        std::thread::spawn(move || {
+            let mut bytes = [0; 4096];
+            while let Ok(n @ 1..) = reader.read(&mut bytes) {
+                screen.lock().unwrap().process(&bytes[..n]);
+            }
+        });
+        let mut terminal = Self {
+            parser,
+            master: Some(pair.master),
+            keys: Some(keys),
+            shell,
+            folder: folder,
+        };
+        terminal.see("READY>");
+        terminal
+    }
+
+    fn press(&mut self, keys: &str) {
+        let sink = self.keys.as_mut().unwrap();
+        sink.write_all(keys.as_bytes()).unwrap();
+        sink.flush().unwrap();
+    }
+
+    fn text(&self) -> String {
+        self.parser.lock().unwrap().screen().contents()
+    }
+
+    fn wait(&mut self, what: &str, ready: impl Fn(&Screen) -> bool) {
+        let until = Instant::now() + PATIENCE;
+        while !ready(self.parser.lock().unwrap().screen()) {
+            assert!(Instant::now() < until, "no {what}:\n{}", self.text());
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    fn see(&mut self, text: &str) {
+        self.wait(text, |screen| screen.contents().contains(text));
+    }
+
+    /// The shell asks for a line: what is typed before goes to the program.
+    fn prompt(&mut self) {
+        self.wait("prompt", |screen| {
+            let text = screen.contents();
+            !screen.alternate_screen() && text.trim_end().ends_with("READY>")
+        });
+    }
+
+    fn explore(&mut self, how: &str) {
+        self.press(&format!("clear; {how}\n"));
+        self.wait("explorer", |screen| {
+            screen.alternate_screen() && screen.contents().contains("relative life")
+        });
+    }
+
+    fn resize(&mut self, cols: u16, rows: u16) {
+        self.parser
+            .lock()
+            .unwrap()
+            .screen_mut()
+            .set_size(rows, cols);
+        self.master
+            .as_ref()
+            .unwrap()
+            .resize(size(cols, rows))
+            .unwrap();
+    }
+
+    /// The shell has its terminal back: no second screen, a cursor, no mouse, lines that echo.
+    fn is_given_back(&mut self, code: &str) {
+        self.prompt();
+        // The words are put together by the shell, so that the line as typed does not hold them.
+        self.press("stty -a | tr ' ;' '\\n\\n' | grep -xE -e '-?(icanon|echo)' | tr '\\n' ' '; echo en''d\n");
+        self.wait("answer", |screen| {
+            screen.contents().lines().any(|line| line.ends_with(" end"))
+        });
+        let text = self.text();
+        assert!(text.contains("icanon echo end"), "{text}");
+        assert!(
+            !text.contains("-icanon") && !text.contains("-echo"),
+            "{text}"
+        );
+        assert!(text.contains(code), "{code}:\n{text}");
+        let parser = self.parser.lock().unwrap();
+        let screen = parser.screen();
+        assert!(!screen.hide_cursor());
+        assert_eq!(screen.mouse_protocol_mode(), MouseProtocolMode::None);
+    }
+}
+
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        // A shell that is gone already cannot be ended.
+        drop(self.shell.kill());
+        drop(self.shell.wait());
+    }
+}
+
+fn run(arguments: &str) -> String {
+    format!("\"$ASPERITY\" explore {arguments}; echo code=$?")
+}
+
+#[test]
+fn it_starts_hears_keys_fits_every_size_and_quits() {
+    let mut terminal = Terminal::open(&[("COLORTERM", "truecolor")]);
+    let began = Instant::now();
+    terminal.explore(&run(SMALL));
+    println!(
+        "first frame after {:.0?} (a shell included)",
+        began.elapsed()
+    );
+    terminal.see("S slide-to-roll");
+    terminal.press("?");
+    terminal.see("choose a knob");
+    terminal.press("?");
+    terminal.wait("knob", |screen| screen.contents().contains("0.50"));
+    terminal.press("\x1b[C");
+    terminal.wait("turned knob", |screen| screen.contents().contains("0.55"));
+    for (cols, rows) in [(300, 100), (60, 20), (59, 20), (10, 3), (160, 48), (80, 24)] {
+        terminal.resize(cols, rows);
+        if cols < 60 {
+            terminal.wait("refusal", |screen| screen.contents().contains("too"));
+        } else {
+            terminal.wait("right edge", |screen| {
+                screen.size() == (rows, cols) && screen.contents().contains("relative life")
+            });
+        }
+    }
+    terminal.press("q");
+    terminal.see("code=0");
+    terminal.is_given_back("code=0");
+}
+
+#[test]
+fn control_c_and_a_request_to_end_are_ways_to_quit() {
+    let mut terminal = Terminal::open(&[]);
+    terminal.explore(&run(SMALL));
+    terminal.press("\x03");
+    terminal.see("code=0");
+    terminal.is_given_back("code=0");
+    for signal in ["TERM", "INT"] {
+        // Another shell sends it, from the background.
+        terminal.explore(&format!(
+            "(sleep 2; kill -{signal} $(cat pid)) & sh -c 'echo $$ > pid; exec \"$ASPERITY\" explore {SMALL}'; echo code=$?"
+        ));
+        terminal.see("code=0");
+        terminal.is_given_back("code=0");
+    }
+}
+
+#[test]
+fn control_z_hands_the_terminal_over_and_fg_brings_it_back() {
+    let mut terminal = Terminal::open(&[]);
+    terminal.explore(&format!("\"$ASPERITY\" explore {SMALL}"));
+    terminal.press("\x1a");
+    terminal.prompt();
+    terminal.press("echo at the shell | tr a-z A-Z\n");
+    terminal.see("AT THE SHELL");
+    terminal.press("fg\n");
+    terminal.wait("explorer again", |screen| {
+        screen.alternate_screen() && screen.contents().contains("relative life")
+    });
+    terminal.press("q");
+    terminal.is_given_back("READY>");
+}
+
+#[test]
+fn plain_terminals_are_served_and_dumb_ones_told() {
+    let mut terminal = Terminal::open(&[("NO_COLOR", "1"), ("TERM", "vt100"), ("LANG", "C")]);
+    terminal.explore(&run(SMALL));
+    let text = terminal.text();
+    assert!(text.is_ascii(), "{text}");
+    terminal.press("q");
+    terminal.see("code=0");
+    let colored = |screen: &Screen| {
+        let (rows, cols) = screen.size();
+        let cells = (0..rows).flat_map(|row| (0..cols).map(move |col| (row, col)));
+        cells
+            .filter_map(|(row, col)| screen.cell(row, col))
+            .any(|cell| cell.fgcolor() != vt100::Color::Default)
+    };
+    assert!(!colored(terminal.parser.lock().unwrap().screen()));
+    let dumb = format!("TERM=dumb {}", run(SMALL));
+    terminal.press(&format!("clear; {dumb}\n"));
+    terminal.see("code=1");
+    let text = terminal.text();
+    assert!(text.contains("asperity run"), "{text}");
+}
+
+/// The window is closed: nobody reads or writes any more. The program ends by itself.
+#[test]
+fn a_terminal_that_vanishes_ends_it() {
+    let mut terminal = Terminal::open(&[]);
+    terminal.explore(&format!(
+        "sh -c 'echo $$ > pid; exec \"$ASPERITY\" explore {SMALL}'"
+    ));
+    let pid = std::fs::read_to_string(terminal.folder.path().join("pid")).unwrap();
+    let alive = || {
+        let mut kill = std::process::Command::new("kill");
+        kill.args(["-0", pid.trim()])
+            .stderr(std::process::Stdio::null());
+        kill.status().unwrap().success()
+    };
+    assert!(alive());
+    drop(terminal.keys.take());
+    drop(terminal.master.take());
+    // The reader thread holds a copy of the terminal: the shell's end is what hangs it up.
+    drop(terminal.shell.kill());
+    drop(terminal.shell.wait());
+    let until = Instant::now() + PATIENCE;
+    while alive() {
+        assert!(Instant::now() < until, "it still runs");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// Printed for a quiet machine: frames a second of the screen at 160 x 48 with the default scene on all cores,
+/// and how long a key takes to the screen. A frame is a burst of bytes with a pause before it.
+#[test]
+#[ignore = "prints times"]
+fn frames_a_second_and_input_to_screen() {
+    let mut terminal = Terminal::open(&[("COLORTERM", "truecolor")]);
+    terminal.resize(160, 48);
+    let began = Instant::now();
+    terminal.explore("\"$ASPERITY\" explore --no-record");
+    println!(
+        "first frame after {:.0?} (a shell included)",
+        began.elapsed()
+    );
+    // No replay: the run keeps all cores busy.
+    terminal.wait("passage", |screen| screen.contents().contains("passage 0."));
+    let (mut frames, mut last, began) = (0, String::new(), Instant::now());
+    let mut longest = Duration::ZERO;
+    let mut since = Instant::now();
+    while began.elapsed() < Duration::from_secs(3) {
+        let now = terminal.text();
+        if now != last {
+            frames += 1;
+            longest = longest.max(since.elapsed());
+            since = Instant::now();
+            last = now;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    println!(
+        "frames that changed: {:.1} a second, longest pause {longest:.0?}",
+        f64::from(frames) / began.elapsed().as_secs_f64()
+    );
+    let mut waits: Vec<Duration> = Vec::new();
+    for press in 0..200 {
+        // The speed's dial, up and down, so that nothing is far from home.
+        let (key, shown) = if press % 2 == 0 {
+            ("l", "0.55")
+        } else {
+            ("h", "0.50")
+        };
+        let pressed = Instant::now();
+        terminal.press(key);
+        terminal.wait("value", |screen| {
+            let row = screen.contents();
+            row.lines().nth(2).is_some_and(|line| line.contains(shown))
+        });
+        waits.push(pressed.elapsed());
+        std::thread::sleep(Duration::from_millis(7 + press % 13));
+    }
+    waits.sort_unstable();
+    println!(
+        "key to screen: median {:.1?}, p99 {:.1?}, longest {:.1?}",
+        waits[100], waits[197], waits[199]
+    );
+    terminal.press("q");
+}
