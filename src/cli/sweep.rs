@@ -193,6 +193,13 @@ fn comparison(sweep: &Sweep, against: &Against) -> String {
     );
     let _ = writeln!(
         text,
+        "work: {} transforms, cold {}: {:.2} times less",
+        against.sweep_ffts,
+        against.cold_ffts,
+        against.cold_ffts as f64 / against.sweep_ffts as f64
+    );
+    let _ = writeln!(
+        text,
         "greatest departure from cold: life {:.2} %, central film {:.2} %",
         100.0 * against.worst(0),
         100.0 * against.worst(1)

@@ -21,6 +21,10 @@ pub struct Against {
     pub sweep_s: f64,
     /// Same of the cold cases.
     pub cold_s: f64,
+    /// Transforms of all cases of the sweep: work that does not depend on the machine.
+    pub sweep_ffts: u64,
+    /// Same of the cold cases.
+    pub cold_ffts: u64,
     /// Case by case: life of the sweep over cold life, central film over cold film; NaN where there is none.
     pub ratios: Vec<[f64; 2]>,
 }
@@ -44,6 +48,13 @@ impl Watch for Until<'_> {
     fn step(&mut self, _done: f64) -> bool {
         !self.0.stop.load(Ordering::Relaxed)
     }
+}
+
+fn transforms(records: &[CaseRecord]) -> u64 {
+    records
+        .iter()
+        .map(|record| record.summary.counters.ffts)
+        .sum()
 }
 
 /// Runs every case cold on `threads` threads; `None`: stopped.
@@ -103,6 +114,8 @@ pub fn against_cold(
     Ok(Some(Against {
         sweep_s: rows.records.iter().map(|record| record.seconds).sum(),
         cold_s: cold.iter().map(|record| record.seconds).sum(),
+        sweep_ffts: transforms(&rows.records),
+        cold_ffts: transforms(&cold),
         ratios: pairs
             .map(|(one, two)| {
                 let (warm, cold) = (&one.summary, &two.summary);
