@@ -247,12 +247,19 @@ fn basis_index(basis: DamageBasis) -> usize {
     }
 }
 
-/// n of both bodies by formula; `None` where a body stands.
-pub(super) fn contacts(plan: &Plan, u_m_s: f64, s: f64) -> [Option<f64>; 2] {
+/// n of both bodies by formula, with the amplitudes that they now have (none, no crests); `None` where a body
+/// stands.
+pub(super) fn contacts(
+    plan: &Plan,
+    (u_m_s, s): (f64, f64),
+    amplitudes_m: [f64; 2],
+) -> [Option<f64>; 2] {
     let kinematics = Kinematics::from_slide_roll(u_m_s, s, 2.0 * plan.hertz.a_m);
     BodyId::BOTH.map(|body| {
         let mate = body.mate().index();
-        let crests = plan.waves[mate].map_or(0.0, |wave| wave.crests_per_m);
+        let crests = plan.waves[mate]
+            .filter(|_| amplitudes_m[mate] != 0.0)
+            .map_or(0.0, |wave| wave.crests_per_m);
         kinematics.contacts(body, crests).per_cycle()
     })
 }

@@ -164,7 +164,11 @@ impl Simulation {
             m.sigma_eff_max_depth_m = Some(door.m_from_x(peak.z));
             m.sigma_eff_max_x_m = Some(door.place_m(peak.x));
         }
-        let n = contacts(&self.plan, m.entrainment_m_s, m.slide_roll);
+        let n = contacts(
+            &self.plan,
+            (m.entrainment_m_s, m.slide_roll),
+            [m.amplitude_1_m, m.amplitude_2_m],
+        );
         (m.n_body_1, m.n_body_2) = (n[0], n[1]);
         if let Some(counting) = &self.counting {
             let counted = counting.counted();
