@@ -24,7 +24,8 @@ fn tolerance(pressure: f64) -> Tolerance {
         pressure,
         film: f64::INFINITY,
         mass: f64::INFINITY,
-        least_film: 0.0,
+        // Overlap is judged against it: a twentieth of it, 5e-7 of a²/R, is left.
+        least_film: 1e-5,
         load: 1e-8,
         max_iterations: 40,
     }

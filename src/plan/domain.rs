@@ -87,8 +87,8 @@ impl Crests {
     fn reach(self, kind: ContactKind) -> [f64; 2] {
         [self.along, self.across].map(|height| {
             let is_near = |x: &f64| gap(kind, *x) < height;
-            let tenths = (10..(10.0 * FARTHEST) as u32).map(|tenth| 0.1 * f64::from(tenth));
-            tenths.take_while(is_near).last().map_or(1.0, |x| x + 0.1)
+            let mut tenths = (10..=(10.0 * FARTHEST) as u32).map(|tenth| f64::from(tenth) / 10.0);
+            tenths.find(|x| !is_near(x)).unwrap_or(FARTHEST)
         })
     }
 

@@ -22,6 +22,8 @@ const CASES: &str = include_str!("../../../assets/studies/stability.toml");
 /// Waves of a rough case that says nothing else: nodes a wave, and amplitude of each body, m.
 const WAVE_NODES: f64 = 8.0;
 const WAVE_AMPLITUDE_M: f64 = 3e-7;
+/// Nodes a wave that any domain resolves.
+const LONG_WAVE_NODES: f64 = 64.0;
 
 /// Surfaces of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
@@ -167,8 +169,18 @@ impl CaseSet {
             Texture::Own => {}
             Texture::Smooth => texts.extend(smooth),
             Texture::Rough => {
-                let plan = Plan::new(&self.load(&bare)?).map_err(|error| error.to_string())?;
-                texts.extend(waves(case, &plan, t));
+                // The domain, and with it the spacing, follows from the amplitude: long waves of it show both.
+                let planned = |texts: &[String]| {
+                    Plan::new(&self.load(texts)?).map_err(|error| error.to_string())
+                };
+                let smooth = planned(&bare)?;
+                bare.extend(waves(case, &smooth, t, LONG_WAVE_NODES));
+                let rough = planned(&bare)?;
+                let nodes = case
+                    .push
+                    .get("wave.nodes")
+                    .map_or(WAVE_NODES, |r| pushed(*r, t));
+                texts.extend(waves(case, &rough, t, nodes));
             }
         }
         let scene = self.load(&texts)?;
@@ -225,11 +237,13 @@ pub(super) fn pushed([usual, extreme]: [f64; 2], t: f64) -> f64 {
 }
 
 /// Overrides that put waves of so many nodes on both bodies.
-fn waves(case: &Case, plan: &Plan, t: f64) -> Vec<String> {
-    let get = |name: &str, usual: f64| case.push.get(name).map_or(usual, |r| pushed(*r, t));
+fn waves(case: &Case, plan: &Plan, t: f64, nodes: f64) -> Vec<String> {
     // A touch more than asked for: rounding must not make 4 nodes fewer than 4.
-    let nodes = get("wave.nodes", WAVE_NODES) * (1.0 + 1e-9);
-    let amplitude_m = get("wave.amplitude_m", WAVE_AMPLITUDE_M);
+    let nodes = nodes * (1.0 + 1e-9);
+    let amplitude_m = case
+        .push
+        .get("wave.amplitude_m")
+        .map_or(WAVE_AMPLITUDE_M, |r| pushed(*r, t));
     let (wave_x, wave_y) = (nodes * plan.dx_m, nodes * plan.dy_m);
     vec![
         "body_1.surface.kind=sinusoid".to_owned(),
