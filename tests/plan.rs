@@ -45,7 +45,7 @@ fn the_default_scene() {
     let nodes = plan.waves[0].unwrap().nodes[0];
     assert!(nodes >= 13.0, "{nodes}");
     let record = plan.record.unwrap();
-    assert_eq!((record.every_steps, record.frames), (2, 128));
+    assert_eq!((record.every_steps, record.frames), (3, 86));
     assert_eq!(
         left_out(&plan),
         [

@@ -305,7 +305,7 @@ pub struct Record {
 impl Default for Record {
     fn default() -> Self {
         Self {
-            every_steps: 2,
+            every_steps: 3,
             budget_mb: 200.0,
         }
     }
