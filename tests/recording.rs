@@ -436,10 +436,8 @@ fn behind_a_queue_nothing_is_lost() {
 }
 
 /// A block comes when material has crossed, and is logged when it changes.
-#[test]
-fn damage_maps_come_when_they_are_there_and_change() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
+/// Eight frames with a map of that body from the third on, whole from the sixth on.
+fn with_damage(body: usize) -> Vec<Arc<Frame>> {
     let block = |filled: usize| DamageBlock {
         length_m: 1e-4,
         columns: 4,
@@ -452,18 +450,25 @@ fn damage_maps_come_when_they_are_there_and_change() {
         pit_depth_m: 1e-5,
         pit_damage: 0.5,
     };
-    let frames: Vec<_> = frames(8)
+    frames(8)
         .into_iter()
         .map(|frame| {
             let mut frame = Frame::clone(&frame);
-            frame.damage[1] = match frame.step {
+            frame.damage[body] = match frame.step {
                 1..=2 => None,
                 3..=5 => Some(block(1)),
                 _ => Some(block(4)),
             };
             Arc::new(frame)
         })
-        .collect();
+        .collect()
+}
+
+#[test]
+fn damage_maps_come_when_they_are_there_and_change() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let frames = with_damage(1);
     record(&path, &every_step(), &frames);
     let contents = Contents::read(&path);
     let entity = "damage/body_2_log10_relative";
@@ -476,6 +481,16 @@ fn damage_maps_come_when_they_are_there_and_change() {
             .iter()
             .all(|path| !path.contains("damage/body_1"))
     );
+}
+
+#[test]
+fn the_damage_of_body_1_hangs_below_the_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    record(&path, &every_step(), &with_damage(0));
+    let contents = Contents::read(&path);
+    assert_eq!(contents.rows("contact_3d/damage_body_1", false), 2);
+    assert_eq!(contents.rows("contact_3d/damage_title", false), 1);
 }
 
 /// A disk without room for the first bytes is known before the run starts.

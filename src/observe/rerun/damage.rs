@@ -23,7 +23,7 @@ pub(super) const DAMAGE: [&str; 2] = [
     "damage/body_2_log10_relative",
 ];
 /// Powers of ten above and below the reference that colours tell apart.
-const DECADES: f64 = 3.0;
+pub(super) const DECADES: f64 = 3.0;
 const WIDTH: f64 = 2.0;
 const HEIGHT: f64 = 1.5;
 /// Rows of the picture.

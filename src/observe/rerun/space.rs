@@ -3,9 +3,10 @@
 //! From above: body 2's roughness (seen through), the film as a height field coloured by pressure,
 //! body 1's roughness, and below it the stress in the cut plane with its depth to scale. Lengths are
 //! mm; heights of film and roughness are multiplied by one factor, which the label states. The three
-//! sheets are drawn apart: the gap between them is none of the model's.
+//! sheets are drawn apart: the gap between them is none of the model's. Lowest hangs body 1's damage map.
 
 mod fixed;
+mod hung;
 
 use rerun::{Arrows3D, Color, Mesh3D, Points3D, Radius};
 
@@ -19,6 +20,8 @@ use crate::observe::scales::{GPA, MM, number};
 use crate::sim::{Frame, Metrics};
 
 pub(super) const SPACE: &str = "contact_3d";
+/// Depth of the stress that is shown, in a.
+const SLICE_DEPTH: f64 = 1.1;
 
 /// Ranges that the 3-D view shares with the maps.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +42,7 @@ pub(super) struct Space {
     exaggeration: f64,
     levels: Levels,
     speeds: Option<[f64; 3]>,
+    hung: hung::Hung,
     /// Scratch: heights, shades and colours of a sheet.
     heights: Vec<f32>,
     colours: Vec<[u8; 3]>,
@@ -50,6 +54,7 @@ struct Levels {
     body_2: f64,
     body_1: f64,
     slice: f64,
+    damage: f64,
     /// The film is cut off at this height.
     film_cap: f64,
 }
@@ -78,6 +83,7 @@ impl Space {
             body_2: 0.95 * a,
             body_1: -0.32 * a,
             slice: -0.5 * a,
+            damage: -(0.62 + SLICE_DEPTH) * a,
             film_cap: 0.6 * a,
         };
         let slice = first
@@ -93,6 +99,7 @@ impl Space {
             exaggeration: exaggeration(geometry, first),
             levels,
             speeds: None,
+            hung: hung::Hung::default(),
             heights: Vec::new(),
             colours: Vec::new(),
         };
@@ -144,6 +151,7 @@ impl Space {
             }
         }
         self.log_slice(stream, frame)?;
+        self.log_damage(stream, frame)?;
         self.log_spots(stream, frame)?;
         self.log_point(stream, frame)?;
         self.log_speeds(stream, &frame.metrics)
@@ -282,7 +290,7 @@ impl SliceSheet {
         let columns: Vec<usize> = (0..g.nx).filter(|&i| g.x(i).abs() <= 1.45 * g.a).collect();
         let step = columns.len().div_ceil(64).max(1);
         let columns: Vec<usize> = columns.into_iter().step_by(step).collect();
-        let rows = Rows::new(&slice.depths_m, 0.05 * g.a, 1.5 * g.a)?;
+        let rows = Rows::new(&slice.depths_m, 0.05 * g.a, SLICE_DEPTH * g.a)?;
         (columns.len() > 1).then_some(Self { rows, columns })
     }
 

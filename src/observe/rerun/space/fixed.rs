@@ -109,12 +109,12 @@ impl Space {
         self.log_legend(stream, "pressure", pressure, [-0.1 * a, 0.85 * a])?;
         if let Some(top) = self.tops.effective_pa {
             let stress = (Ramp::Magma, top, "σ_eff, GPa");
-            let bottom = self.levels.slice - 1.4 * a;
+            let bottom = self.levels.slice - 1.1 * a;
             self.log_legend(
                 stream,
                 "effective_stress",
                 stress,
-                [bottom, bottom + 1.1 * a],
+                [bottom, bottom + 0.9 * a],
             )?;
         }
         Ok(())
