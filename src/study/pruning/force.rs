@@ -83,7 +83,7 @@ impl Forced {
             Self::Stress | Self::Spread | Self::EveryFrame => {
                 (0.0, "it is not looked at by the solver")
             }
-            Self::EveryVolume => (0.05, "16 phases in place of all, in life"),
+            Self::EveryVolume => (0.05, "fewer phases in place of all, in life"),
             Self::DeepWaves => (
                 1e-3,
                 "ε = 1e-4 of the longest wave left out, in the integral",
