@@ -31,11 +31,13 @@ const FIELDS: f64 = 160.0;
 /// Complex f32 values per node and depth for the stress: transforms of the frequency response.
 const STRESS_BYTES_PER_NODE: f64 = 8.0 * 4.0;
 /// Seconds of one converged rough step at 129², one thread, and the exponent of its growth with the nodes
-/// per side (8, 29 and 180 ms were measured at 65², 129² and 257²).
-const STEP_129_S: f64 = 0.029;
-const STEP_GROWTH: f64 = 2.3;
-/// Seconds of one stress field per depth at 129²: six transforms of 33 000 values.
-const DEPTH_129_S: f64 = 1.5e-3;
+/// per side (4.2, 14.2 and 92 ms were measured at 65², 129² and 257²; `asperity study scaling`), and what half of
+/// the rows save: a third.
+const STEP_129_S: f64 = 0.0142;
+const STEP_GROWTH: f64 = 2.2;
+const ALL_ROWS: f64 = 0.7;
+/// Seconds of one volume integral per depth at 129² (2.1 ms with 24 depths, and the counting beside it).
+const DEPTH_129_S: f64 = 1e-4;
 /// Seconds of one rough step of a line, of each of its nodes, and of the stress of a node at one depth
 /// (1.5 ms at 65 nodes and 4 ms at 513 with 32 depths were measured, one busy thread).
 const LINE_STEP_S: f64 = 1.0e-3;
@@ -64,7 +66,7 @@ impl Cost {
         }
         let all = nodes * nodes;
         let scale = nodes / 129.0;
-        let step_s = STEP_129_S * scale.powf(STEP_GROWTH) * (0.1 + 0.9 * load.rows);
+        let step_s = STEP_129_S * scale.powf(STEP_GROWTH) * (1.0 - ALL_ROWS + ALL_ROWS * load.rows);
         let volume_s = DEPTH_129_S * scale * scale * load.depths as f64;
         let memory =
             8.0 * FIELDS * all * load.rows + STRESS_BYTES_PER_NODE * all * load.depths as f64;
