@@ -17,6 +17,9 @@ pub(super) const SAME_S: f64 = 0.02;
 impl App {
     /// Takes what the run says of a passage that repeats; `None`: it does not (any more).
     pub fn take_settled(&mut self, settled: Option<Arc<Settled>>) -> Vec<Effect> {
+        // A knob was turned: until the run has heard of it, it still tells of the passage that was left.
+        let settled =
+            settled.filter(|new| !(self.left.as_ref()).is_some_and(|left| Arc::ptr_eq(left, new)));
         match (&self.held, settled) {
             (None, None) => Vec::new(),
             (Some(old), Some(new)) if Arc::ptr_eq(old, &new) => Vec::new(),
@@ -122,7 +125,9 @@ impl App {
     /// What a knob that is turned ends.
     pub(super) fn unsettle(&mut self) -> Vec<Effect> {
         let mut effects = self.end_replay();
-        self.held = None;
+        if let Some(held) = self.held.take() {
+            self.left = Some(held);
+        }
         self.auto_replay = AutoReplay::On;
         if self.sweep.take().is_some() {
             effects.push(Effect::EndSweep);

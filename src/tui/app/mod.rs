@@ -59,6 +59,8 @@ pub struct App {
     pub(crate) sweep: Option<(usize, usize)>,
     /// One period of the passage, once it repeats.
     held: Option<Arc<Settled>>,
+    /// The one that turning a knob has ended.
+    left: Option<Arc<Settled>>,
     pub(crate) replay: Option<Replay>,
     /// Whether a passage that repeats is replayed without being asked.
     auto_replay: AutoReplay,
@@ -115,6 +117,7 @@ impl App {
             settled_at: None,
             sweep: None,
             held: None,
+            left: None,
             replay: None,
             auto_replay: AutoReplay::default(),
             point: None,
