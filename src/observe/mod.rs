@@ -8,6 +8,8 @@
 //! * [`Export`]: fields of chosen steps as numpy archives and pictures.
 //! * `rerun::Recorder` (feature `rerun`): the recording. No other folder names that crate.
 
+pub(crate) mod cells;
+pub(crate) mod chart;
 mod export;
 mod latest;
 mod pool;

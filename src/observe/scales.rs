@@ -99,10 +99,6 @@ pub(crate) fn divisions(top: f64) -> Vec<f64> {
 }
 
 /// Round positions in [low, high], about `about` of them.
-#[cfg_attr(
-    not(any(feature = "rerun", test)),
-    expect(dead_code, reason = "the recording's")
-)]
 pub(crate) fn ticks(low: f64, high: f64, about: usize) -> Vec<f64> {
     let raw = (high - low) / about.max(1) as f64;
     if !(raw.is_finite() && raw > 0.0) {

@@ -3,11 +3,11 @@
 //! The header names every column with its unit; what is not known yet is an empty cell. Every row
 //! reaches the file at once, so a killed run leaves a table up to its last step.
 
-use std::fmt::Write as _;
 use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::cells::Cells;
 use super::{ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent};
 use crate::sim::{Frame, LifeEstimate, Metrics, Stage};
 
@@ -100,7 +100,7 @@ impl Table {
 
     fn write(&mut self, frame: &Frame) -> Result<(), csv::Error> {
         self.row.write(frame);
-        for cell in self.row.cells() {
+        for cell in self.row.cells.iter() {
             self.writer.write_field(cell)?;
         }
         self.writer.write_record(None::<&[u8]>)?;
@@ -152,41 +152,31 @@ impl Observer for Table {
     }
 }
 
-/// One row: its cells one after another in one buffer that is used again for the next row.
+/// One row, used again for the next.
 #[derive(Debug, Default)]
 struct Row {
-    text: String,
-    ends: Vec<usize>,
+    cells: Cells,
 }
 
 impl Row {
-    fn cells(&self) -> impl Iterator<Item = &str> {
-        let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts
-            .zip(&self.ends)
-            .map(|(start, &end)| &self.text[start..end])
+    fn cell(&mut self, value: f64) {
+        self.cells.number(value);
     }
 
-    fn cell(&mut self, value: impl std::fmt::Display) {
-        // Writing to a string cannot fail.
-        let _ = write!(self.text, "{value}");
-        self.ends.push(self.text.len());
+    fn count(&mut self, value: impl Into<u64>) {
+        self.cells.text(value.into());
     }
 
-    fn optional(&mut self, value: Option<impl std::fmt::Display>) {
-        match value {
-            Some(value) => self.cell(value),
-            None => self.ends.push(self.text.len()),
-        }
+    fn optional(&mut self, value: Option<f64>) {
+        self.cells.optional(value);
     }
 
     fn write(&mut self, frame: &Frame) {
-        self.text.clear();
-        self.ends.clear();
-        self.cell(frame.step);
+        self.cells.clear();
+        self.count(frame.step);
         self.cell(frame.time_s);
         self.cell(frame.passages);
-        self.cell(match frame.stage {
+        self.cells.text(match frame.stage {
             Stage::StartUp => "start_up",
             Stage::Passage => "passage",
         });
@@ -238,30 +228,30 @@ impl Row {
             repeat: _,
             errors: _,
         } = metrics;
-        self.cell(u8::from(*converged));
-        self.cell(residual);
-        self.cell(newton_iterations);
-        self.cell(linear_iterations);
-        self.cell(retries);
-        self.cell(slide_roll);
-        self.cell(slide_roll_target);
-        self.cell(entrainment_m_s);
-        self.cell(load_n);
-        self.cell(load_target_n);
-        self.cell(amplitude_1_m);
-        self.cell(amplitude_2_m);
-        self.cell(p_max_pa);
-        self.cell(h_central_m);
-        self.cell(h_min_m);
-        self.cell(h_mean_m);
+        self.count(u8::from(*converged));
+        self.cell(*residual);
+        self.count(*newton_iterations);
+        self.count(*linear_iterations);
+        self.count(*retries);
+        self.cell(*slide_roll);
+        self.cell(*slide_roll_target);
+        self.cell(*entrainment_m_s);
+        self.cell(*load_n);
+        self.cell(*load_target_n);
+        self.cell(*amplitude_1_m);
+        self.cell(*amplitude_2_m);
+        self.cell(*p_max_pa);
+        self.cell(*h_central_m);
+        self.cell(*h_min_m);
+        self.cell(*h_mean_m);
         self.optional(*lambda_ratio);
-        self.cell(contact_ratio);
-        self.cell(contact_load_ratio);
-        self.cell(load_error);
-        self.cell(film_error);
-        self.cell(mass_error);
-        self.cell(overlap_m);
-        self.cell(friction_coefficient);
+        self.cell(*contact_ratio);
+        self.cell(*contact_load_ratio);
+        self.cell(*load_error);
+        self.cell(*film_error);
+        self.cell(*mass_error);
+        self.cell(*overlap_m);
+        self.cell(*friction_coefficient);
         self.optional(*sigma_eff_max_pa);
         self.optional(*sigma_eff_max_depth_m);
         self.optional(*sigma_eff_max_x_m);
@@ -273,7 +263,7 @@ impl Row {
 
     fn life(&mut self, life: Option<&LifeEstimate>) {
         let Some(life) = life else {
-            self.ends.extend([self.text.len(); 11]);
+            self.cells.empty(11);
             return;
         };
         let LifeEstimate {
@@ -290,17 +280,17 @@ impl Row {
             settled,
             detail: _,
         } = life;
-        self.cell(i_ref);
-        self.cell(i_mean);
-        self.cell(phases);
-        self.cell(cycle_factor);
-        self.cell(stress_factor);
-        self.cell(peak_factor);
-        self.cell(traction_factor);
-        self.cell(life_relative);
-        self.cell(life_relative_low);
-        self.cell(life_relative_high);
-        self.cell(u8::from(*settled));
+        self.cell(*i_ref);
+        self.cell(*i_mean);
+        self.count(*phases);
+        self.cell(*cycle_factor);
+        self.cell(*stress_factor);
+        self.cell(*peak_factor);
+        self.cell(*traction_factor);
+        self.cell(*life_relative);
+        self.cell(*life_relative_low);
+        self.cell(*life_relative_high);
+        self.count(u8::from(*settled));
     }
 }
 

@@ -120,7 +120,8 @@ impl Simulation {
             left: this.smooth_steps(first),
         };
         this.start_up_steps.1 = this.all_start_up_steps(first);
-        this.publish(&Attempted::default());
+        let measured = this.measure();
+        this.publish(&Attempted::default(), &measured);
         Ok(this)
     }
 }

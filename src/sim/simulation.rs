@@ -37,8 +37,8 @@ pub(super) const DEVELOP: f64 = 4.0;
 pub(super) enum Phase {
     /// Smooth, with this many steps to go on the present grid.
     Smooth { left: u64 },
-    /// In the wake of a neighbour: this many steps of twice the length, then `then` of the usual one.
-    Settle { left: u64, then: u64 },
+    /// In the wake of a neighbour: this many long steps, then so many of the usual length.
+    Settle { coarse: u64, fine: u64 },
     /// Sliding and roughness come up.
     Develop { left: u64 },
     /// The passage.
@@ -102,16 +102,16 @@ impl Simulation {
                 self.start_up_steps.0 += 1;
                 Ok(())
             }
-            Phase::Settle { left: 0, then } => {
-                self.phase = Phase::Develop { left: then };
+            Phase::Settle { coarse: 0, fine: 0 } => {
+                self.phase = Phase::Develop { left: 0 };
                 self.stats.steps -= 1;
                 self.step()
             }
-            Phase::Settle { left, then } => {
+            Phase::Settle { coarse, fine } => {
                 self.advance()?;
                 self.phase = Phase::Settle {
-                    left: left - 1,
-                    then,
+                    coarse: coarse.saturating_sub(1),
+                    fine: fine - u64::from(coarse == 0),
                 };
                 self.start_up_steps.0 += 1;
                 Ok(())
@@ -200,7 +200,7 @@ impl Simulation {
 
     /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
     fn next_step(&self) -> (Stepping, f64) {
-        if let Phase::Settle { .. } = self.phase {
+        if let Phase::Settle { coarse: 1.., .. } = self.phase {
             let nodes = super::follow::COARSE * self.motion.nodes;
             return (Stepping::Fixed(nodes), nodes);
         }

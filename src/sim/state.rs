@@ -254,7 +254,7 @@ impl Simulation {
         );
         let measured = self.measure();
         let on_fine = self.march.grid.nx == self.plan.domain.nodes;
-        if on_fine && !matches!(self.phase, Phase::Smooth { .. }) {
+        if on_fine && self.stage_has_stress() {
             let (p, q) = (&self.march.state.pressure, &self.traction);
             if let Some(stress) = &mut self.stress {
                 self.pool.install(|| stress.slice(p, q, measured.friction));

@@ -14,8 +14,9 @@ impl Simulation {
         let before = self.watched;
         self.watched = self.motion.travelled;
         let on_fine = self.march.grid.nx == self.plan.domain.nodes;
-        if on_fine && !matches!(self.phase, Phase::Smooth { .. }) {
-            self.measure_stress();
+        let measured = self.measure();
+        if on_fine && self.stage_has_stress() {
+            self.measure_stress(&measured);
         }
         if on_fine
             && self.phase == Phase::Passage
@@ -25,11 +26,10 @@ impl Simulation {
             let pressure = &self.march.state.pressure;
             counting.step(&self.march.grid, travel, pressure, self.stress.as_ref());
         }
-        self.publish(attempted);
+        self.publish(attempted, &measured);
     }
 
-    fn measure_stress(&mut self) {
-        let measured = self.measure();
+    fn measure_stress(&mut self, measured: &Measured) {
         let Some(stress) = &mut self.stress else {
             return;
         };
@@ -124,8 +124,7 @@ impl Simulation {
         )
     }
 
-    pub(super) fn publish(&mut self, attempted: &Attempted) {
-        let measured = self.measure();
+    pub(super) fn publish(&mut self, attempted: &Attempted, measured: &Measured) {
         let has_stress = self.stage_has_stress();
         let door = &self.door;
         let m = &mut self.metrics;
@@ -177,9 +176,10 @@ impl Simulation {
         self.metrics.life = self.life_estimate();
     }
 
-    /// Whether the slice belongs to the present step.
+    /// Whether the slice belongs to the present step: the smooth contact's is taken once, and while a contact
+    /// settles in the wake of a neighbour nobody looks.
     pub(super) fn stage_has_stress(&self) -> bool {
-        !matches!(self.phase, Phase::Smooth { .. })
+        !matches!(self.phase, Phase::Smooth { .. } | Phase::Settle { .. })
     }
 
     pub(super) fn life_estimate(&self) -> Option<LifeEstimate> {

@@ -1,18 +1,16 @@
 //! Drawing of maps and curves on white: axes, colour bar, title, state.
 
 use std::path::Path;
-use std::sync::Once;
 
 use plotters::chart::SeriesAnno;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontStyle, register_font};
 
+use crate::observe::chart::{FONT, font};
 use crate::observe::ramp::Ramp;
 use crate::observe::scales::{divisions, number};
 
-const FONT: &str = "sans-serif";
 /// Width of a picture's axes, pixels.
 const WIDE: u32 = 720;
 /// Room around the axes, pixels.
@@ -107,15 +105,7 @@ impl Drawing<'_> {
 
     /// An empty picture with title and state.
     fn begin(&self, width: u32, height: u32) -> Result<Area<'_>, String> {
-        static FONTS: Once = Once::new();
-        // The font is part of the program and is read without fault; a second registration changes nothing.
-        FONTS.call_once(|| {
-            drop(register_font(
-                FONT,
-                FontStyle::Normal,
-                dejavu::sans::regular(),
-            ));
-        });
+        font()?;
         let root = BitMapBackend::new(self.file, (width, height)).into_drawing_area();
         let text = |text: &str, y: i32, size: i32, colour: RGBColor| {
             let style = TextStyle::from((FONT, size)).color(&colour);

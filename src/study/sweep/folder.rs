@@ -6,7 +6,7 @@
 //! FOLDER/base.toml               the scene that every case starts from, before its own keys are set
 //! FOLDER/cases/0000012.json      asperity case 1 <FNV-1a of the rest> \n { ... }
 //! FOLDER/chains/0000003-0000012.state      where chain 3 goes on after case 12; gone when it is done
-//! FOLDER/table.csv, seconds.csv, *.svg     when all cases are there
+//! FOLDER/table.csv, seconds.csv, *.svg, *.png   when all cases are there
 //! ```
 //! A file is written under another name, brought to the disk and renamed, so that a kill leaves the old one or
 //! the new one. Two processes that write the same case write the same bytes. A record whose digest does not
@@ -208,11 +208,30 @@ impl Folder {
     /// # Errors
     /// [`SweepError::Folder`] when the disk says no.
     pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
-        let temporary = self.temporary();
-        let written = std::fs::File::create(&temporary)
-            .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-            .and_then(|()| std::fs::rename(&temporary, path));
-        written.map_err(|error| {
+        self.write_by(path, |temporary| {
+            std::fs::File::create(temporary)
+                .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
+                .map_err(|error| error.to_string())
+        })
+    }
+
+    /// Lets somebody write a file, under another name with the same ending, and gives it its own when it is
+    /// whole.
+    ///
+    /// # Errors
+    /// [`SweepError::Folder`] when the writer or the disk says no.
+    pub(super) fn write_by<T>(
+        &self,
+        path: &Path,
+        writer: impl FnOnce(&Path) -> Result<T, String>,
+    ) -> Result<(), SweepError> {
+        let mut temporary = self.temporary();
+        if let Some(ending) = path.extension() {
+            temporary.set_extension(ending);
+        }
+        let renamed = writer(&temporary)
+            .and_then(|_| std::fs::rename(&temporary, path).map_err(|error| error.to_string()));
+        renamed.map_err(|error| {
             let _ = std::fs::remove_file(&temporary);
             SweepError::folder(path, error)
         })

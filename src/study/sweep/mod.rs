@@ -15,7 +15,6 @@ mod cold;
 #[cfg(feature = "parquet")]
 mod columns;
 mod error;
-mod figure;
 mod folder;
 mod path;
 mod path_keys;

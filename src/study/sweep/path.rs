@@ -17,6 +17,9 @@
 //! load_sharing = "half"               # "half", "trapezoid" (1/3 to 2/3) or "whole"
 //! points = 17                         # evenly from A to E; B, C and D beside
 //! ```
+//! A `[cam]` goes along the flank, or along `angles_deg = [from, to]` of it, from the nose. Round the nose both
+//! surfaces move against each other, |S| > 2: a scene's S ends at ±2 (one surface stands), so such angles are
+//! refused by name.
 
 use std::f64::consts::PI;
 
@@ -160,7 +163,7 @@ fn gear(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
 }
 
 fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
-    let teeth = keys.pair("teeth", (5.0, 1000.0), "teeth")?;
+    let teeth = keys.pair("teeth", (5.0, 1000.0), "teeth, pinion first")?;
     let whole = teeth.filter(|pair| pair.iter().all(|z| z.fract() == 0.0));
     let Some(teeth) = whole.map(|pair| pair.map(|z| z as u32)) else {
         let written = keys
@@ -170,7 +173,7 @@ fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
         let allowed = "two whole numbers, 5 to 1000, pinion first";
         return Err(SceneError::value("gear.teeth", written, allowed));
     };
-    let radii = keys.pair("pitch_radii_m", (1e-4, 10.0), "m")?;
+    let radii = keys.pair("pitch_radii_m", (1e-4, 10.0), "m, pinion first")?;
     let module_m = match (keys.maybe("module_m", (1e-5, 0.1), "m")?, radii) {
         (Some(module_m), None) => module_m,
         (None, Some([one, two])) => {
@@ -194,7 +197,7 @@ fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
     };
     let standard = teeth.map(|z| module_m * f64::from(z));
     let centre = keys.maybe("centre_distance_m", (1e-4, 10.0), "m")?;
-    let tips = keys.pair("tip_diameters_m", (1e-4, 20.0), "m")?;
+    let tips = keys.pair("tip_diameters_m", (1e-4, 20.0), "m, pinion first")?;
     let load_sharing = match keys.table.get("load_sharing").map(|v| (v.as_str(), v)) {
         None | Some((Some("half"), _)) => LoadSharing::Half,
         Some((Some("trapezoid"), _)) => LoadSharing::Trapezoid,
@@ -278,6 +281,7 @@ fn cam(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
         "stiffness_n_per_m",
         "mass_kg",
         "width_m",
+        "angles_deg",
         "points",
     ])?;
     let cam = FlatFollower {
@@ -295,10 +299,22 @@ fn cam(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
     // The flank: from the turning point of the lift, where the follower's speed is 0, to the end of it. The
     // turning point itself has S = 2; half a step away from it both surfaces move.
     let n = keys.points(9)?;
-    let flank = 0.5 * cam.half_angle_rad;
+    let end = cam.half_angle_rad.to_degrees();
+    let unit = "degrees from the nose, the lesser first";
+    let ends = keys.pair("angles_deg", (0.0, end), unit)?;
+    let [near, far] = ends.unwrap_or([0.5 * end, end]);
+    if near >= far {
+        let allowed = format!("two numbers, 0 to {end} {unit}");
+        return Err(SceneError::value(
+            "cam.angles_deg",
+            format!("[{near}, {far}]"),
+            allowed,
+        ));
+    }
+    let [near, far] = [near, far].map(f64::to_radians);
     let mut stops = Vec::new();
     for k in 0..n {
-        let angle = cam.half_angle_rad - flank * (k as f64 + 0.5) / n as f64;
+        let angle = far - (far - near) * (k as f64 + 0.5) / n as f64;
         let at = cam.at(angle);
         if at.radius_m <= 0.0 || at.load_n_per_m <= 0.0 {
             return Err(SceneError::value(
@@ -314,6 +330,18 @@ fn cam(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
         }
         let [follower, nose] = at.speeds_m_s;
         let entrainment = 0.5 * (follower + nose);
+        if follower < 0.0 {
+            return Err(SceneError::value(
+                "cam.angles_deg",
+                format!("{:.1}", angle.to_degrees()),
+                format!(
+                    "angles of the flank, {:.1} to {end:.1} degrees from the nose: nearer to it the surfaces move \
+                     against each other (here S = {:.1}), and motion.slide_roll goes from -2 to 2",
+                    0.5 * end,
+                    (nose - follower) / entrainment
+                ),
+            ));
+        }
         stops.push(Stop {
             values: vec![
                 ("path_deg", angle.to_degrees()),

@@ -81,10 +81,7 @@ impl Keys<'_> {
             _ => Err(SceneError::value(
                 self.full(name),
                 shown(value),
-                format!(
-                    "two numbers, {} to {} {unit}, pinion first",
-                    range.0, range.1
-                ),
+                format!("two numbers, {} to {} {unit}", range.0, range.1),
             )),
         }
     }

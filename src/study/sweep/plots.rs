@@ -7,14 +7,14 @@
 //! | Stribeck: friction against λ | speed, viscosity, load or roughness varies |
 //! | life map | two axes of numbers make a grid |
 //!
-//! Several axes make one curve for each combination of the others, at most eight.
+//! Each is written as SVG and as PNG. Several axes make one curve for each combination of the others, at most eight.
 
 use super::axis::{Axis, shown};
 use super::error::SweepError;
-use super::figure::{Curve, Figure, Map, Mark, Scale};
 use super::folder::Folder;
 use super::spec::{Combine, Sweep};
 use super::table::Rows;
+use crate::observe::chart::{Cells, Chart, Corner, Curve, Figure, Mark, Scale};
 
 /// Most curves of one picture.
 const MOST_CURVES: usize = 8;
@@ -25,22 +25,31 @@ const MOST_CURVES: usize = 8;
 /// [`SweepError::Folder`] when the disk or the drawing library says no.
 pub fn draw(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<Vec<String>, SweepError> {
     let mut names = Vec::new();
-    let mut keep = |name: &str, svg: Result<Option<String>, String>| {
-        let path = folder.root().join(format!("{name}.svg"));
-        let svg = svg.map_err(|reason| SweepError::folder(&path, reason))?;
-        if let Some(text) = svg {
-            folder.write(&path, text.as_bytes())?;
-            names.push(path.display().to_string());
-        }
-        Ok::<_, SweepError>(())
-    };
     for (name, figure) in figures(sweep, rows) {
-        keep(&name, figure.svg())?;
+        keep(folder, &name, &figure, &mut names)?;
     }
     if let Some(map) = life_map(sweep, rows) {
-        keep("life_map", map.svg())?;
+        keep(folder, "life_map", &map, &mut names)?;
     }
     Ok(names)
+}
+
+/// Writes a chart as SVG and as PNG, if there is something in it.
+fn keep(
+    folder: &Folder,
+    name: &str,
+    chart: &impl Chart,
+    names: &mut Vec<String>,
+) -> Result<(), SweepError> {
+    let path = folder.root().join(format!("{name}.svg"));
+    let svg = chart.svg();
+    let Some(text) = svg.map_err(|reason| SweepError::folder(&path, reason))? else {
+        return Ok(());
+    };
+    folder.write(&path, text.as_bytes())?;
+    folder.write_by(&path.with_extension("png"), |path| chart.png(path))?;
+    names.push(format!("{} and .png", path.display()));
+    Ok(())
 }
 
 /// The axis along which curves run: column, label, scale.
@@ -212,6 +221,8 @@ fn figure(
         x: (along.label.clone(), along.scale),
         y: (label.to_owned(), scale),
         curves,
+        levels: Vec::new(),
+        legend: Corner::UpperRight,
     }
 }
 
@@ -252,11 +263,13 @@ fn stribeck(sweep: &Sweep, rows: &Rows) -> Option<Figure> {
             points,
             mark: Mark::Computed,
         }],
+        levels: Vec::new(),
+        legend: Corner::UpperRight,
     })
 }
 
 /// Life over the last two axes of a grid; of more axes, at the first values of the others.
-fn life_map(sweep: &Sweep, rows: &Rows) -> Option<Map> {
+fn life_map(sweep: &Sweep, rows: &Rows) -> Option<Cells> {
     let [.., y, x] = sweep.axes.as_slice() else {
         return None;
     };
@@ -269,7 +282,7 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<Map> {
     if !rising(&xs) || !rising(&ys) {
         return None;
     }
-    Some(Map {
+    Some(Cells {
         title: title(sweep),
         cells: lives
             .chunks(xs.len())

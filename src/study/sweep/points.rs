@@ -3,7 +3,8 @@
 use super::error::SweepError;
 use super::run::prepare;
 use super::spec::Sweep;
-use super::table::{cell, written};
+use super::table::{Text, write_value};
+use crate::observe::cells::Cells;
 use crate::physics::cycles::{BodyId, Kinematics};
 use crate::plan::{OtherFilms, Plan};
 use crate::scene::Scene;
@@ -40,20 +41,24 @@ pub fn points_csv(sweep: &Sweep) -> Result<String, SweepError> {
         head.extend(sweep.axes.iter().map(|axis| axis.key.clone()));
     }
     head.extend(shown.iter().map(|k| sweep.header(COLUMNS[*k]).to_owned()));
-    let mut text = head.join(",") + "\n";
+    let mut text = Text::begin(&head);
+    let mut row = Cells::default();
     for case in 0..sweep.len() {
         let (scene, plan) = prepare(sweep, case)?;
-        let mut row = vec![case.to_string()];
+        row.clear();
+        row.text(case);
         match sweep.path.get(case) {
-            Some(point) => row.extend(point.values.iter().map(|(_, v)| cell(Some(*v)))),
-            None => row.extend(sweep.values(case).into_iter().map(written)),
+            Some(point) => point.values.iter().for_each(|(_, v)| row.number(*v)),
+            None => sweep
+                .values(case)
+                .into_iter()
+                .for_each(|value| write_value(&mut row, value)),
         }
         let known = numbers(&scene, &plan);
-        row.extend(shown.iter().map(|k| cell(known[*k])));
-        text.push_str(&row.join(","));
-        text.push('\n');
+        shown.iter().for_each(|k| row.optional(known[*k]));
+        text.row(&row);
     }
-    Ok(text)
+    Ok(text.end())
 }
 
 fn numbers(scene: &Scene, plan: &Plan) -> [Option<f64>; COLUMNS.len()] {

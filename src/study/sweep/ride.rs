@@ -5,7 +5,7 @@
 //! ```
 //! The radius is no knob, so it stays; the load is scaled so that the Hertz pressure is the path's own, and the
 //! half-width is off by R_C/R (up to 2.2 at the very root of an FZG C pinion, within a quarter over most of the
-//! tooth). Times are those of the mesh: one ride is one mesh of one pair of teeth.
+//! tooth), which each caption says. Times are those of the mesh: one ride is one mesh of one pair of teeth.
 
 use std::collections::BTreeMap;
 
@@ -36,8 +36,10 @@ impl Sweep {
         let mut ride = scenes[0].clone();
         ride.title = format!("{}: a ride on the contact", self.title);
         ride.about = format!(
-            "One mesh of one pair of teeth in its own time. R stays at the pitch point's {radius_m:.3e} m; loads are \
-             such that the Hertz pressure is that of the path."
+            "One mesh of one pair of teeth in its own time. R stays at the pitch point's {radius_m:.3e} m, because no \
+             knob turns a radius; loads are such that the Hertz pressure is that of the path. The half-width shown is \
+             that of the tooth times the factor in each caption; film and life of a point of the tooth with its own R \
+             are in the table of the sweep."
         );
         ride.contact.rx_m = radius_m;
         ride.load.force_n_per_m = Some(load(&scenes[0]));
@@ -61,12 +63,14 @@ impl Sweep {
                     ("motion.slide_roll".to_owned(), scene.motion.slide_roll),
                 ]),
                 caption: format!(
-                    "{:.1} mm from A: S = {:.2}, U = {:.2} m/s, {:.2} GPa, {} the load on this pair",
+                    "{:.1} mm from A: S = {:.2}, U = {:.2} m/s, {:.2} GPa, {} the load on this pair; half-width {:.2} \
+                     times the tooth's",
                     self.path[k].values[0].1 * 1e3,
                     scene.motion.slide_roll,
                     scene.motion.entrainment_m_s,
                     scene.hertz().p_max_pa * 1e-9,
-                    if share == 1.0 { "all" } else { "part of" }
+                    if share == 1.0 { "all" } else { "part of" },
+                    radius_m / scene.contact.rx_m
                 ),
             });
         }

@@ -13,6 +13,7 @@ use super::case::{Began, CaseEnd, CaseRecord};
 use super::error::SweepError;
 use super::folder::{Folder, fnv};
 use super::spec::Sweep;
+use crate::observe::cells::Cells;
 
 /// Columns after those of the path and the axes, in the order of [`numbers`].
 pub const COLUMNS: [&str; 50] = [
@@ -177,46 +178,49 @@ impl Rows {
     /// # Errors
     /// [`SweepError::Case`] when a case is no scene any more (its height map has gone).
     pub fn csv(&self, sweep: &Sweep) -> Result<String, SweepError> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
         let head = ["case".to_owned()]
             .into_iter()
             .chain(super::path::columns(&sweep.path).map(str::to_owned))
             .chain(sweep.axes.iter().map(|axis| axis.key.clone()))
             .chain(["scene", "began", "end"].map(str::to_owned))
             .chain(COLUMNS.map(|column| sweep.header(column).to_owned()));
-        let mut rows = vec![head.collect::<Vec<_>>()];
+        let mut text = Text::begin(head);
+        let mut row = Cells::default();
         for record in &self.records {
-            rows.push(Self::row(sweep, record)?);
+            Self::row(sweep, record, &mut row)?;
+            text.row(&row);
         }
-        let written = rows.iter().try_for_each(|row| writer.write_record(row));
-        let text = written.ok().and_then(|()| writer.into_inner().ok());
-        // Text into memory: this cannot fail.
-        Ok(text
-            .and_then(|bytes| String::from_utf8(bytes).ok())
-            .unwrap_or_default())
+        Ok(text.end())
     }
 
-    fn row(sweep: &Sweep, record: &CaseRecord) -> Result<Vec<String>, SweepError> {
+    fn row(sweep: &Sweep, record: &CaseRecord, row: &mut Cells) -> Result<(), SweepError> {
         let scene = sweep.scene(record.index)?;
         let scene = toml::to_string(&scene).unwrap_or_default();
-        let mut row = vec![record.index.to_string()];
+        row.clear();
+        row.text(record.index);
         if let Some(point) = sweep.path.get(record.index) {
-            row.extend(point.values.iter().map(|(_, value)| cell(Some(*value))));
+            point
+                .values
+                .iter()
+                .for_each(|(_, value)| row.number(*value));
         }
-        row.extend(sweep.values(record.index).into_iter().map(written));
-        row.push(format!("{:016x}", fnv(scene.as_bytes())));
-        let began = match record.began {
+        for value in sweep.values(record.index) {
+            write_value(row, value);
+        }
+        row.text(format_args!("{:016x}", fnv(scene.as_bytes())));
+        row.text(match record.began {
             Began::Cold => "cold",
             Began::Warm => "warm",
-        };
-        let end = match record.end {
+        });
+        row.text(match record.end {
             CaseEnd::Converged => "converged",
             CaseEnd::NotConverged => "not_converged",
             CaseEnd::Stalled => "stalled",
-        };
-        row.extend([began.to_owned(), end.to_owned()]);
-        row.extend(numbers(record).map(cell));
-        Ok(row)
+        });
+        numbers(record)
+            .iter()
+            .for_each(|value| row.optional(*value));
+        Ok(())
     }
 
     /// Seconds of every case, beside the table because they are another number in every run.
@@ -241,27 +245,41 @@ impl Rows {
     }
 }
 
-/// A number in the fewest digits that read back to the same bits.
-pub(super) fn cell(value: Option<f64>) -> String {
-    match value {
-        Some(value) if value.is_finite() => {
-            let size = value.abs();
-            if value == 0.0 || (1e-3..1e15).contains(&size) {
-                format!("{value}")
-            } else {
-                format!("{value:e}")
-            }
-        }
-        _ => String::new(),
+/// A table in memory.
+pub(super) struct Text(csv::Writer<Vec<u8>>);
+
+impl Text {
+    /// With its header.
+    pub(super) fn begin(head: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Self {
+        let mut text = Self(csv::Writer::from_writer(Vec::new()));
+        text.put(head);
+        text
+    }
+
+    /// One row more.
+    pub(super) fn row(&mut self, row: &Cells) {
+        self.put(row.iter());
+    }
+
+    fn put(&mut self, cells: impl IntoIterator<Item = impl AsRef<[u8]>>) {
+        // Text into memory, every row as long as the header: this cannot fail.
+        drop(self.0.write_record(cells));
+    }
+
+    /// The whole of it.
+    pub(super) fn end(self) -> String {
+        let bytes = self.0.into_inner().ok().unwrap_or_default();
+        String::from_utf8(bytes).unwrap_or_default()
     }
 }
 
-pub(super) fn written(value: &Value) -> String {
+/// A value as the sweep file has it.
+pub(super) fn write_value(row: &mut Cells, value: &Value) {
     match value {
-        Value::Float(number) if number.is_infinite() => number.to_string(),
-        Value::Float(number) => cell(Some(*number)),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
+        Value::Float(number) if number.is_infinite() => row.text(number),
+        Value::Float(number) => row.number(*number),
+        Value::String(text) => row.text(text),
+        other => row.text(other),
     }
 }
 
