@@ -353,6 +353,16 @@ fn hostile_files_are_refused_by_key_value_and_range() {
              torque_n_m = 10\nspeed_rpm = 10\ntip_diameters_m = [0.06, 0.1]",
             &["gear.tip_diameters_m", "teeth that mesh"],
         ),
+        (
+            "scene = \"cam_nose\"\n[cam]\nbase_radius_m = 0.015\nlift_m = 0.003\nhalf_angle_deg = 60.0\nspeed_rpm = 400\n\
+             preload_n = 250\nstiffness_n_per_m = 3e4\nmass_kg = 0.15\nwidth_m = 0.004\nangles_deg = [0.0, 60.0]",
+            &[
+                "cam.angles_deg",
+                "30.0 to 60.0 degrees",
+                "against each other",
+                "-2 to 2",
+            ],
+        ),
         ("[[vary]]", &["vary", "a table"]),
         ("[vary\n", &["not valid TOML"]),
         (huge.as_str(), &["1 to 1000000 values"]),
@@ -389,6 +399,84 @@ fn built_in_sweeps_are_whole_and_a_folder_keeps_one_that_is_the_same() {
     }
 }
 
+/// A table of points by name.
+struct Points(Vec<Vec<String>>);
+
+impl Points {
+    fn of(sweep: &Sweep) -> Self {
+        let text = points_csv(sweep).unwrap();
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+        Self(text.lines().map(cells).collect())
+    }
+
+    fn column(&self, name: &str) -> Vec<f64> {
+        let at = self.0[0].iter().position(|n| n == name).unwrap();
+        self.0[1..]
+            .iter()
+            .map(|row| row[at].parse().unwrap())
+            .collect()
+    }
+}
+
+#[test]
+fn a_ball_meets_its_greatest_load_in_the_middle_of_the_zone() {
+    let sweep = Sweep::load("bearing_race").unwrap();
+    let points = Points::of(&sweep);
+    let (angle, load) = (points.column("path_deg"), points.column("load_n"));
+    let middle = load.len() / 2;
+    assert!(angle[middle].abs() < 1e-12 && angle[0] == -angle[load.len() - 1]);
+    // A 6309-like bearing: 4521 N radial are 2470 N on the ball in the middle, whose pressure the preset has.
+    assert!((load[middle] - 2470.0).abs() < 1.0, "{load:?}");
+    let preset = asperity::scene::Scene::load("ball_bearing").unwrap();
+    let pressure = points.column("p_hertz_pa");
+    let preset_pa = preset.hertz().p_max_pa;
+    assert!(
+        (pressure[middle] / preset_pa - 1.0).abs() < 2e-3,
+        "{pressure:?} {preset_pa}"
+    );
+    for k in 0..load.len() {
+        let known = load[middle] * angle[k].to_radians().cos().powf(1.5);
+        assert!((load[k] / known - 1.0).abs() < 1e-12, "case {k}");
+        // Hertz's point contact: the third power of pressure goes with the load.
+        let cubed = (pressure[k] / pressure[middle]).powi(3);
+        assert!(
+            (cubed / (load[k] / load[middle]) - 1.0).abs() < 1e-9,
+            "case {k}"
+        );
+    }
+    // γ = 17.462/72.5: U = ω d_m (1 − γ²)/4 at 3000 rpm, the same all round; pure rolling.
+    let u = points.column("entrainment_m_s");
+    assert!(u.iter().all(|u| (u - 5.364).abs() < 1e-3), "{u:?}");
+}
+
+#[test]
+fn a_cam_s_flank_has_the_curvature_and_the_speeds_of_its_lift() {
+    let sweep = Sweep::load("cam_flank").unwrap();
+    let points = Points::of(&sweep);
+    let column = |name: &str| points.column(name);
+    let (angle, lift, radius) = (column("path_deg"), column("lift_m"), column("rx_m"));
+    let (u_1, u_2, s) = (column("u_1_m_s"), column("u_2_m_s"), column("slide_roll"));
+    let omega = 400.0 * std::f64::consts::TAU / 60.0;
+    // The follower stands on the tangent at distance r_b + s from the axis: the envelope of these has R = r_b + s + s''.
+    let at = |degrees: f64| 0.5 * 0.003 * (1.0 + (std::f64::consts::PI * degrees / 60.0).cos());
+    for k in 0..angle.len() {
+        let step = 0.01;
+        let curve = (at(angle[k] + step) - 2.0 * at(angle[k]) + at(angle[k] - step))
+            / step.to_radians().powi(2);
+        assert!((lift[k] - at(angle[k])).abs() < 1e-15);
+        assert!(
+            (radius[k] - (0.015 + lift[k] + curve)).abs() < 1e-8,
+            "case {k}"
+        );
+        assert!((u_1[k] - omega * curve).abs() < 1e-6 && u_1[k] > 0.0);
+        // Both speeds differ by ω times the distance of the contact from the axis.
+        assert!((u_2[k] - u_1[k] - omega * (0.015 + lift[k])).abs() < 1e-12);
+    }
+    // From the end of the lift towards the nose, never beyond the place where the follower's surface stands.
+    assert!(angle.windows(2).all(|pair| pair[1] < pair[0]) && angle.iter().all(|a| *a > 30.0));
+    assert!(s.windows(2).all(|pair| pair[1] > pair[0]) && s.iter().all(|s| *s < 2.0));
+}
+
 #[test]
 fn the_fzg_tooth_has_the_published_pressure_at_its_pitch_point() {
     let sweep = Sweep::load("fzg_c").unwrap();
@@ -406,6 +494,19 @@ fn the_fzg_tooth_has_the_published_pressure_at_its_pitch_point() {
     let pressure = number(pitch, "p_hertz_pa");
     println!("pitch point {pressure:e} Pa");
     assert!((pressure - 1347e6).abs() < 1.5e6, "{pressure}");
+    // ISO 14635-1: T1T2 = 34.93 mm, contact ratio 1.44 with these tips, R 8.38 mm and 2.19 m/s at the pitch point.
+    let length = number(pitch, "rho_1_m") + number(pitch, "rho_2_m");
+    assert!((length - 34.93e-3).abs() < 1e-5, "{length}");
+    let way = number(&rows[rows.len() - 1], "path_m");
+    let base_pitch = std::f64::consts::PI * 4.5e-3 * 20_f64.to_radians().cos();
+    assert!((way / base_pitch - 1.44).abs() < 5e-3, "{way}");
+    assert!((number(pitch, "rx_m") - 8.38e-3).abs() < 1e-5);
+    assert!((number(pitch, "entrainment_m_s") - 2.19).abs() < 0.01);
+    // The pinion's root is slower than the wheel's tip by the ratio of their radii of curvature and of the teeth.
+    let first = &rows[1];
+    let ratio = number(first, "u_1_m_s") / number(first, "u_2_m_s");
+    let known = 24.0 / 16.0 * number(first, "rho_1_m") / number(first, "rho_2_m");
+    assert!((ratio / known - 1.0).abs() < 1e-12, "{ratio} {known}");
     // S falls all along the line of action: dedendum above 0, tip below.
     assert!(rows[0].contains(&"load_n_per_m"));
     let s: Vec<f64> = rows[1..]

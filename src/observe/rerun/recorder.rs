@@ -250,7 +250,7 @@ impl Views {
         if let Some(space) = &mut self.space {
             space.log(stream, frame)?;
         }
-        if let Some(trace) = &self.trace {
+        if let Some(trace) = &mut self.trace {
             trace.log(stream, frame)?;
         }
         self.damage.log(stream, frame)?;

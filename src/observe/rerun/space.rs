@@ -8,11 +8,11 @@
 mod fixed;
 mod hung;
 
-use rerun::{Arrows3D, Color, Mesh3D, Points3D, Radius};
+use rerun::{Arrows3D, Color, Points3D, Radius};
 
 use super::colour::{GREEN, ORANGE, Ramp, SKY};
 use super::geometry::Geometry;
-use super::mesh::{COARSE, FINE, Window};
+use super::mesh::{COARSE, FINE, Window, coloured};
 use super::slice::Rows;
 use super::stream::Stream;
 use crate::observe::ObserveError;
@@ -211,8 +211,10 @@ impl Space {
             let stress = sheet.columns.iter().map(move |i| value(row, i));
             stress.map(|stress| Ramp::Magma.colour(stress / top as f32, 1.0))
         });
-        let mesh = Mesh3D::update_fields().with_vertex_colors(colours);
-        stream.log(format!("{SPACE}/effective_stress_slice"), &mesh)
+        stream.log(
+            format!("{SPACE}/effective_stress_slice"),
+            &coloured(colours),
+        )
     }
 
     /// Where the bodies touch, on the film's sheet.

@@ -25,6 +25,15 @@ pub(super) struct Trace {
     pressure: Vec<[f32; 2]>,
     effective: Vec<[f32; 2]>,
     before: Vec<[f32; 2]>,
+    /// Whether `before` has been logged.
+    shown: Shown,
+}
+
+/// What is known of a curve that stays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Shown {
+    NotYet,
+    AsItIs,
 }
 
 impl Trace {
@@ -60,6 +69,7 @@ impl Trace {
             pressure: Vec::new(),
             effective: Vec::new(),
             before: Vec::new(),
+            shown: Shown::NotYet,
         })
     }
 
@@ -74,6 +84,7 @@ impl Trace {
         };
         if point.body != self.body || point.x_m < self.last_x_m {
             self.before = std::mem::take(&mut self.pressure);
+            self.shown = Shown::NotYet;
             self.effective.clear();
         }
         (self.body, self.last_x_m) = (point.body, point.x_m);
@@ -101,7 +112,7 @@ impl Trace {
     }
 
     /// Logs the trace up to this frame.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let Some(point) = &frame.material_point else {
             return Ok(());
         };
@@ -110,7 +121,10 @@ impl Trace {
             let strips = if trace.len() > 1 { strips } else { &[] };
             stream.log(format!("{TRACE}/{name}"), &line(strips, colour, radius))
         };
-        curve("crossing_before", &self.before, GREY, 0.75)?;
+        if self.shown == Shown::NotYet {
+            curve("crossing_before", &self.before, GREY, 0.75)?;
+            self.shown = Shown::AsItIs;
+        }
         curve("pressure_GPa", &self.pressure, ORANGE, 1.5)?;
         curve("effective_stress_GPa", &self.effective, PURPLE, 1.5)?;
         let formula = match point.body {

@@ -284,12 +284,11 @@ fn cam(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
         "angles_deg",
         "points",
     ])?;
+    let end = keys.number("half_angle_deg", (10.0, 170.0), "degrees")?;
     let cam = FlatFollower {
         base_radius_m: keys.number("base_radius_m", (1e-3, 1.0), "m")?,
         lift_m: keys.number("lift_m", (1e-5, 0.5), "m")?,
-        half_angle_rad: keys
-            .number("half_angle_deg", (10.0, 170.0), "degrees")?
-            .to_radians(),
+        half_angle_rad: end.to_radians(),
         speed_rad_s: RPM * keys.number("speed_rpm", (0.01, 1e6), "1/min")?,
         preload_n: keys.number("preload_n", (0.0, 1e6), "N")?,
         stiffness_n_per_m: keys.number("stiffness_n_per_m", (0.0, 1e9), "N/m")?,
@@ -299,7 +298,6 @@ fn cam(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
     // The flank: from the turning point of the lift, where the follower's speed is 0, to the end of it. The
     // turning point itself has S = 2; half a step away from it both surfaces move.
     let n = keys.points(9)?;
-    let end = cam.half_angle_rad.to_degrees();
     let unit = "degrees from the nose, the lesser first";
     let ends = keys.pair("angles_deg", (0.0, end), unit)?;
     let [near, far] = ends.unwrap_or([0.5 * end, end]);

@@ -5,7 +5,7 @@ use rerun::{Color, Mesh3D, Points3D, Radius};
 
 use super::super::colour::{GREY, Ramp};
 use super::super::damage::DECADES;
-use super::super::mesh::triangles;
+use super::super::mesh::{coloured, triangles};
 use super::super::slice::Rows;
 use super::super::stream::Stream;
 use super::{SPACE, Space};
@@ -15,14 +15,62 @@ use crate::sim::{DamageBlock, Frame};
 
 /// Depth that is shown, in a: damage by crests lies near the surface.
 const DEPTH: f64 = 0.6;
+/// The sheet.
+const DAMAGE: &str = "contact_3d/damage_body_1";
 /// Columns of the sheet.
 const COLUMNS: usize = 161;
 
-/// What was drawn last: a map changes when a material point has crossed.
+/// What is drawn.
 #[derive(Default)]
 pub(super) struct Hung {
-    rows: Option<Rows>,
+    sheet: Option<Sheet>,
+    /// The map of the last picture: it changes when a material point has crossed.
     last: Vec<f32>,
+}
+
+/// The sheet's rows, and what of the block each of its columns shows.
+struct Sheet {
+    rows: Rows,
+    columns: Vec<usize>,
+    /// Columns and length (m) of the block.
+    block: (usize, f64),
+}
+
+impl Sheet {
+    fn new(block: &DamageBlock, a: f64) -> Option<Self> {
+        let column = |i: usize| {
+            let way = (x(i, a) / MM).rem_euclid(block.length_m) / block.length_m;
+            ((way * block.columns as f64) as usize).min(block.columns - 1)
+        };
+        Some(Self {
+            rows: Rows::new(&block.depths_m, 0.025 * a, DEPTH * a)?,
+            columns: (0..COLUMNS).map(column).collect(),
+            block: (block.columns, block.length_m),
+        })
+    }
+
+    fn fits(&self, block: &DamageBlock) -> bool {
+        self.rows.are_over(&block.depths_m) && self.block == (block.columns, block.length_m)
+    }
+
+    /// Row by row; every column of the block is coloured once.
+    fn colours(&self, block: &DamageBlock) -> Vec<[u8; 3]> {
+        let powers = powers(block);
+        let mut colours = Vec::with_capacity(self.rows.len() * COLUMNS);
+        for row in 0..self.rows.len() {
+            let wave: Vec<[u8; 3]> = (0..block.columns)
+                .map(|column| self.rows.value(&powers, block.columns, row, column))
+                .map(|power| Ramp::Magma.colour(0.5 + 0.5 * power / DECADES as f32, 1.0))
+                .collect();
+            colours.extend(self.columns.iter().map(|&column| wave[column]));
+        }
+        colours
+    }
+}
+
+/// Place of a column of the sheet, mm.
+fn x(i: usize, a: f64) -> f64 {
+    1.45 * a * (2.0 * i as f64 / (COLUMNS - 1) as f64 - 1.0)
 }
 
 impl Space {
@@ -41,34 +89,33 @@ impl Space {
             return Ok(());
         }
         self.hung.last.clone_from(&block.damage);
-        let a = self.geometry.a;
-        if !(self.hung.rows.as_ref()).is_some_and(|rows| rows.are_over(&block.depths_m)) {
-            self.hung.rows = Rows::new(&block.depths_m, 0.025 * a, DEPTH * a);
-            self.log_title(stream)?;
+        let fits = |sheet: &Sheet| sheet.fits(block);
+        if !self.hung.sheet.as_ref().is_some_and(fits) {
+            self.hung.sheet = Sheet::new(block, self.geometry.a);
+            self.log_sheet(stream)?;
         }
-        let Some(rows) = &self.hung.rows else {
+        let Some(sheet) = &self.hung.sheet else {
             return Ok(());
         };
-        let level = self.levels.damage;
-        let x = |i: usize| 1.45 * a * (2.0 * i as f64 / (COLUMNS - 1) as f64 - 1.0);
-        let positions = (0..rows.len()).flat_map(|row| {
-            let z = (level - rows.depth_mm(row)) as f32;
-            (0..COLUMNS).map(move |i| [x(i) as f32, 0.0, z])
+        let colours = sheet.colours(block);
+        stream.log(DAMAGE, &coloured(colours.into_iter()))
+    }
+
+    /// The sheet's shape and its title, which stay until the block is another.
+    fn log_sheet(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let Some(sheet) = &self.hung.sheet else {
+            return Ok(());
+        };
+        let (a, level) = (self.geometry.a, self.levels.damage);
+        let positions = (0..sheet.rows.len()).flat_map(|row| {
+            let z = (level - sheet.rows.depth_mm(row)) as f32;
+            (0..COLUMNS).map(move |i| [x(i, a) as f32, 0.0, z])
         });
-        let powers = powers(block);
-        let colours = (0..rows.len()).flat_map(|row| {
-            let powers = &powers;
-            (0..COLUMNS).map(move |i| {
-                let way = (x(i) / MM).rem_euclid(block.length_m) / block.length_m;
-                let column = ((way * block.columns as f64) as usize).min(block.columns - 1);
-                let power = f64::from(rows.value(powers, block.columns, row, column));
-                Ramp::Magma.colour((0.5 + 0.5 * power / DECADES) as f32, 1.0)
-            })
-        });
-        let mesh = Mesh3D::new(positions)
-            .with_triangle_indices(triangles(COLUMNS, rows.len()))
-            .with_vertex_colors(colours);
-        stream.log(format!("{SPACE}/damage_body_1"), &mesh)
+        let shape = Mesh3D::update_fields()
+            .with_vertex_positions(positions)
+            .with_triangle_indices(triangles(COLUMNS, sheet.rows.len()));
+        stream.log(DAMAGE, &shape)?;
+        self.log_title(stream)
     }
 
     fn log_title(&self, stream: &Stream) -> Result<(), ObserveError> {
