@@ -11,7 +11,7 @@ const BAR: u32 = 150;
 /// A cell without a value.
 const EMPTY: RGBColor = RGBColor(230, 230, 230);
 
-/// A figure of cells: `cells[j][i]` at the i-th x, the j-th y.
+/// A figure of cells: `rows[j][i]` at the i-th x, the j-th y.
 #[derive(Debug, Clone)]
 pub(crate) struct Cells {
     /// Above it.
@@ -23,12 +23,12 @@ pub(crate) struct Cells {
     /// What the colours mean, and how.
     pub(crate) value: (String, Scale),
     /// Row by row from below.
-    pub(crate) cells: Vec<Vec<f64>>,
+    pub(crate) rows: Vec<Vec<f64>>,
 }
 
 impl Chart for Cells {
     fn draw<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Result<Drawn, String> {
-        let values = self.cells.iter().flatten();
+        let values = self.rows.iter().flatten();
         let places = values.filter_map(|v| self.value.1.place(*v));
         let ends = places.fold(None, |ends: Option<(f64, f64)>, at| {
             let (low, high) = ends.unwrap_or((at, at));
@@ -71,7 +71,7 @@ impl Cells {
             .draw()
             .map_err(told)?;
         let mut cells = Vec::new();
-        for (row, y) in self.cells.iter().zip(ys.windows(2)) {
+        for (row, y) in self.rows.iter().zip(ys.windows(2)) {
             for (value, x) in row.iter().zip(xs.windows(2)) {
                 let colour = match self.value.1.place(*value) {
                     Some(place) => shade((place - low) / (high - low).max(1e-300)),
@@ -155,7 +155,7 @@ mod tests {
             x: ("S".to_owned(), vec![0.0, 1.0]),
             y: ("A, m".to_owned(), vec![1e-7]),
             value: ("relative life".to_owned(), Scale::Log),
-            cells: vec![vec![0.1, f64::NAN]],
+            rows: vec![vec![0.1, f64::NAN]],
         };
         let text = map.svg().unwrap().unwrap();
         assert!(
@@ -163,7 +163,7 @@ mod tests {
             "{text:.2000}"
         );
         let none = Cells {
-            cells: vec![vec![0.0, f64::NAN]],
+            rows: vec![vec![0.0, f64::NAN]],
             ..map
         };
         assert_eq!(none.svg(), Ok(None));

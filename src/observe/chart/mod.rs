@@ -89,6 +89,10 @@ pub(crate) trait Chart {
 }
 
 /// The library's error in words.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "called by Result::map_err, which gives it away"
+)]
 fn told<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> String {
     error.to_string()
 }

@@ -284,7 +284,7 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<Cells> {
     }
     Some(Cells {
         title: title(sweep),
-        cells: lives
+        rows: lives
             .chunks(xs.len())
             .take(ys.len())
             .map(<[f64]>::to_vec)

@@ -47,15 +47,19 @@ pub fn points_csv(sweep: &Sweep) -> Result<String, SweepError> {
         let (scene, plan) = prepare(sweep, case)?;
         row.clear();
         row.text(case);
-        match sweep.path.get(case) {
-            Some(point) => point.values.iter().for_each(|(_, v)| row.number(*v)),
-            None => sweep
-                .values(case)
-                .into_iter()
-                .for_each(|value| write_value(&mut row, value)),
+        if let Some(point) = sweep.path.get(case) {
+            for (_, value) in &point.values {
+                row.number(*value);
+            }
+        } else {
+            for value in sweep.values(case) {
+                write_value(&mut row, value);
+            }
         }
         let known = numbers(&scene, &plan);
-        shown.iter().for_each(|k| row.optional(known[*k]));
+        for k in &shown {
+            row.optional(known[*k]);
+        }
         text.row(&row);
     }
     Ok(text.end())

@@ -199,10 +199,9 @@ impl Rows {
         row.clear();
         row.text(record.index);
         if let Some(point) = sweep.path.get(record.index) {
-            point
-                .values
-                .iter()
-                .for_each(|(_, value)| row.number(*value));
+            for (_, value) in &point.values {
+                row.number(*value);
+            }
         }
         for value in sweep.values(record.index) {
             write_value(row, value);
@@ -217,9 +216,9 @@ impl Rows {
             CaseEnd::NotConverged => "not_converged",
             CaseEnd::Stalled => "stalled",
         });
-        numbers(record)
-            .iter()
-            .for_each(|value| row.optional(*value));
+        for value in numbers(record) {
+            row.optional(value);
+        }
         Ok(())
     }
 
