@@ -1,7 +1,7 @@
 //! What is looked at after each step: traction, stress, counts, life, scalars.
 
 use super::counting::contacts;
-use super::measure::{Measured, measure};
+use super::measure::{Fields, Measured, measure};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::{Follow, Knob, LifeEstimate};
@@ -114,14 +114,15 @@ impl Simulation {
         let scale = self.door.size_ratio(load);
         let state = &self.march.state;
         self.traction.resize(self.march.grid.len(), 0.0);
-        measure(
-            &self.march.grid,
-            &law,
-            &state.pressure,
-            &state.film,
-            (scale, scale * self.door.b_over_a),
-            &mut self.traction,
-        )
+        let fields = Fields {
+            grid: &self.march.grid,
+            law: &law,
+            p: &state.pressure,
+            h: &state.film,
+            ellipse: (scale, scale * self.door.b_over_a),
+        };
+        let (traction, rows) = (&mut self.traction, &mut self.row_sums);
+        self.pool.install(|| measure(&fields, traction, rows))
     }
 
     pub(super) fn publish(&mut self, attempted: &Attempted, measured: &Measured) {
