@@ -3,7 +3,7 @@
 //! ```text
 //! line    cases along the last axis, where that allows warm starts; in a list, neighbours that differ only
 //!         in keys that do
-//! chain   a line cut into ⌈m/longest⌉ pieces as even as can be
+//! chain   a line cut into ⌈m/longest⌉ pieces as even as can be, the longer ones first
 //! shard i of n   the chains c with c ≡ i − 1 (mod n)
 //! ```
 //! A chain is fixed by the sweep file alone: its first case starts cold, the others from the end of the one
@@ -81,10 +81,11 @@ impl Sweep {
     }
 }
 
-/// Cuts a line into pieces of at most `longest`, as even as can be.
+/// Cuts a line into pieces of at most `longest`, as even as can be. The longer ones come first: S near 2 costs more
+/// than S near 0, and what begins last should not end last.
 fn cut(line: Range<usize>, longest: usize, chains: &mut Vec<Range<usize>>) {
     let pieces = line.len().div_ceil(longest.max(1));
-    let at = |k: usize| line.start + line.len() * k / pieces;
+    let at = |k: usize| line.start + (line.len() * k).div_ceil(pieces);
     chains.extend((0..pieces).map(|k| at(k)..at(k + 1)));
 }
 
@@ -107,6 +108,10 @@ mod tests {
     fn lines_are_cut_evenly_and_cold_axes_make_chains_of_one() {
         let chains = sweep("[vary]\nmotion.slide_roll = { from = 0, to = 2, n = 21 }").chains();
         assert_eq!(chains, [0..7, 7..14, 14..21]);
+        let chains = sweep("[vary]\nmotion.slide_roll = { from = 0, to = 2, n = 8 }").chains();
+        assert_eq!(chains, [0..4, 4..8]);
+        let chains = sweep("[vary]\nmotion.slide_roll = { from = 0, to = 2, n = 9 }").chains();
+        assert_eq!(chains, [0..5, 5..9]);
         let chains = sweep("[vary]\nmotion.slide_roll = [0.0, 1.0]\nload.force_n = [1.0, 2.0]");
         assert_eq!(chains.chains(), [0..2, 2..4]);
         assert_eq!(chains.at(1), "load.force_n = 1, motion.slide_roll = 1");
