@@ -75,7 +75,10 @@ fn converged_means_converged() {
             tight.restore(loose.save()).unwrap();
             loose.step().unwrap();
             tight.step().unwrap();
-            assert!(loose.metrics().converged && tight.metrics().converged, "{keys:?}");
+            assert!(
+                loose.metrics().converged && tight.metrics().converged,
+                "{keys:?}"
+            );
             loose.fill(&mut one);
             tight.fill(&mut exact);
             let (p, h) = errors(&one, &exact);

@@ -49,25 +49,31 @@ pub struct History {
     pub earlier_nodes: f64,
 }
 
-/// Shift of a row downstream by some nodes: whole ones, and four-point interpolation for the rest.
+/// Nodes of the interpolation on either side.
+const HALF: usize = 5;
+
+/// Shift of a row downstream by some nodes: whole ones, and interpolation between `2 HALF` nodes for the rest.
 #[derive(Debug, Clone, Copy)]
 struct Shift {
     whole: isize,
-    /// Weights of the four nodes around; `None`: the shift is whole.
-    weights: Option<[f64; 4]>,
+    /// Lagrange's weights of the nodes around, upstream first; `None`: the shift is whole.
+    weights: Option<[f64; 2 * HALF]>,
 }
 
 impl Shift {
     fn new(nodes: f64) -> Self {
         let t = nodes.ceil() - nodes;
+        // Node m lies at 1 − HALF + m.
+        let at = |m: usize| 1.0 - HALF as f64 + m as f64;
+        let weight = |m: usize| {
+            (0..2 * HALF)
+                .filter(|&k| k != m)
+                .map(|k| (t - at(k)) / (at(m) - at(k)))
+                .product()
+        };
         Self {
             whole: nodes.ceil() as isize,
-            weights: (t >= 1e-9).then_some([
-                -t * (t - 1.0) * (t - 2.0) / 6.0,
-                (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
-                -(t + 1.0) * t * (t - 2.0) / 2.0,
-                (t + 1.0) * t * (t - 1.0) / 6.0,
-            ]),
+            weights: (t >= 1e-9).then(|| std::array::from_fn(weight)),
         }
     }
 
@@ -75,15 +81,19 @@ impl Shift {
     #[inline(always)]
     fn of(self, row: &[f64], i: usize) -> f64 {
         let k = i as isize - self.whole;
-        let Some(w) = self.weights else {
+        let Some(weights) = self.weights else {
             return sample(row, k);
         };
-        if k > 0
-            && let Some(&[a, b, c, d]) = row.get(k as usize - 1..k as usize + 3)
-        {
-            return a * w[0] + b * w[1] + c * w[2] + d * w[3];
+        let first = k + 1 - HALF as isize;
+        let inside = usize::try_from(first)
+            .ok()
+            .and_then(|first| row.get(first..)?.first_chunk::<{ 2 * HALF }>());
+        match inside {
+            Some(near) => (0..2 * HALF).map(|m| weights[m] * near[m]).sum(),
+            None => (0..2 * HALF)
+                .map(|m| weights[m] * sample(row, first + m as isize))
+                .sum(),
         }
-        (0..4).map(|m| w[m] * sample(row, k - 1 + m as isize)).sum()
     }
 }
 
