@@ -8,7 +8,7 @@ mod tui_fixture;
 use std::sync::Arc;
 use std::time::Duration;
 
-use asperity::run::{Command, Settled, SweepPoint};
+use asperity::run::{Command, SweepPoint};
 use asperity::scene::{Event, Scene, Surface};
 use asperity::sim::{Frame, Knob, LifeEstimate};
 use asperity::tui::action::{Action, KEYS};
@@ -21,7 +21,7 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
-use tui_fixture::{State, app, frame, scene, status, theme};
+use tui_fixture::{State, app, frame, scene, settled, status, theme};
 
 /// Unicode without colour: what is drawn shows in the characters.
 fn plain() -> Theme {
@@ -536,21 +536,6 @@ fn another_scene_is_put_together_judged_and_run() {
         panic!("body 1 is a wave");
     };
     assert!(wavelength_x_m.is_infinite(), "ridges along the motion");
-}
-
-/// One period of the fixture: S = 0.5, so 3 crests of body 1 while 5 of body 2 pass.
-fn settled(state: &State) -> Settled {
-    let wave_m = 1e-4;
-    let period_m = wave_m / (0.5 * state.slide_roll.abs()).max(0.25);
-    let step_m = 4.0 * tui_fixture::A_M / 128.0;
-    let steps = (period_m / step_m).round() as u64;
-    Settled {
-        frames: (0..steps)
-            .map(|step| Arc::new(frame(200 + step, state)))
-            .collect(),
-        period_s: steps as f64 * step_m / state.speed_m_s,
-        state: None,
-    }
 }
 
 #[test]

@@ -14,6 +14,7 @@ use asperity::tui::{
 };
 use miette::miette;
 
+use super::Engine;
 use super::args::RunArgs;
 use super::failure::Failure;
 use super::outputs::{Outputs, Pace};
@@ -32,7 +33,7 @@ struct Running {
 type Runs = Rc<RefCell<Vec<Running>>>;
 
 /// Opens the explorer and runs until the user quits.
-pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
+pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
     let prepared = scenes::prepare(args)?;
     let path = match &args.out {
         Some(path) => path.clone(),
@@ -43,10 +44,10 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
     let raised = Arc::clone(&interrupt);
     ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))
         .map_err(|error| Failure::stalled(miette!("signals cannot be watched: {error}")))?;
-    let first = start(args.threads(), prepared, outputs)?;
+    let first = start(engine, args.threads(), prepared, outputs)?;
     let mut wiring = wiring(&first, args.threads(), interrupt.clone());
     let runs = Runs::new(RefCell::new(vec![first]));
-    wiring.rebuild = Some(rebuild(args, Rc::clone(&runs), interrupt));
+    wiring.rebuild = Some(rebuild(engine, args, Rc::clone(&runs), interrupt));
     let shown = asperity::tui::explore(wiring);
     let code = end(&runs)?;
     match shown {
@@ -56,8 +57,13 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
     }
 }
 
-fn start(threads: usize, prepared: Prepared, mut outputs: Outputs) -> Result<Running, Failure> {
-    let session = Session::start(Request {
+fn start(
+    engine: Engine,
+    threads: usize,
+    prepared: Prepared,
+    mut outputs: Outputs,
+) -> Result<Running, Failure> {
+    let session = engine(Request {
         name: prepared.name.clone(),
         scene: prepared.scene.clone(),
         plan: prepared.plan.clone(),
@@ -72,30 +78,44 @@ fn start(threads: usize, prepared: Prepared, mut outputs: Outputs) -> Result<Run
     })
 }
 
-/// Closes all runs in order; the summary is that of the last, the exit code the worst.
+/// Closes all runs in order; the summary is that of the last, the exit code the worst. A run that broke off
+/// keeps none of the others from being closed.
 fn end(runs: &Runs) -> Result<u8, Failure> {
     let mut runs = runs.take();
     let last = runs.pop();
     let mut worst = 0;
+    let mut broken = None;
     for run in runs {
         run.session.send(Command::Stop);
-        let outcome = run.session.join()?;
-        worst = worst.max(outcome.exit_code());
-        for complaint in report::complaints(&outcome) {
-            let _ = writeln!(std::io::stderr(), "{}: {complaint}", run.prepared.name);
+        match run.session.join() {
+            Ok(outcome) => {
+                worst = worst.max(outcome.exit_code());
+                for complaint in report::complaints(&outcome) {
+                    let _ = writeln!(std::io::stderr(), "{}: {complaint}", run.prepared.name);
+                }
+            }
+            Err(error) => broken = Some(error),
         }
     }
     if let Some(run) = last {
         run.session.send(Command::Stop);
-        let outcome = run.session.join()?;
-        worst = worst.max(conclude(&run.prepared.scene, &outcome, None, run.outputs)?);
+        match run.session.join() {
+            Ok(outcome) => {
+                let code = conclude(&run.prepared.scene, &outcome, None, run.outputs)?;
+                worst = worst.max(code);
+            }
+            Err(error) => broken = Some(error),
+        }
     }
-    Ok(worst)
+    match broken {
+        Some(error) => Err(error.into()),
+        None => Ok(worst),
+    }
 }
 
 /// Another scene in place of the present one. Recordings are numbered on; tables, exports and viewers belong
 /// to the first scene.
-fn rebuild(args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
+fn rebuild(engine: Engine, args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
     let (threads, no_record) = (args.threads(), args.no_record);
     Box::new(move |scene| {
         let words = |failure: Failure| failure.to_string();
@@ -113,7 +133,7 @@ fn rebuild(args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
         let prepared = scenes::finish(&next, scene, name).map_err(words)?;
         let path = free_name(&prepared).map_err(words)?;
         let outputs = Outputs::open(&next, &prepared, &path, Pace::Live).map_err(words)?;
-        let run = start(threads, prepared, outputs).map_err(words)?;
+        let run = start(engine, threads, prepared, outputs).map_err(words)?;
         // It ends by itself while the new one starts; it is joined when all is over.
         if let Some(old) = runs.last_mut() {
             old.session.send(Command::Stop);

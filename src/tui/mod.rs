@@ -78,9 +78,10 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
             stage,
             app: &mut app,
             wiring: &mut wiring,
+            panics: &panics,
             sweep: None,
         };
-        show.go_on(&input, &panics)
+        show.go_on(&input)
     });
     panics.report();
     // A run that has ended hears nothing, which is what is wanted.
@@ -115,18 +116,19 @@ struct Show<'a> {
     stage: Stage,
     app: &'a mut App,
     wiring: &'a mut Wiring,
+    panics: &'a Panics,
     sweep: Option<Sweep>,
 }
 
 impl Show<'_> {
     /// Draws, waits for an event but not longer than a frame's time, takes all that came; again.
-    fn go_on(&mut self, input: &Input, panics: &Panics) -> io::Result<()> {
+    fn go_on(&mut self, input: &Input) -> io::Result<()> {
         let start = Instant::now();
         let mut last = start.elapsed();
         loop {
             let now = start.elapsed();
             self.app.tick(now);
-            self.take_news(panics, now.saturating_sub(last))?;
+            self.take_news(now.saturating_sub(last))?;
             last = now;
             let began = Instant::now();
             let app = &*self.app;
@@ -163,9 +165,9 @@ impl Show<'_> {
         }
     }
 
-    fn take_news(&mut self, panics: &Panics, wall: Duration) -> io::Result<()> {
+    fn take_news(&mut self, wall: Duration) -> io::Result<()> {
         let mut status = (self.wiring.status)();
-        if let Some(text) = panics.first() {
+        if let Some(text) = self.panics.of_the_run() {
             status.health = Health::Failed(text);
         }
         self.app.take_status(status);
@@ -236,6 +238,7 @@ impl Show<'_> {
         match made {
             Ok(next) => {
                 self.sweep = None;
+                self.panics.another_run();
                 *self.wiring = next;
                 let setup = setup_of(self.wiring, self.app.theme);
                 let setup = app::Setup {

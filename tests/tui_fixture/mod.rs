@@ -1,9 +1,11 @@
 //! Synthetic frames that look like a run: a Hertz dome with ripples of both bodies that move at
 //! their own speeds. Nothing here is physics; it is a picture to draw.
+#![allow(dead_code, reason = "each test uses its part")]
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use asperity::run::Settled;
 use asperity::scene::{Body, Contact, ContactKind, Life, Load, Motion, Record, Scene, Surface};
 use asperity::sim::{Frame, LifeEstimate, MaterialPoint, Metrics, Stage, StressSlice};
 use asperity::tui::app::{App, ErrandKind, Setup};
@@ -318,5 +320,19 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         n_counted_body_2: Some(n_2 + 0.1),
         repeat: None,
         errors: None,
+    }
+}
+
+/// One period of the fixture: S = 0.5, so 3 crests of body 1 while 5 of body 2 pass.
+pub(crate) fn settled(state: &State) -> Settled {
+    let period_m = WAVE_M / (0.5 * state.slide_roll.abs()).max(0.25);
+    let step_m = 4.0 * A_M / 128.0;
+    let steps = (period_m / step_m).round() as u64;
+    Settled {
+        frames: (0..steps)
+            .map(|step| Arc::new(frame(200 + step, state)))
+            .collect(),
+        period_s: steps as f64 * step_m / state.speed_m_s,
+        state: None,
     }
 }

@@ -129,9 +129,9 @@ impl App {
             self.left = Some(held);
         }
         self.auto_replay = AutoReplay::On;
-        if self.sweep.take().is_some() {
-            effects.push(Effect::EndSweep);
-        }
+        // Whether one goes on is known one drawing later only: what it finds would be of the old knobs.
+        self.sweep = None;
+        effects.push(Effect::EndSweep);
         effects
     }
 

@@ -214,6 +214,8 @@ impl App {
     }
 
     fn toggle(&mut self, overlay: Overlay) {
+        // What is asked for is seen, not hidden behind a fault.
+        self.fault_read |= self.fault().is_some();
         self.scroll = 0;
         self.draft = None;
         self.overlay = if self.overlay == overlay {

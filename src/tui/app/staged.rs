@@ -40,6 +40,7 @@ impl App {
             self.overlay = Overlay::None;
             self.draft = None;
         } else if self.offers(ErrandKind::Rebuild) {
+            self.fault_read |= self.fault().is_some();
             self.overlay = Overlay::Scene;
             self.draft = Some(Draft::new(self.scene_now()));
         } else {
