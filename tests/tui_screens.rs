@@ -8,9 +8,10 @@ mod tui_fixture;
 use std::sync::Arc;
 use std::time::Duration;
 
-use asperity::run::{Command, SweepPoint};
+use asperity::run::{Command, Settled};
 use asperity::scene::{Event, Scene, Surface};
-use asperity::sim::{Frame, Knob, LifeEstimate};
+use asperity::sim::{Frame, Knob};
+use asperity::study::sweep::{Along, Began, Conditions, Found};
 use asperity::tui::action::{Action, KEYS};
 use asperity::tui::app::{App, Effect, ErrandKind, Leading, MapKind, Setup};
 use asperity::tui::theme::{ColorDepth, Glyphs, Theme};
@@ -415,6 +416,8 @@ fn time_keys() {
 fn errands_are_done_only_where_they_are_offered() {
     let mut app = running(plain());
     assert_eq!(app.apply(Action::Save), [Effect::Errand(ErrandKind::Save)]);
+    assert_eq!(app.apply(Action::Write), []);
+    assert!(app.message().unwrap().contains("no files"));
     assert_eq!(app.apply(Action::View), []);
     assert!(app.message().unwrap().contains("asperity view"));
     assert_eq!(app.apply(Action::Quit), [Effect::Quit]);
@@ -601,24 +604,33 @@ fn the_material_point_is_chosen_by_body_depth_and_place() {
     assert!(matches!(action, Some(Action::PutPoint(_))), "{action:?}");
 }
 
+/// What a sweep would find at an S and a speed, all else as in the fixture.
+fn found(slide_roll: f64, entrainment_m_s: f64, life: f64) -> Found {
+    Found {
+        at: Conditions {
+            slide_roll,
+            entrainment_m_s,
+            load_n: 800.0,
+            amplitude_m: [2.0e-7; 2],
+        },
+        began: Began::Warm,
+        life: Some([0.5 * life, life, 2.0 * life]),
+        friction: 0.03 + 0.01 / entrainment_m_s,
+        lambda: Some(1.08 * entrainment_m_s.powf(0.67)),
+    }
+}
+
 #[test]
 fn swept_lives_fill_the_curve_with_their_bands() {
     let mut app = running(plain());
-    let swept = |slide_roll: f64, life_relative: f64| SweepPoint {
-        slide_roll,
-        life: LifeEstimate {
-            life_relative,
-            life_relative_low: 0.5 * life_relative,
-            life_relative_high: 2.0 * life_relative,
-            settled: true,
-            ..LifeEstimate::default()
-        },
-        friction: 0.04,
-    };
     let dots = |app: &App| text(app, 160, 48).matches('•').count();
     let before = dots(&app);
     app.take_swept(
-        vec![swept(0.0, 0.6), swept(-1.0, 0.02), swept(1.0, 0.02)],
+        vec![
+            found(0.0, 1.0, 0.6),
+            found(-1.0, 1.0, 0.02),
+            found(1.0, 1.0, 0.02),
+        ],
         Some((3, 18)),
     );
     assert_eq!(dots(&app), before + 3);
@@ -626,16 +638,84 @@ fn swept_lives_fill_the_curve_with_their_bands() {
     app.apply(Action::Curve);
     insta::assert_snapshot!("friction_160x48", text(&app, 160, 48));
     app.apply(Action::Curve);
-    // Another load is another curve.
-    let heavier = State {
-        load_n: 900.0,
-        load_target_n: 900.0,
-        ..State::default()
-    };
+    app.take_swept(vec![found(0.5, 0.2, 0.05), found(0.5, 5.0, 0.3)], None);
+    insta::assert_snapshot!("stribeck_160x48", text(&app, 160, 48));
+    app.apply(Action::Curve);
+    // Another load is another curve, from the key press on; back again it is the old one.
+    assert_eq!(dots(&app), before + 3);
     app.apply(Action::Choose(1));
     app.apply(Action::Turn(1));
-    play(&mut app, 300..=400, &heavier);
-    assert!(dots(&app) <= before + 1, "{}", text(&app, 160, 48));
+    assert_eq!(dots(&app), 1, "the legend's own");
+    app.apply(Action::Turn(-1));
+    assert_eq!(dots(&app), before + 3);
+}
+
+/// A curve asks for what it lacks: S along life, then the speed along Stribeck's.
+#[test]
+fn a_curve_is_filled_in_when_it_is_shown() {
+    let mut app = running(plain());
+    let ordered = |effects: &[Effect]| {
+        let orders = effects.iter().filter_map(|effect| match effect {
+            Effect::Sweep(order) => Some((order.along, order.values.clone())),
+            _ => None,
+        });
+        orders.collect::<Vec<_>>()
+    };
+    let orbit = Arc::new(Settled {
+        state: Some(state()),
+        ..settled(&State::default())
+    });
+    let [(Along::SlideRoll, values)] = &ordered(&app.take_settled(Some(orbit)))[..] else {
+        panic!("no order");
+    };
+    assert!(values.contains(&0.0) && values.contains(&-1.75) && !values.contains(&0.5));
+    app.take_swept(vec![found(0.0, 1.0, 0.6)], Some((1, values.len())));
+    assert_eq!(
+        ordered(&app.apply(Action::Curve)),
+        [],
+        "friction comes with it"
+    );
+    let [(Along::Entrainment, speeds)] = &ordered(&app.apply(Action::Curve))[..] else {
+        panic!("no order");
+    };
+    // Four to a decade around the scene's own speed, which the run has.
+    assert_eq!(speeds.len(), 8);
+    assert!(speeds.contains(&0.1) && speeds.contains(&10.0));
+    let [(Along::SlideRoll, rest)] = &ordered(&app.apply(Action::Curve))[..] else {
+        panic!("no order");
+    };
+    assert_eq!(rest.len(), values.len() - 1, "what is there is kept");
+}
+
+/// Stripes over time move with their bodies: body 1's ridges by (1 − S/2) of the way, the same in a replay.
+#[test]
+fn maps_over_time() {
+    let mut app = running(plain());
+    while app.map() != MapKind::PressureWaves {
+        app.apply(Action::NextMap);
+    }
+    insta::assert_snapshot!("map_pressure_x-t_120x36", text(&app, 120, 36));
+    app.take_settled(Some(Arc::new(settled(&State::default()))));
+    app.apply(Action::NextMap);
+    app.apply(Action::Probe(0.1, -0.25));
+    assert!(text(&app, 120, 36).contains("0.25 of 4a ago"));
+    insta::assert_snapshot!("map_film_x-t_120x36", text(&app, 120, 36));
+    app.apply(Action::NextMap);
+    assert!(
+        !text(&app, 120, 36).contains("ago"),
+        "no place in the plane"
+    );
+}
+
+/// A state to go on from: the explorer only hands it on.
+fn state() -> asperity::sim::State {
+    use asperity::plan::Plan;
+    let sets = ["grid.nodes=65", "stress.depths=8"].map(|set| set.parse().unwrap());
+    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let plan = Plan::new(&scene).unwrap();
+    asperity::sim::Simulation::new(&scene, plan, 1)
+        .unwrap()
+        .save()
 }
 
 #[test]

@@ -8,7 +8,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use asperity::observe::Overwrite;
-use asperity::run::{Activity, Command, Ending, Ground, Request, Session, Status, Sweep};
+use asperity::run::{Activity, Command, Ending, Request, Session, Status};
+use asperity::study::sweep::{Background, Ground};
 use asperity::tui::{
     Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
 };
@@ -20,7 +21,7 @@ use super::failure::Failure;
 use super::outputs::{Outputs, Pace};
 use super::run::conclude;
 use super::scenes::{self, Prepared};
-use super::{report, view};
+use super::{report, shown, view};
 
 /// A run behind the screen.
 struct Running {
@@ -159,7 +160,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     let recording = outputs.recording.clone();
     let plan = &prepared.plan;
     let (settled, ground) = (session.settled_reader(), session.settled_reader());
-    let (scene, sweep_plan) = (prepared.scene.clone(), prepared.plan.clone());
+    let scene = prepared.scene.clone();
     let status = session.status_reader();
     let recorded = recording.as_ref().map(|(path, _)| path.clone());
     let shown = recorded.clone();
@@ -182,15 +183,12 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         commands: session.commands(),
         status: Box::new(move || run_status(&status(), recorded.as_deref())),
         settled: Box::new(settled),
-        start_sweep: Some(Box::new(move |values| {
-            let settled = ground()?;
-            let near = settled.frames.last()?.metrics.slide_roll;
+        start_sweep: Some(Box::new(move |order| {
             let ground = Ground {
                 scene: scene.clone(),
-                plan: sweep_plan.clone(),
-                state: settled.state.clone()?,
+                state: ground()?.state.clone()?,
             };
-            Some(Sweep::start(ground, values, near, threads))
+            Some(Background::start(ground, order, threads))
         })),
         interrupt,
         toggle_recording: recording.map(|(_, switch)| {
@@ -204,6 +202,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         }),
         open_viewer: shown.map(|path| Box::new(move || open_viewer(&path)) as _),
         save_scene: Some(Box::new(move |toml| save(&name, toml))),
+        write_shown: Some(shown::writer(prepared)),
         rebuild: None,
     }
 }
@@ -269,8 +268,10 @@ fn free_name(prepared: &Prepared) -> Result<PathBuf, Failure> {
         .ok_or_else(|| Failure::output(miette!("no free file name in ./recordings")))
 }
 
-fn numbered(folder: &Path, name: &str, extension: &str) -> Option<PathBuf> {
+/// `name-001.ext` or the next number that is free; without an extension a folder.
+pub(crate) fn numbered(folder: &Path, name: &str, extension: &str) -> Option<PathBuf> {
+    let dot = if extension.is_empty() { "" } else { "." };
     (1..100_000)
-        .map(|number| folder.join(format!("{name}-{number:03}.{extension}")))
+        .map(|number| folder.join(format!("{name}-{number:03}{dot}{extension}")))
         .find(|path| !path.exists())
 }

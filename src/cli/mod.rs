@@ -11,6 +11,8 @@ mod repeat;
 mod report;
 mod run;
 mod scenes;
+#[cfg(feature = "tui")]
+mod shown;
 mod study;
 mod sweep;
 mod view;

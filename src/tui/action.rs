@@ -60,7 +60,7 @@ pub enum Action {
     MovePoint(i32),
     /// The point that is now at x/a.
     PutPoint(f64),
-    /// Life against S, or friction against S.
+    /// Life against S, friction against S, friction against speed.
     Curve,
     /// Replay the period of a passage that repeats, or go on with the run.
     Replay,
@@ -72,6 +72,8 @@ pub enum Action {
     View,
     /// Write the scene as it now is.
     Save,
+    /// Write the shown frame as fields, pictures and tables.
+    Write,
     /// Start, or end, the tour.
     Tour,
     /// Next lesson of the tour.

@@ -14,8 +14,10 @@ pub mod app;
 pub mod choice;
 pub mod dial;
 pub mod estimate;
+mod kymograph;
 pub mod lessons;
 pub mod replay;
+mod tables;
 mod terminal;
 pub mod theme;
 pub mod trace;
@@ -26,20 +28,22 @@ pub mod wiring;
 use std::env;
 use std::io::{self, ErrorKind};
 use std::sync::atomic::Ordering;
-use std::sync::mpsc::RecvTimeoutError;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
 use ratatui::layout::Rect;
 
-use crate::run::{Command, Sweep};
+use crate::run::Command;
 use crate::scene::Scene;
+use crate::study::sweep::Background;
 use action::lookup;
 use app::{App, Effect, ErrandKind, Setup};
 use terminal::{Input, Panics, Stage};
 use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{
-    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
+    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, Shown, TuiError, Wiring,
+    WriteShown,
 };
 
 /// Time from one drawing to the next.
@@ -80,8 +84,11 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
             wiring: &mut wiring,
             panics: &panics,
             sweep: None,
+            writing: Vec::new(),
         };
-        show.go_on(&input)
+        let shown = show.go_on(&input);
+        show.finish_writing();
+        shown
     });
     panics.report();
     // A run that has ended hears nothing, which is what is wanted.
@@ -95,6 +102,7 @@ fn setup_of(wiring: &Wiring, theme: Theme) -> Setup {
         (wiring.open_viewer.is_some(), ErrandKind::View),
         (wiring.save_scene.is_some(), ErrandKind::Save),
         (wiring.rebuild.is_some(), ErrandKind::Rebuild),
+        (wiring.write_shown.is_some(), ErrandKind::Write),
     ];
     Setup {
         scene: wiring.scene.clone(),
@@ -117,7 +125,9 @@ struct Show<'a> {
     app: &'a mut App,
     wiring: &'a mut Wiring,
     panics: &'a Panics,
-    sweep: Option<Sweep>,
+    sweep: Option<Background>,
+    /// Files in the making.
+    writing: Vec<Receiver<Result<String, String>>>,
 }
 
 impl Show<'_> {
@@ -171,6 +181,7 @@ impl Show<'_> {
             status.health = Health::Failed(text);
         }
         self.app.take_status(status);
+        self.hear_of_files();
         let mut effects = Vec::new();
         if let Some(frame) = self.wiring.frames.take() {
             let mut points = Vec::new();
@@ -180,8 +191,8 @@ impl Show<'_> {
         }
         effects.extend(self.app.take_settled((self.wiring.settled)()));
         effects.extend(self.app.advance(wall));
-        let found = self.sweep.as_ref().map_or_else(Vec::new, Sweep::take);
-        let progress = self.sweep.as_ref().map(Sweep::progress);
+        let found = self.sweep.as_ref().map_or_else(Vec::new, Background::take);
+        let progress = self.sweep.as_ref().and_then(Background::progress);
         self.app.take_swept(found, progress);
         // Nothing that comes from the run asks for the end.
         self.carry_out(effects).map(|_| ())
@@ -214,11 +225,11 @@ impl Show<'_> {
                     let said = self.run_errand(errand).unwrap_or_else(|reason| reason);
                     self.app.say(said);
                 }
-                Effect::Sweep(values) => {
+                Effect::Sweep(order) => {
                     // The old one ends first: its cores are wanted.
                     self.sweep = None;
                     let start = self.wiring.start_sweep.as_mut();
-                    self.sweep = start.and_then(|start| start(values));
+                    self.sweep = start.and_then(|start| start(*order));
                 }
                 Effect::EndSweep => self.sweep = None,
                 Effect::Rebuild(scene) => self.rebuild(&scene),
@@ -275,7 +286,34 @@ impl Show<'_> {
                     None => missing(),
                 }
             }
+            ErrandKind::Write => {
+                let (Some(write), Some(shown)) = (&mut wiring.write_shown, self.app.shown()) else {
+                    return Err("nothing to write before the passage".to_owned());
+                };
+                self.writing.push(write(shown));
+                Ok("writing fields, pictures and tables".to_owned())
+            }
             ErrandKind::Rebuild => missing(),
+        }
+    }
+
+    /// Says which files are there.
+    fn hear_of_files(&mut self) {
+        let app = &mut *self.app;
+        self.writing.retain(|answer| match answer.try_recv() {
+            Ok(said) => {
+                app.say(said.unwrap_or_else(|reason| reason));
+                false
+            }
+            Err(TryRecvError::Empty) => true,
+            Err(TryRecvError::Disconnected) => false,
+        });
+    }
+
+    /// What was begun is written whole.
+    fn finish_writing(&mut self) {
+        for answer in self.writing.drain(..) {
+            drop(answer.recv());
         }
     }
 }

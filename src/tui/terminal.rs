@@ -107,7 +107,7 @@ struct Panic {
 }
 
 /// Threads whose panic leaves the run as it is.
-const BESIDE: [&str; 2] = ["sweep", "keys"];
+const BESIDE: [&str; 3] = ["sweep", "keys", "files"];
 
 impl Panics {
     /// Watches panics from now on: one of this thread gives the terminal back before it is

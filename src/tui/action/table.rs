@@ -183,7 +183,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('y'), Action::Curve)],
         "y",
-        "curve: life or friction",
+        "curve: life, friction, Stribeck",
         Group::Show,
     ),
     row(&[(ch('u'), Action::Units)], "u", "other units", Group::Show),
@@ -221,6 +221,12 @@ pub const KEYS: &[Row] = &[
         &[(ch('s'), Action::Save)],
         "s",
         "save the scene as it is now",
+        Group::Program,
+    ),
+    row(
+        &[(ch('w'), Action::Write)],
+        "w",
+        "write what is shown: npz png csv",
         Group::Program,
     ),
     row(

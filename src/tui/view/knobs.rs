@@ -368,10 +368,10 @@ fn lay(app: &App, body: usize) -> String {
 
 /// What the letters on the screen mean; the help screen says it too.
 pub(super) const SYMBOLS: &[(&str, &str)] = &[
-    ("S", "(U₂−U₁)/U, U the mean"),
+    ("S", "(U₂−U₁)/U, U mean"),
     ("p_h", "max. Hertz pressure"),
-    ("λ", "smooth film/rms height"),
-    ("n", "1 + 2a f |U₂−U₁|/|U|"),
-    ("", "f: crests of the mate per m"),
-    ("life", "over that of smooth rolling"),
+    ("λ", "smooth film/rms"),
+    ("n", "1 + 2af|U₂−U₁|/|U|"),
+    ("", "f: mate's crests/m"),
+    ("life", "over smooth rolling"),
 ];

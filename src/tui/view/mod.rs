@@ -3,11 +3,11 @@
 mod caption;
 mod centre_line;
 mod chart;
+mod curve;
 mod digits;
 mod header;
 mod knobs;
 mod life;
-mod life_curve;
 mod map;
 mod overlay;
 mod point;

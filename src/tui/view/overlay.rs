@@ -134,6 +134,7 @@ fn offered(app: &App, action: Action) -> bool {
         Action::Record => app.offers(ErrandKind::Record),
         Action::View => app.offers(ErrandKind::View),
         Action::Save => app.offers(ErrandKind::Save),
+        Action::Write => app.offers(ErrandKind::Write),
         Action::Scene => app.offers(ErrandKind::Rebuild),
         _ => true,
     }

@@ -5,6 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::sim::{Frame, Metrics, Rhythm, Stage};
+use crate::study::sweep::Along;
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
 use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
@@ -80,7 +81,10 @@ fn progress(app: &App, frame: &Frame) -> Words {
         words.push((speed, Role::Text));
     }
     if let Some((done, all)) = app.sweep {
-        words.push((format!("sweeping S {done}/{all}"), Role::Warn));
+        words.push((
+            format!("sweeping {} {done}/{all}", swept(app.sweeping)),
+            Role::Warn,
+        ));
     }
     words
 }
@@ -131,6 +135,14 @@ fn quality(app: &App, frame: &Frame) -> Words {
         words.truncate(4);
     }
     words
+}
+
+/// The letter of what a sweep goes along.
+fn swept(along: Along) -> &'static str {
+    match along {
+        Along::SlideRoll => "S",
+        Along::Entrainment => "U",
+    }
 }
 
 /// Who carries the load: the film, both, or the asperities.

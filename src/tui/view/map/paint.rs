@@ -2,6 +2,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 use ratatui::text::{Line, Span};
 
 use super::raster::{Raster, Window};
@@ -21,10 +22,12 @@ pub(super) struct Look {
 pub(super) fn look(app: &App) -> Look {
     let ranges = &app.ranges;
     let (ramp, low, high, unit) = match app.map {
-        MapKind::Pressure | MapKind::Contact => {
+        MapKind::Pressure | MapKind::Contact | MapKind::PressureWaves => {
             (Ramp::Heat, 0.0, ranges.pressure_pa, app.units.pressure())
         }
-        MapKind::Film | MapKind::Fringes => (Ramp::Depth, 0.0, ranges.film_m, app.units.film()),
+        MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => {
+            (Ramp::Depth, 0.0, ranges.film_m, app.units.film())
+        }
         MapKind::Roughness => (
             Ramp::Diverging,
             -ranges.height_m,
@@ -73,11 +76,14 @@ pub(super) fn paint(
 ) {
     let pixel = |column: usize, row: usize| {
         let t = look.part(f64::from(raster.at(column, row)));
+        if t.is_nan() {
+            return Color::Reset;
+        }
         if kind == MapKind::Fringes {
             return theme.rgb(fringe(f64::from(raster.at(column, row))));
         }
         let spot = kind == MapKind::Contact && raster.spot(column, row);
-        let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
+        let ring = kind.is_plane() && on_ellipse(window, raster, column, row);
         if spot {
             theme.rgb([120, 214, 255])
         } else if kind == MapKind::Contact {
@@ -95,11 +101,19 @@ pub(super) fn paint(
                 continue;
             };
             if theme.paints() {
-                cell.set_symbol("▀")
-                    .set_fg(pixel(column, 2 * row))
-                    .set_bg(pixel(column, 2 * row + 1));
+                let (upper, lower) = (pixel(column, 2 * row), pixel(column, 2 * row + 1));
+                // A blank upper half would be painted in the colour of letters.
+                let symbol = if upper == Color::Reset { "▄" } else { "▀" };
+                let (ink, back) = if upper == Color::Reset {
+                    (lower, upper)
+                } else {
+                    (upper, lower)
+                };
+                cell.set_symbol(if ink == Color::Reset { " " } else { symbol })
+                    .set_fg(ink)
+                    .set_bg(back);
             } else {
-                let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
+                let ring = kind.is_plane() && on_ellipse(window, raster, column, row);
                 cell.set_symbol(ink(look, raster, kind, ring, column, row));
             }
         }
@@ -115,6 +129,9 @@ fn ink(
     row: usize,
 ) -> &'static str {
     let t = look.part(f64::from(raster.at(column, row)));
+    if t.is_nan() {
+        return " ";
+    }
     match kind {
         MapKind::Contact if raster.spot(column, row) => "#",
         MapKind::Contact if ring => "o",
