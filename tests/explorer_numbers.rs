@@ -136,7 +136,8 @@ impl Bench {
 fn word(screen: &[String], label: &str) -> String {
     let row = screen.iter().find(|row| row.contains(label));
     let row = row.unwrap_or_else(|| panic!("no {label:?} in\n{}", screen.join("\n")));
-    let rest = &row[row.find(label).unwrap() + label.len()..];
+    // The last one: a title may hold such letters too.
+    let rest = &row[row.rfind(label).unwrap() + label.len()..];
     rest.split_whitespace().next().unwrap().to_owned()
 }
 
