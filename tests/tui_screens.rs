@@ -698,7 +698,7 @@ fn maps_over_time() {
     app.take_settled(Some(Arc::new(settled(&State::default()))));
     app.apply(Action::NextMap);
     app.apply(Action::Probe(0.1, -0.25));
-    assert!(text(&app, 120, 36).contains("0.25 of 4a ago"));
+    assert!(text(&app, 120, 36).contains("1.00 a ago"));
     insta::assert_snapshot!("map_film_x-t_120x36", text(&app, 120, 36));
     app.apply(Action::NextMap);
     assert!(

@@ -8,8 +8,8 @@ use std::collections::VecDeque;
 use crate::sim::{Frame, Stage};
 use crate::tui::replay::Replay;
 
-/// The way that is shown, in passages of 4 a.
-pub(crate) const SHOWN: f64 = 1.0;
+/// The way that is shown, in passages of 4 a: few enough waves for a picture of twenty rows.
+pub(crate) const SHOWN: f64 = 0.5;
 /// Rows kept at most.
 const ROWS: usize = 512;
 

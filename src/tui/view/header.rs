@@ -17,14 +17,16 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     put_right(area, 0, &numbers, buffer);
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
     let (mark, word, role) = state(app);
-    let left = Line::from(vec![
+    let mut left = Line::from(vec![
         Span::styled(" asperity ", theme.style(Role::Title)),
         Span::styled(format!("{mark}{word} "), theme.style(role)),
-        Span::styled(
-            ascii_text(theme, &app.setup.scene.title),
-            theme.style(Role::Dim),
-        ),
     ]);
+    let title = ascii_text(theme, &app.setup.scene.title);
+    let title = whole_words(&title, usize::from(room).saturating_sub(left.width() + 1));
+    left.push_span(Span::styled(
+        ascii_text(theme, &title),
+        theme.style(Role::Dim),
+    ));
     put(
         Rect {
             width: room,
@@ -34,6 +36,27 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         &left,
         buffer,
     );
+}
+
+/// As many whole words as fit, and a sign that there are more.
+fn whole_words(text: &str, room: usize) -> String {
+    if text.chars().count() <= room {
+        return text.to_owned();
+    }
+    let mut kept = String::new();
+    for word in text.split_inclusive(' ') {
+        // Three columns for the dots where there are no others.
+        if kept.chars().count() + word.trim_end().chars().count() + 3 > room {
+            break;
+        }
+        kept.push_str(word);
+    }
+    let kept = kept.trim_end_matches([' ', ',', ':']);
+    if kept.is_empty() {
+        String::new()
+    } else {
+        format!("{kept}…")
+    }
 }
 
 /// What the run does, as a shape, a word and a colour.
@@ -91,4 +114,24 @@ fn numbers(app: &App) -> Line<'static> {
         ));
     }
     Line::from(spans)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_are_cut_between_words() {
+        let title = "Two rough rollers, sliding";
+        let table = [
+            (26, title),
+            (25, "Two rough rollers…"),
+            (14, "Two rough…"),
+            (6, "Two…"),
+            (4, ""),
+        ];
+        for (room, cut) in table {
+            assert_eq!(whole_words(title, room), cut, "{room}");
+        }
+    }
 }

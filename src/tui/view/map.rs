@@ -96,7 +96,7 @@ fn heading(app: &App) -> Line<'static> {
     let mut line = title(theme, "m", app.map.name());
     let note = match (app.map, app.zoom) {
         (MapKind::Stress, _) => "x–z plane, y = 0 ",
-        (MapKind::PressureWaves | MapKind::FilmWaves, _) => "y = 0, last 4a of way, now below ",
+        (MapKind::PressureWaves | MapKind::FilmWaves, _) => "y = 0, last 2a of way, now below ",
         (_, Zoom::Domain) => "whole domain ",
         (_, Zoom::Contact) => "",
     };
@@ -292,7 +292,7 @@ fn probe(
     let text = if waves_of(app.map).is_some() {
         waves_at(app, frame, x, -y).map(|values| {
             let values = pressure_and_film(values);
-            format!("x {x:.2} a  {:.2} of 4a ago  {values}", -y)
+            format!("x {x:.2} a  {:.2} a ago  {values}", -4.0 * y)
         })
     } else if app.map == MapKind::Stress {
         raster::stress_at(frame, x, y).map(|stress| {

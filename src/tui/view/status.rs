@@ -111,8 +111,8 @@ fn quality(app: &App, frame: &Frame) -> Words {
             format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
             Role::Text,
         ),
-        (format!("load err {:.0e}", metrics.load_error), Role::Dim),
-        (format!("mass err {:.0e}", metrics.mass_error), Role::Dim),
+        (format!("load err {}", tiny(metrics.load_error)), Role::Dim),
+        (format!("mass err {}", tiny(metrics.mass_error)), Role::Dim),
         (
             format!("µ {}", sig(metrics.friction_coefficient, 2)),
             Role::Text,
@@ -143,6 +143,14 @@ fn swept(along: Along) -> &'static str {
         Along::SlideRoll => "S",
         Along::Entrainment => "U",
     }
+}
+
+/// A small number by its power of ten.
+fn tiny(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    format!("{value:.0e}")
 }
 
 /// Who carries the load: the film, both, or the asperities.

@@ -136,9 +136,9 @@ fn stribeck(app: &App) -> Figure {
         y: [0.0, most],
         y_ends: ["0".to_owned(), sig(most, 1)],
         foot: [
-            format!("U {}", sig(unit.of(slow_and_fast[0]), 2)),
+            format!("U {}", sig(unit.of(slow_and_fast[0]), 1)),
             middle,
-            unit.show(slow_and_fast[1], 2),
+            unit.show(slow_and_fast[1], 1),
         ],
     }
 }

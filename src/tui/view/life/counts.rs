@@ -30,11 +30,13 @@ pub(super) fn counts(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
     ];
     for (name, formula, counted, role) in bodies {
         let row = rows.take(1);
+        // A figure that is cut is another figure.
+        let counted_word = if row.width < 21 { "cnt. " } else { "counted " };
         let formula = formula.map_or_else(|| theme.pick("∞", "inf").to_owned(), |n| sig(n, 3));
         let line = Line::from(vec![
             Span::styled(format!("{} ", ascii_text(theme, name)), theme.style(role)),
             Span::styled(format!("{formula:<5}"), theme.style(Role::Formula)),
-            Span::styled("counted ", theme.style(Role::Dim)),
+            Span::styled(counted_word, theme.style(Role::Dim)),
             Span::styled(
                 ascii_text(theme, &sig_or_dash(counted, 3)),
                 simulated(app, theme.style(Role::Strong)),
