@@ -108,6 +108,26 @@ fn plain_terminals_are_served_and_dumb_ones_told() {
     assert!(text.contains("asperity run"), "{text}");
 }
 
+/// A slow line, 100 kB/s: frames are skipped, not queued, so that what is pressed is seen soon, and the end comes.
+#[test]
+fn a_slow_line_is_no_hang() {
+    let mut terminal = open(&[("COLORTERM", "truecolor")]);
+    terminal.resize(160, 48);
+    terminal.explore(&run(SMALL));
+    terminal
+        .lag_ms
+        .store(40, std::sync::atomic::Ordering::Relaxed);
+    for _ in 0..10 {
+        terminal.press("l");
+    }
+    terminal.see("1.00");
+    terminal.press("?");
+    terminal.see("choose a knob");
+    terminal.press("?q");
+    terminal.see("code=0");
+    terminal.is_given_back("code=0");
+}
+
 /// The window is closed: nobody reads or writes any more. The program ends by itself.
 #[test]
 fn a_terminal_that_vanishes_ends_it() {

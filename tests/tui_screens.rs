@@ -14,6 +14,7 @@ use asperity::sim::{Frame, Knob};
 use asperity::study::sweep::{Along, Began, Conditions, Found};
 use asperity::tui::action::{Action, KEYS};
 use asperity::tui::app::{App, Effect, ErrandKind, Leading, MapKind, Setup};
+use asperity::tui::pixels::Pixels;
 use asperity::tui::theme::{ColorDepth, Glyphs, Theme};
 use asperity::tui::{Health, RunStatus, view};
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
@@ -685,6 +686,55 @@ fn a_curve_is_filled_in_when_it_is_shown() {
         panic!("no order");
     };
     assert_eq!(rest.len(), values.len() - 1, "what is there is kept");
+}
+
+/// The terminal's own pixels show what half blocks show: with one by two of them to a cell it is the same, colour
+/// by colour. Letters on the map stay, and what lies over it brings the blocks back.
+#[test]
+fn maps_in_pixels_are_the_maps_in_blocks() {
+    let screen = Rect::new(0, 0, 120, 36);
+    let mut app = running(theme(ColorDepth::True, Glyphs::Unicode));
+    for _ in MapKind::ALL {
+        app.set_pixels(Pixels::Blocks);
+        let blocks = buffer(&app, 120, 36);
+        assert_eq!(view::picture_area(&app, screen), None);
+        app.set_pixels(Pixels::Kitty);
+        let bare = buffer(&app, 120, 36);
+        let picture = view::picture(&app, screen, (1, 2)).unwrap();
+        assert_eq!(Some(picture.area), view::picture_area(&app, screen));
+        let mut letters = 0;
+        for at in picture.area.positions() {
+            let (x, y) = (at.x - picture.area.x, at.y - picture.area.y);
+            let pixel = |row: u16| {
+                let place = usize::from(row) * picture.width + usize::from(x);
+                let [r, g, b, a] = picture.rgba[4 * place..4 * place + 4] else {
+                    panic!("four bytes")
+                };
+                if a == 0 {
+                    Color::Reset
+                } else {
+                    Color::Rgb(r, g, b)
+                }
+            };
+            let cell = &blocks[at];
+            let colors = match cell.symbol() {
+                "▀" => (cell.fg, cell.bg),
+                "▄" => (cell.bg, cell.fg),
+                " " => (Color::Reset, Color::Reset),
+                letter => {
+                    assert_eq!(bare[at].symbol(), letter);
+                    letters += 1;
+                    continue;
+                }
+            };
+            assert_eq!((pixel(2 * y), pixel(2 * y + 1)), colors, "{at}");
+            assert_eq!(bare[at].symbol(), " ", "{at}");
+        }
+        assert!(letters <= 1, "the material point");
+        app.apply(Action::NextMap);
+    }
+    app.apply(Action::Help);
+    assert_eq!(view::picture_area(&app, screen), None);
 }
 
 /// Stripes over time move with their bodies: body 1's ridges by (1 − S/2) of the way, the same in a replay.

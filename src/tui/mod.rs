@@ -16,6 +16,7 @@ pub mod dial;
 pub mod estimate;
 mod kymograph;
 pub mod lessons;
+pub mod pixels;
 pub mod replay;
 mod tables;
 mod terminal;
@@ -39,6 +40,7 @@ use crate::scene::Scene;
 use crate::study::sweep::Background;
 use action::lookup;
 use app::{App, Effect, ErrandKind, Setup};
+use pixels::{Canvas, Pixels};
 use terminal::{Input, Panics, Stage};
 use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{
@@ -75,6 +77,7 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
     let mut theme = Theme::new(Capabilities::detect(variable));
     theme.contrast = Contrast::detect(variable);
     let mut app = App::new(setup_of(&wiring, theme));
+    app.set_pixels(Pixels::detect(variable));
     let panics = Panics::watch();
     let result = Stage::enter().and_then(|stage| {
         let input = Input::listen()?;
@@ -83,6 +86,7 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
             app: &mut app,
             wiring: &mut wiring,
             panics: &panics,
+            canvas: Canvas::default(),
             sweep: None,
             writing: Vec::new(),
         };
@@ -125,6 +129,7 @@ struct Show<'a> {
     app: &'a mut App,
     wiring: &'a mut Wiring,
     panics: &'a Panics,
+    canvas: Canvas,
     sweep: Option<Background>,
     /// Files in the making.
     writing: Vec<Receiver<Result<String, String>>>,
@@ -141,8 +146,7 @@ impl Show<'_> {
             self.take_news(now.saturating_sub(last))?;
             last = now;
             let began = Instant::now();
-            let app = &*self.app;
-            self.stage.terminal.draw(|frame| view::draw(app, frame))?;
+            self.draw()?;
             let drawn = Instant::now();
             // Drawing counts: frames come every FRAME_TIME, not so long after each other.
             let mut wait = FRAME_TIME.saturating_sub(drawn - began).max(LEAST_WAIT);
@@ -175,6 +179,17 @@ impl Show<'_> {
         }
     }
 
+    fn draw(&mut self) -> io::Result<()> {
+        let app = &*self.app;
+        let size = self.stage.terminal.size()?;
+        let screen = Rect::new(0, 0, size.width, size.height);
+        if self.canvas.must_clear(app, screen) {
+            self.stage.clear()?;
+        }
+        let drawn = self.stage.terminal.draw(|frame| view::draw(app, frame))?;
+        self.canvas.show(app, drawn.buffer)
+    }
+
     fn take_news(&mut self, wall: Duration) -> io::Result<()> {
         let mut status = (self.wiring.status)();
         if let Some(text) = self.panics.of_the_run() {
@@ -199,6 +214,9 @@ impl Show<'_> {
     }
 
     fn take_event(&mut self, event: &Event) -> io::Result<Flow> {
+        if let Event::Resize(..) = event {
+            self.canvas.forget();
+        }
         let action = match event {
             Event::Key(key) => lookup(key),
             Event::Mouse(mouse) => {
@@ -233,7 +251,10 @@ impl Show<'_> {
                 }
                 Effect::EndSweep => self.sweep = None,
                 Effect::Rebuild(scene) => self.rebuild(&scene),
-                Effect::Suspend => self.stage.suspend()?,
+                Effect::Suspend => {
+                    self.canvas.forget();
+                    self.stage.suspend()?;
+                }
                 Effect::Quit => return Ok(Flow::Stop),
             }
         }

@@ -51,10 +51,19 @@ impl Stage {
         // its prompt back. It returns when the shell continues the group.
         let stopped = process::Command::new("kill").args(["-TSTP", "0"]).status();
         take()?;
-        // Drawn anew from nothing. (`clear` would ask where the cursor is, and not every line answers.)
+        self.clear()?;
+        stopped.map(|_| ())
+    }
+
+    /// Clears it: what comes next is drawn from nothing.
+    ///
+    /// # Errors
+    /// When it fails.
+    pub(super) fn clear(&mut self) -> io::Result<()> {
+        // Ratatui's own `clear` would ask where the cursor is, and not every line answers.
         execute!(stdout(), Clear(ClearType::All))?;
         self.terminal = Terminal::new(CrosstermBackend::new(stdout()))?;
-        stopped.map(|_| ())
+        Ok(())
     }
 }
 

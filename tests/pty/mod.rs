@@ -2,6 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used, reason = "each test uses its part")]
 
 use std::io::{Read, Write};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -17,6 +18,8 @@ pub(crate) struct Terminal {
     pub(crate) keys: Option<Box<dyn Write + Send>>,
     pub(crate) shell: Box<dyn Child + Send + Sync>,
     pub(crate) folder: tempfile::TempDir,
+    /// Milliseconds that the line takes for 4 kB.
+    pub(crate) lag_ms: Arc<AtomicU64>,
 }
 
 fn size(cols: u16, rows: u16) -> PtySize {
@@ -51,10 +54,13 @@ impl Terminal {
         let keys = pair.master.take_writer().unwrap();
         let parser = Arc::new(Mutex::new(Parser::new(30, 100, 0)));
         let screen = Arc::clone(&parser);
+        let lag_ms = Arc::new(AtomicU64::new(0));
+        let lag = Arc::clone(&lag_ms);
         std::thread::spawn(move || {
             let mut bytes = [0; 4096];
             while let Ok(n @ 1..) = reader.read(&mut bytes) {
                 screen.lock().unwrap().process(&bytes[..n]);
+                std::thread::sleep(Duration::from_millis(lag.load(Ordering::Relaxed)));
             }
         });
         let mut terminal = Self {
@@ -63,6 +69,7 @@ impl Terminal {
             keys: Some(keys),
             shell,
             folder,
+            lag_ms,
         };
         terminal.see("READY>");
         terminal

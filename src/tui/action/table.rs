@@ -194,6 +194,12 @@ pub const KEYS: &[Row] = &[
         Group::Show,
     ),
     row(
+        &[(ch('g'), Action::Pixels)],
+        "g",
+        "map in blocks, sixels, kitty",
+        Group::Show,
+    ),
+    row(
         &[(ch('i'), Action::Plan)],
         "i",
         "plan: what is left out, why",

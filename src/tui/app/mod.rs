@@ -23,6 +23,7 @@ use crate::tui::dial::{Dial, dials};
 use crate::tui::estimate::{basis, life_at_pressure};
 use crate::tui::kymograph::{Kymograph, Span};
 use crate::tui::lessons::{Staging, TourState};
+use crate::tui::pixels::Pixels;
 use crate::tui::replay::Replay;
 use crate::tui::tables;
 use crate::tui::theme::Theme;
@@ -40,6 +41,7 @@ pub struct App {
     pub(crate) setup: Setup,
     pub(crate) theme: Theme,
     pub(crate) units: Units,
+    pixels: Pixels,
     pub(crate) dials: Vec<Dial>,
     pub(crate) chosen: usize,
     pub(crate) map: MapKind,
@@ -107,6 +109,7 @@ impl App {
         Self {
             theme: setup.theme,
             units: Units::default(),
+            pixels: Pixels::default(),
             chosen: 0,
             map: MapKind::default(),
             zoom: Zoom::default(),
@@ -194,6 +197,22 @@ impl App {
     /// Where a knob is going, as the screen has it.
     pub fn target(&self, knob: Knob) -> f64 {
         target_of(&self.dials, knob)
+    }
+
+    /// How the map is drawn.
+    pub fn pixels(&self) -> Pixels {
+        self.pixels
+    }
+
+    /// Draws the map in another way.
+    pub fn set_pixels(&mut self, pixels: Pixels) {
+        self.pixels = pixels;
+    }
+
+    /// Whether the map is left to the terminal's own pixels: nothing lies over it, and it is in colour.
+    pub(crate) fn is_in_pixels(&self) -> bool {
+        let covered = self.overlay != Overlay::None || self.fault().is_some();
+        self.pixels != Pixels::Blocks && self.theme.paints() && !covered
     }
 
     /// The map that is shown.

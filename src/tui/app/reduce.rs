@@ -69,12 +69,26 @@ impl App {
             Action::ReplayFaster(times) => self.replay_faster(times),
             Action::Units => self.units = self.units.next(),
             Action::Contrast => self.theme.next_contrast(),
+            Action::Pixels => self.next_pixels(),
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
             Action::Scene => self.toggle_draft(),
             Action::Close => self.close(),
             _ => {}
         }
+    }
+
+    fn next_pixels(&mut self) {
+        if !self.theme.paints() {
+            self.say("the map is drawn in letters: this terminal shows no colours");
+            return;
+        }
+        let next = self.pixels().next();
+        self.set_pixels(next);
+        self.say(format!(
+            "map in {}, if the terminal has them (g: others)",
+            next.name()
+        ));
     }
 
     fn show_map(&mut self, map: MapKind) {

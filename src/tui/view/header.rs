@@ -4,6 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
+use crate::physics::estimate::speed_ratios;
 use crate::sim::Stage;
 use crate::tui::app::{App, Pace};
 use crate::tui::theme::Role;
@@ -13,7 +14,7 @@ use crate::tui::wiring::Health;
 
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    let numbers = numbers(app);
+    let numbers = numbers(app, area.width);
     put_right(area, 0, &numbers, buffer);
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
     let (mark, word, role) = state(app);
@@ -85,7 +86,10 @@ fn state(app: &App) -> (&'static str, String, Role) {
     }
 }
 
-fn numbers(app: &App) -> Line<'static> {
+/// Columns from which specific sliding has room, too.
+const ROOMY: u16 = 76;
+
+fn numbers(app: &App, columns: u16) -> Line<'static> {
     let theme = app.theme;
     let Some(frame) = app.frame() else {
         return Line::default();
@@ -96,12 +100,17 @@ fn numbers(app: &App) -> Line<'static> {
         (Some(first), Some(second)) => sig(first.max(second), 3),
         _ => theme.pick("∞", "inf").to_owned(),
     };
-    let pairs = [
+    let mut pairs = vec![
         ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
         ("p_h", pressure.show(frame.p_hertz_pa, 3), Role::Strong),
         ("λ", sig_or_dash(metrics.lambda_ratio, 2), Role::Strong),
         ("n", n, Role::Strong),
     ];
+    if columns >= ROOMY {
+        let (u1, u2) = speed_ratios(metrics.slide_roll);
+        let specific = [u1, u2].map(|own| sig((u2 - u1).abs() / own.abs(), 2));
+        pairs.insert(1, ("ζ", specific.join(" "), Role::Strong));
+    }
     let mut spans = Vec::new();
     for (name, value, role) in pairs {
         spans.push(Span::styled(

@@ -369,6 +369,7 @@ fn lay(app: &App, body: usize) -> String {
 /// What the letters on the screen mean; the help screen says it too.
 pub(super) const SYMBOLS: &[(&str, &str)] = &[
     ("S", "(U₂−U₁)/U, U mean"),
+    ("ζ", "|U₂−U₁|/U₁ and /U₂"),
     ("p_h", "max. Hertz pressure"),
     ("λ", "smooth film/rms"),
     ("n", "1 + 2af|U₂−U₁|/|U|"),

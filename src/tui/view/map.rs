@@ -15,10 +15,11 @@ use crate::sim::Frame;
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, Zoom};
 use crate::tui::kymograph::{Field, SHOWN};
+use crate::tui::pixels::Picture;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, title};
 use motion::motion;
-use paint::{color_bar, look, paint};
+use paint::{Tint, color_bar, look, paint};
 use raster::{Raster, Window, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
@@ -40,6 +41,8 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     }
     let pixels = (usize::from(image.width), rows(theme, image));
     match picture_of(app, frame, &window, pixels) {
+        // Its room stays blank: the terminal's own pixels come there.
+        Some(_) if app.is_in_pixels() => {}
         Some(raster) => paint(theme, &raster, &look, &window, app.map, image, buffer),
         None => put(
             image,
@@ -52,6 +55,36 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     color_bar(theme, &look, app.map, bar, buffer);
     motion(app, frame, areas, inner, buffer);
     probe(app, frame, &window, (picture, image), buffer);
+}
+
+/// The cells that the map fills.
+pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
+    let frame = app.frame()?;
+    let (picture, _) = split(areas, inside(areas, areas.map));
+    let window = window(app, frame, picture);
+    Some(image_area(app.map, &window, picture)).filter(|image| !image.is_empty())
+}
+
+/// The map in pixels, so many for a cell.
+pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Picture> {
+    let frame = app.frame()?;
+    let area = room(app, areas)?;
+    let (picture, _) = split(areas, inside(areas, areas.map));
+    let window = window(app, frame, picture);
+    let look = look(app);
+    let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
+    let (width, height) = (side(area.width, cell.0), side(area.height, cell.1));
+    let raster = picture_of(app, frame, &window, (width, height))?;
+    let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
+    let rgba = places
+        .flat_map(|place| Tint::of(&look, &raster, &window, app.map, place).rgba(&look))
+        .collect();
+    Some(Picture {
+        area,
+        width,
+        height,
+        rgba,
+    })
 }
 
 /// The pixels of the map; `None` where the frame does not hold it.

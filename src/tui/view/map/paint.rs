@@ -65,6 +65,69 @@ fn fringe(film_m: f64) -> [u8; 3] {
     })
 }
 
+/// What a pixel shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Tint {
+    /// Nothing: there is no value.
+    Blank,
+    /// A colour of its own.
+    Plain([u8; 3]),
+    /// A place on the map's ramp.
+    Ramp(f32),
+    /// Same, under a line.
+    Lit(f32),
+}
+
+impl Tint {
+    /// The white of a line.
+    const WHITE: f32 = 0.35;
+
+    pub(super) fn of(
+        look: &Look,
+        raster: &Raster,
+        window: &Window,
+        kind: MapKind,
+        (column, row): (usize, usize),
+    ) -> Self {
+        let value = f64::from(raster.at(column, row));
+        let t = look.part(value);
+        if t.is_nan() {
+            Self::Blank
+        } else if kind == MapKind::Fringes {
+            Self::Plain(fringe(value))
+        } else if kind == MapKind::Contact && raster.spot(column, row) {
+            Self::Plain([120, 214, 255])
+        } else if kind == MapKind::Contact {
+            Self::Ramp(0.45 * t)
+        } else if kind.is_plane() && on_ellipse(window, raster, column, row) {
+            Self::Lit(t)
+        } else {
+            Self::Ramp(t)
+        }
+    }
+
+    /// In the terminal's colours.
+    fn color(self, theme: Theme, ramp: Ramp) -> Color {
+        match self {
+            Self::Blank => Color::Reset,
+            Self::Plain(rgb) => theme.rgb(rgb),
+            Self::Ramp(t) => theme.map_color(ramp, t),
+            Self::Lit(t) => theme.map_color_lit(ramp, t, Self::WHITE),
+        }
+    }
+
+    /// Red, green, blue and opacity.
+    pub(super) fn rgba(self, look: &Look) -> [u8; 4] {
+        let [r, g, b] = match self {
+            Self::Blank => return [0; 4],
+            Self::Plain(rgb) => rgb,
+            Self::Ramp(t) => look.ramp.rgb(t),
+            Self::Lit(t) => look.ramp.lit(t, Self::WHITE),
+        };
+        [r, g, b, 255]
+    }
+}
+
 pub(super) fn paint(
     theme: Theme,
     raster: &Raster,
@@ -75,24 +138,7 @@ pub(super) fn paint(
     buffer: &mut Buffer,
 ) {
     let pixel = |column: usize, row: usize| {
-        let t = look.part(f64::from(raster.at(column, row)));
-        if t.is_nan() {
-            return Color::Reset;
-        }
-        if kind == MapKind::Fringes {
-            return theme.rgb(fringe(f64::from(raster.at(column, row))));
-        }
-        let spot = kind == MapKind::Contact && raster.spot(column, row);
-        let ring = kind.is_plane() && on_ellipse(window, raster, column, row);
-        if spot {
-            theme.rgb([120, 214, 255])
-        } else if kind == MapKind::Contact {
-            theme.map_color(look.ramp, 0.45 * t)
-        } else if ring {
-            theme.map_color_lit(look.ramp, t, 0.35)
-        } else {
-            theme.map_color(look.ramp, t)
-        }
+        Tint::of(look, raster, window, kind, (column, row)).color(theme, look.ramp)
     };
     for row in 0..usize::from(image.height) {
         for column in 0..usize::from(image.width) {
