@@ -258,7 +258,7 @@ fn a_sweep_finds_the_lives_of_runs_of_their_own() {
         for (knob, value) in &turns {
             match knob {
                 Knob::ForceN => {
-                    (now.load.force_n, now.load.hertz_pressure_pa) = (Some(*value), None)
+                    (now.load.force_n, now.load.hertz_pressure_pa) = (Some(*value), None);
                 }
                 _ => now.body_1.surface.set_amplitude_m(*value),
             }

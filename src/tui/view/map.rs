@@ -19,7 +19,7 @@ use crate::tui::pixels::Picture;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, title};
 use motion::motion;
-use paint::{Tint, color_bar, look, paint};
+use paint::{Mark, Tint, color_bar, look, paint};
 use raster::{Raster, Window, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
@@ -51,10 +51,17 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             buffer,
         ),
     }
-    marker(app, frame, &window, image, buffer);
+    if !app.is_in_pixels() {
+        let marks = [(point_at(app, frame), "◆"), (app.probe, "╋")];
+        for (at, symbol) in marks {
+            if let Some(at) = at {
+                place(app, &window, image, at, symbol, buffer);
+            }
+        }
+    }
     color_bar(theme, &look, app.map, bar, buffer);
     motion(app, frame, areas, inner, buffer);
-    probe(app, frame, &window, (picture, image), buffer);
+    probe(app, frame, (picture, image), buffer);
 }
 
 /// The cells that the map fills.
@@ -79,12 +86,22 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Pictu
     let rgba = places
         .flat_map(|place| Tint::of(&look, &raster, &window, app.map, place).rgba(&look))
         .collect();
-    Some(Picture {
+    let mut picture = Picture {
         area,
         width,
         height,
         rgba,
-    })
+    };
+    let marks = [
+        (point_at(app, frame), Mark::Diamond),
+        (app.probe, Mark::Cross),
+    ];
+    for (at, mark) in marks {
+        if let Some(at) = at {
+            mark.draw(&mut picture, &window, at, 0.6 * f64::from(cell.0));
+        }
+    }
+    Some(picture)
 }
 
 /// The pixels of the map; `None` where the frame does not hold it.
@@ -246,25 +263,16 @@ fn image_area(map: MapKind, window: &Window, picture: Rect) -> Rect {
     }
 }
 
-/// Where the material point is: on the centre line, or at its depth.
-fn marker(app: &App, frame: &Frame, window: &Window, image: Rect, buffer: &mut Buffer) {
-    let Some(point) = app.point_now() else {
-        return;
-    };
+/// Where the material point is: on the centre line, at its depth, or now.
+fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
+    let point = app.point_now()?;
     let y = match app.map {
         MapKind::Stress => point.depth_m / frame.a_m,
         // Now is the last row.
         MapKind::PressureWaves | MapKind::FilmWaves => -1e-9,
         _ => 0.0,
     };
-    place(
-        app,
-        window,
-        image,
-        (point.sample.x_m / frame.a_m, y),
-        "◆",
-        buffer,
-    );
+    Some((point.sample.x_m / frame.a_m, y))
 }
 
 fn place(
@@ -304,15 +312,8 @@ fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
 }
 
 /// The values at the probe, on the last row of the picture.
-fn probe(
-    app: &App,
-    frame: &Frame,
-    window: &Window,
-    (picture, image): (Rect, Rect),
-    buffer: &mut Buffer,
-) {
+fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), buffer: &mut Buffer) {
     let Some((x, y)) = app.probe else { return };
-    place(app, window, image, (x, y), "╋", buffer);
     let theme = app.theme;
     let pressure_and_film = |(pressure, film): (f32, f32)| {
         let (p, h) = (app.units.pressure(), app.units.film());

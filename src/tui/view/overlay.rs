@@ -9,7 +9,7 @@ use crate::tui::action::{Action, Group, KEYS, MOUSE};
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::choice::Choice;
 use crate::tui::theme::Role;
-use crate::tui::view::knobs::SYMBOLS;
+use crate::tui::view::knobs::{SPECIFIC, SYMBOLS};
 use crate::tui::view::{ASCII_BORDER, ascii_text, put};
 
 /// Draws a box of a wanted size in the middle and gives the room inside.
@@ -123,6 +123,7 @@ fn help_lines(app: &App) -> Vec<(Heading, Line<'static>)> {
     lines.extend(
         SYMBOLS
             .iter()
+            .chain([&SPECIFIC])
             .map(|(name, meaning)| row(name, meaning, Role::Strong)),
     );
     lines

@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 
 use super::raster::{Raster, Window};
 use crate::tui::app::{App, MapKind};
+use crate::tui::pixels::Picture;
 use crate::tui::theme::{Ramp, Role, Theme};
 use crate::tui::units::{Unit, tick};
 use crate::tui::view::{ascii_text, put};
@@ -125,6 +126,49 @@ impl Tint {
             Self::Lit(t) => look.ramp.lit(t, Self::WHITE),
         };
         [r, g, b, 255]
+    }
+}
+
+/// A mark on a picture, white on black.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mark {
+    /// The material point.
+    Diamond,
+    /// The probe.
+    Cross,
+}
+
+impl Mark {
+    /// Draws it at a place, with so many pixels to each side.
+    pub(super) fn draw(
+        self,
+        picture: &mut Picture,
+        window: &Window,
+        (x, y): (f64, f64),
+        half: f64,
+    ) {
+        /// How far the black around it goes.
+        const EDGE: f64 = 1.35;
+        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
+        let (along, down) = (part(x, window.x), part(y, window.y));
+        if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
+            return;
+        }
+        let middle = [along * picture.width as f64, down * picture.height as f64].map(f64::floor);
+        for row in 0..picture.height {
+            for column in 0..picture.width {
+                let (dx, dy) = (column as f64 - middle[0], row as f64 - middle[1]);
+                let away = match self {
+                    Self::Diamond => dx.abs() + dy.abs(),
+                    Self::Cross => dx.abs().max(dy.abs()) + 2.0 * dx.abs().min(dy.abs()),
+                };
+                if away <= EDGE * half {
+                    let ink = if away <= half { 255 } else { 0 };
+                    let place = 4 * (row * picture.width + column);
+                    picture.rgba[place..place + 4].copy_from_slice(&[ink, ink, ink, 255]);
+                }
+            }
+        }
     }
 }
 
