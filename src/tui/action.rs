@@ -184,6 +184,8 @@ mod tests {
     fn every_key_of_every_row_is_reached() {
         for row in KEYS {
             assert!(!row.help.is_empty() && !row.shown.is_empty());
+            // Two columns on a screen of 80.
+            assert!(row.help.chars().count() <= 29, "{}", row.help);
             for (chord, action) in row.keys {
                 assert_eq!(
                     press(chord.code, chord.modifiers),

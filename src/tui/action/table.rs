@@ -183,7 +183,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('y'), Action::Curve)],
         "y",
-        "curve: life, friction, Stribeck",
+        "life, friction, Stribeck",
         Group::Show,
     ),
     row(&[(ch('u'), Action::Units)], "u", "other units", Group::Show),
@@ -232,7 +232,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('w'), Action::Write)],
         "w",
-        "write what is shown: npz png csv",
+        "write it: npz, png, csv",
         Group::Program,
     ),
     row(
