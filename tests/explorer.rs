@@ -1,17 +1,15 @@
 //! The explorer's session with the real simulation: mashed knobs, the log replayed, a sweep, lives at other S.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use asperity::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
 use asperity::plan::Plan;
-use asperity::run::{
-    Command, End, Ending, Ground, NotSettled, Request, Session, Settled, Sweep, Watcher, life_at,
-};
+use asperity::run::{Command, End, Ending, Request, Session, Settled, Watcher};
 use asperity::scene::{Override, Scene};
-use asperity::sim::{Follow, Frame, Knob, Simulation, Stage};
+use asperity::sim::{Follow, Frame, Knob, Simulation, Stage, State};
+use asperity::study::sweep::{Along, Background, Began, Found, Ground, Order};
 
 /// Keeps every bit of every frame, and every event.
 struct Keeper(Arc<Mutex<Vec<String>>>);
@@ -190,55 +188,140 @@ fn a_passage_that_repeats_leaves_one_period() {
     session.join().unwrap();
 }
 
-/// A sweep from a settled run gives the life that a run of its own gives at that S.
+/// A state of the passage of a live run, knobs turned.
+fn state_of(scene: &Scene, turns: &[(Knob, f64)]) -> State {
+    let (request, _) = self::request(scene, Ending::OnStop);
+    let session = Session::start(request).unwrap();
+    for (knob, value) in turns {
+        session.send(Command::Set(*knob, *value));
+    }
+    let state = until_settled(&session).state.clone();
+    session.send(Command::Stop);
+    session.join().unwrap();
+    state.unwrap()
+}
+
+fn swept(made: &Scene, state: State, order: Order) -> Vec<Found> {
+    let all = order.values.len();
+    let scene = Arc::new(made.clone());
+    let sweep = Background::start(Ground { scene, state }, order, 2);
+    while sweep.progress().is_some() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let found = sweep.take();
+    assert_eq!(found.len(), all);
+    found
+}
+
+/// Life and friction of a run of its own.
+fn own(scene: &Scene) -> (f64, f64) {
+    let plan = Plan::new(scene).unwrap();
+    let mut sim = Simulation::new(scene, plan, 1).unwrap();
+    while !sim.metrics().life.is_some_and(|life| life.settled) || !sim.is_done() {
+        sim.step().unwrap();
+    }
+    let summary = sim.summary();
+    (summary.life_relative.unwrap(), summary.friction_coefficient)
+}
+
+fn compare(found: &[Found], scene_at: impl Fn(&Found) -> Scene) {
+    for found in found {
+        let (life, friction) = own(&scene_at(found));
+        let [low, swept, high] = found.life.unwrap();
+        println!(
+            "S = {}, U = {}: swept {swept:.4}, own {life:.4}; friction {:.4}, own {friction:.4}",
+            found.at.slide_roll, found.at.entrainment_m_s, found.friction
+        );
+        assert!(low <= swept && swept <= high);
+        // Both are means over whole periods of the same orbit.
+        assert!((swept / life - 1.0).abs() < 0.005);
+        assert!((found.friction / friction - 1.0).abs() < 0.005);
+    }
+}
+
+/// A sweep from a settled run gives the life that a run of its own gives at that S: from the run's own state
+/// where only S and the amplitudes differ from the scene, from Hertz where its load was turned.
 #[test]
 fn a_sweep_finds_the_lives_of_runs_of_their_own() {
     let scene = repeating();
-    let (request, _) = self::request(&scene, Ending::OnStop);
-    let session = Session::start(request).unwrap();
-    let settled = until_settled(&session);
-    session.send(Command::Stop);
-    session.join().unwrap();
-    let ground = Ground {
-        scene: Arc::new(scene.clone()),
-        plan: Plan::new(&scene).unwrap(),
-        state: settled.state.clone().unwrap(),
-    };
-    let sweep = Sweep::start(ground, vec![1.0, 0.25], 0.5, 2);
-    let mut points = Vec::new();
-    while sweep.progress().0 < 2 {
-        points.extend(sweep.take());
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    points.extend(sweep.take());
-    assert_eq!(points.len(), 2);
-    for point in points {
-        let mut own = scene.clone();
-        own.motion.slide_roll = point.slide_roll;
-        let plan = Plan::new(&own).unwrap();
-        let mut sim = Simulation::new(&own, plan, 1).unwrap();
-        while !sim.metrics().life.is_some_and(|life| life.settled) {
-            sim.step().unwrap();
+    let amplitude_m = 0.8 * scene.body_1.surface.amplitude_m();
+    let force_n = 1.1 * Plan::new(&scene).unwrap().force_n;
+    for (turns, values, began) in [
+        (
+            vec![(Knob::Amplitude1M, amplitude_m)],
+            vec![1.0, 0.25],
+            Began::Warm,
+        ),
+        (vec![(Knob::ForceN, force_n)], vec![0.25], Began::Cold),
+    ] {
+        let mut now = scene.clone();
+        for (knob, value) in &turns {
+            match knob {
+                Knob::ForceN => {
+                    (now.load.force_n, now.load.hertz_pressure_pa) = (Some(*value), None);
+                }
+                _ => now.body_1.surface.set_amplitude_m(*value),
+            }
         }
-        let life = sim.metrics().life.unwrap().life_relative;
-        println!(
-            "S = {}: swept {}, own {life}",
-            point.slide_roll, point.life.life_relative
-        );
-        // Means over a window that begins in another phase of the orbit.
-        assert!((point.life.life_relative / life - 1.0).abs() < 0.05);
+        let order = Order {
+            along: Along::SlideRoll,
+            values,
+            scene: now.clone(),
+        };
+        let found = swept(&scene, state_of(&scene, &turns), order);
+        assert!(found.iter().all(|found| found.began == began));
+        compare(&found, |found| {
+            let mut own = now.clone();
+            own.motion.slide_roll = found.at.slide_roll;
+            own
+        });
     }
+}
+
+/// The same along the speed, for Stribeck's curve: λ and friction go their ways.
+#[test]
+fn a_sweep_of_the_speed_goes_along_stribecks_curve() {
+    let scene = repeating();
+    let order = Order {
+        along: Along::Entrainment,
+        values: vec![0.05, 0.8],
+        scene: scene.clone(),
+    };
+    let mut found = swept(&scene, state_of(&scene, &[]), order);
+    compare(&found, |found| {
+        let mut own = scene.clone();
+        own.motion.entrainment_m_s = found.at.entrainment_m_s;
+        own
+    });
+    found.sort_by(|one, two| one.at.entrainment_m_s.total_cmp(&two.at.entrainment_m_s));
+    let [slow, fast] = found[..] else {
+        panic!("{found:?}")
+    };
+    assert!(slow.lambda.unwrap() < 0.5 * fast.lambda.unwrap());
+    assert!(
+        slow.friction > fast.friction,
+        "mixed friction falls with speed"
+    );
 }
 
 #[test]
 fn a_sweep_that_is_called_off_ends() {
-    let scene = small();
-    let plan = Plan::new(&scene).unwrap();
-    let mut sim = Simulation::new(&scene, plan.clone(), 1).unwrap();
-    let stopped = life_at(&mut sim, &plan, 1.0, &AtomicBool::new(true));
-    assert!(matches!(stopped, Err(NotSettled::Stopped)), "{stopped:?}");
-    let refused = life_at(&mut sim, &plan, 3.0, &AtomicBool::new(false));
-    assert!(matches!(refused, Err(NotSettled::Sim(_))), "{refused:?}");
+    let scene = repeating();
+    let order = Order {
+        along: Along::SlideRoll,
+        values: (0..40).map(|k| 0.05 * f64::from(k)).collect(),
+        scene: scene.clone(),
+    };
+    let state = state_of(&scene, &[]);
+    let scene = Arc::new(scene);
+    let sweep = Background::start(Ground { scene, state }, order, 2);
+    assert!(sweep.progress().is_some());
+    sweep.call_off();
+    // A step is a matter of milliseconds, forty cases are not.
+    while sweep.progress().is_some() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(sweep.take().len() < 20);
 }
 
 /// How soon a life is there after a turn of S on the default scene: printed, for a quiet machine.

@@ -3,153 +3,18 @@
 #![cfg(all(feature = "tui", unix))]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::io::{Read, Write};
-use std::sync::{Arc, Mutex};
+mod pty;
+
 use std::time::{Duration, Instant};
 
-use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
-use vt100::{MouseProtocolMode, Parser, Screen};
+use pty::{PATIENCE, Terminal};
+use vt100::Screen;
 
-/// Longest wait for anything: a hang is told, a slow machine is not.
-const PATIENCE: Duration = Duration::from_mins(2);
 /// A contact that starts within a second or so.
 const SMALL: &str = "--no-record --threads 1 --set grid.nodes=65 --set stress.depths=8";
 
-struct Terminal {
-    parser: Arc<Mutex<Parser>>,
-    master: Option<Box<dyn MasterPty + Send>>,
-    keys: Option<Box<dyn Write + Send>>,
-    shell: Box<dyn Child + Send + Sync>,
-    folder: tempfile::TempDir,
-}
-
-fn size(cols: u16, rows: u16) -> PtySize {
-    PtySize {
-        rows,
-        cols,
-        pixel_width: 0,
-        pixel_height: 0,
-    }
-}
-
-impl Terminal {
-    /// A shell with job control.
-    fn open(variables: &[(&str, &str)]) -> Self {
-        let pair = native_pty_system().openpty(size(100, 30)).unwrap();
-        let folder = tempfile::tempdir().unwrap();
-        let mut command = CommandBuilder::new("sh");
-        command.args(["-i"]);
-        command.cwd(folder.path());
-        for name in ["NO_COLOR", "COLORTERM", "LC_ALL", "LC_CTYPE", "ENV"] {
-            command.env_remove(name);
-        }
-        command.env("PS1", "READY> ");
-        command.env("TERM", "xterm-256color");
-        command.env("LANG", "C.UTF-8");
-        command.env("ASPERITY", env!("CARGO_BIN_EXE_asperity"));
-        for (name, value) in variables {
-            command.env(name, value);
-        }
-        let shell = pair.slave.spawn_command(command).unwrap();
-        let mut reader = pair.master.try_clone_reader().unwrap();
-        let keys = pair.master.take_writer().unwrap();
-        let parser = Arc::new(Mutex::new(Parser::new(30, 100, 0)));
-        let screen = Arc::clone(&parser);
-        std::thread::spawn(move || {
-            let mut bytes = [0; 4096];
-            while let Ok(n @ 1..) = reader.read(&mut bytes) {
-                screen.lock().unwrap().process(&bytes[..n]);
-            }
-        });
-        let mut terminal = Self {
-            parser,
-            master: Some(pair.master),
-            keys: Some(keys),
-            shell,
-            folder,
-        };
-        terminal.see("READY>");
-        terminal
-    }
-
-    fn press(&mut self, keys: &str) {
-        let sink = self.keys.as_mut().unwrap();
-        sink.write_all(keys.as_bytes()).unwrap();
-        sink.flush().unwrap();
-    }
-
-    fn text(&self) -> String {
-        self.parser.lock().unwrap().screen().contents()
-    }
-
-    fn wait(&mut self, what: &str, ready: impl Fn(&Screen) -> bool) {
-        let until = Instant::now() + PATIENCE;
-        while !ready(self.parser.lock().unwrap().screen()) {
-            assert!(Instant::now() < until, "no {what}:\n{}", self.text());
-            std::thread::sleep(Duration::from_millis(2));
-        }
-    }
-
-    fn see(&mut self, text: &str) {
-        self.wait(text, |screen| screen.contents().contains(text));
-    }
-
-    /// The shell asks for a line: what is typed before goes to the program.
-    fn prompt(&mut self) {
-        self.wait("prompt", |screen| {
-            let text = screen.contents();
-            !screen.alternate_screen() && text.trim_end().ends_with("READY>")
-        });
-    }
-
-    fn explore(&mut self, how: &str) {
-        self.press(&format!("clear; {how}\n"));
-        self.wait("explorer", |screen| {
-            screen.alternate_screen() && screen.contents().contains("relative life")
-        });
-    }
-
-    fn resize(&mut self, cols: u16, rows: u16) {
-        self.parser
-            .lock()
-            .unwrap()
-            .screen_mut()
-            .set_size(rows, cols);
-        self.master
-            .as_ref()
-            .unwrap()
-            .resize(size(cols, rows))
-            .unwrap();
-    }
-
-    /// The shell has its terminal back: no second screen, a cursor, no mouse, lines that echo.
-    fn is_given_back(&mut self, code: &str) {
-        self.prompt();
-        // The words are put together by the shell, so that the line as typed does not hold them.
-        self.press("stty -a | tr ' ;' '\\n\\n' | grep -xE -e '-?(icanon|echo)' | tr '\\n' ' '; echo en''d\n");
-        self.wait("answer", |screen| {
-            screen.contents().lines().any(|line| line.ends_with(" end"))
-        });
-        let text = self.text();
-        assert!(text.contains("icanon echo end"), "{text}");
-        assert!(
-            !text.contains("-icanon") && !text.contains("-echo"),
-            "{text}"
-        );
-        assert!(text.contains(code), "{code}:\n{text}");
-        let parser = self.parser.lock().unwrap();
-        let screen = parser.screen();
-        assert!(!screen.hide_cursor());
-        assert_eq!(screen.mouse_protocol_mode(), MouseProtocolMode::None);
-    }
-}
-
-impl Drop for Terminal {
-    fn drop(&mut self) {
-        // A shell that is gone already cannot be ended.
-        drop(self.shell.kill());
-        drop(self.shell.wait());
-    }
+fn open(variables: &[(&str, &str)]) -> Terminal {
+    Terminal::open(env!("CARGO_BIN_EXE_asperity"), variables)
 }
 
 fn run(arguments: &str) -> String {
@@ -158,7 +23,7 @@ fn run(arguments: &str) -> String {
 
 #[test]
 fn it_starts_hears_keys_fits_every_size_and_quits() {
-    let mut terminal = Terminal::open(&[("COLORTERM", "truecolor")]);
+    let mut terminal = open(&[("COLORTERM", "truecolor")]);
     let began = Instant::now();
     terminal.explore(&run(SMALL));
     println!(
@@ -189,7 +54,7 @@ fn it_starts_hears_keys_fits_every_size_and_quits() {
 
 #[test]
 fn control_c_and_a_request_to_end_are_ways_to_quit() {
-    let mut terminal = Terminal::open(&[]);
+    let mut terminal = open(&[]);
     terminal.explore(&run(SMALL));
     terminal.press("\x03");
     terminal.see("code=0");
@@ -206,7 +71,7 @@ fn control_c_and_a_request_to_end_are_ways_to_quit() {
 
 #[test]
 fn control_z_hands_the_terminal_over_and_fg_brings_it_back() {
-    let mut terminal = Terminal::open(&[]);
+    let mut terminal = open(&[]);
     terminal.explore(&format!("\"$ASPERITY\" explore {SMALL}"));
     terminal.press("\x1a");
     terminal.prompt();
@@ -222,7 +87,7 @@ fn control_z_hands_the_terminal_over_and_fg_brings_it_back() {
 
 #[test]
 fn plain_terminals_are_served_and_dumb_ones_told() {
-    let mut terminal = Terminal::open(&[("NO_COLOR", "1"), ("TERM", "vt100"), ("LANG", "C")]);
+    let mut terminal = open(&[("NO_COLOR", "1"), ("TERM", "vt100"), ("LANG", "C")]);
     terminal.explore(&run(SMALL));
     let text = terminal.text();
     assert!(text.is_ascii(), "{text}");
@@ -243,10 +108,30 @@ fn plain_terminals_are_served_and_dumb_ones_told() {
     assert!(text.contains("asperity run"), "{text}");
 }
 
+/// A slow line, 100 kB/s: frames are skipped, not queued, so that what is pressed is seen soon, and the end comes.
+#[test]
+fn a_slow_line_is_no_hang() {
+    let mut terminal = open(&[("COLORTERM", "truecolor")]);
+    terminal.resize(160, 48);
+    terminal.explore(&run(SMALL));
+    terminal
+        .lag_ms
+        .store(40, std::sync::atomic::Ordering::Relaxed);
+    for _ in 0..10 {
+        terminal.press("l");
+    }
+    terminal.see("1.00");
+    terminal.press("?");
+    terminal.see("choose a knob");
+    terminal.press("?q");
+    terminal.see("code=0");
+    terminal.is_given_back("code=0");
+}
+
 /// The window is closed: nobody reads or writes any more. The program ends by itself.
 #[test]
 fn a_terminal_that_vanishes_ends_it() {
-    let mut terminal = Terminal::open(&[]);
+    let mut terminal = open(&[]);
     terminal.explore(&format!(
         "sh -c 'echo $$ > pid; exec \"$ASPERITY\" explore {SMALL}'"
     ));
@@ -275,7 +160,7 @@ fn a_terminal_that_vanishes_ends_it() {
 #[test]
 #[ignore = "prints times"]
 fn frames_a_second_and_input_to_screen() {
-    let mut terminal = Terminal::open(&[("COLORTERM", "truecolor")]);
+    let mut terminal = open(&[("COLORTERM", "truecolor")]);
     terminal.resize(160, 48);
     let began = Instant::now();
     terminal.explore("\"$ASPERITY\" explore --no-record");

@@ -8,18 +8,20 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use asperity::observe::Overwrite;
-use asperity::run::{Activity, Command, Ending, Ground, Request, Session, Status, Sweep};
+use asperity::run::{Activity, Command, Ending, Request, Session, Status};
+use asperity::study::sweep::{Background, Ground};
 use asperity::tui::{
     Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
 };
 use miette::miette;
 
+use super::Engine;
 use super::args::RunArgs;
 use super::failure::Failure;
 use super::outputs::{Outputs, Pace};
 use super::run::conclude;
 use super::scenes::{self, Prepared};
-use super::{report, view};
+use super::{report, shown, view};
 
 /// A run behind the screen.
 struct Running {
@@ -32,7 +34,7 @@ struct Running {
 type Runs = Rc<RefCell<Vec<Running>>>;
 
 /// Opens the explorer and runs until the user quits.
-pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
+pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
     let prepared = scenes::prepare(args)?;
     let path = match &args.out {
         Some(path) => path.clone(),
@@ -43,10 +45,10 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
     let raised = Arc::clone(&interrupt);
     ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))
         .map_err(|error| Failure::stalled(miette!("signals cannot be watched: {error}")))?;
-    let first = start(args.threads(), prepared, outputs)?;
+    let first = start(engine, args.threads(), prepared, outputs)?;
     let mut wiring = wiring(&first, args.threads(), interrupt.clone());
     let runs = Runs::new(RefCell::new(vec![first]));
-    wiring.rebuild = Some(rebuild(args, Rc::clone(&runs), interrupt));
+    wiring.rebuild = Some(rebuild(engine, args, Rc::clone(&runs), interrupt));
     let shown = asperity::tui::explore(wiring);
     let code = end(&runs)?;
     match shown {
@@ -56,8 +58,13 @@ pub(crate) fn explore(args: &RunArgs) -> Result<u8, Failure> {
     }
 }
 
-fn start(threads: usize, prepared: Prepared, mut outputs: Outputs) -> Result<Running, Failure> {
-    let session = Session::start(Request {
+fn start(
+    engine: Engine,
+    threads: usize,
+    prepared: Prepared,
+    mut outputs: Outputs,
+) -> Result<Running, Failure> {
+    let session = engine(Request {
         name: prepared.name.clone(),
         scene: prepared.scene.clone(),
         plan: prepared.plan.clone(),
@@ -72,30 +79,44 @@ fn start(threads: usize, prepared: Prepared, mut outputs: Outputs) -> Result<Run
     })
 }
 
-/// Closes all runs in order; the summary is that of the last, the exit code the worst.
+/// Closes all runs in order; the summary is that of the last, the exit code the worst. A run that broke off
+/// keeps none of the others from being closed.
 fn end(runs: &Runs) -> Result<u8, Failure> {
     let mut runs = runs.take();
     let last = runs.pop();
     let mut worst = 0;
+    let mut broken = None;
     for run in runs {
         run.session.send(Command::Stop);
-        let outcome = run.session.join()?;
-        worst = worst.max(outcome.exit_code());
-        for complaint in report::complaints(&outcome) {
-            let _ = writeln!(std::io::stderr(), "{}: {complaint}", run.prepared.name);
+        match run.session.join() {
+            Ok(outcome) => {
+                worst = worst.max(outcome.exit_code());
+                for complaint in report::complaints(&outcome) {
+                    let _ = writeln!(std::io::stderr(), "{}: {complaint}", run.prepared.name);
+                }
+            }
+            Err(error) => broken = Some(error),
         }
     }
     if let Some(run) = last {
         run.session.send(Command::Stop);
-        let outcome = run.session.join()?;
-        worst = worst.max(conclude(&run.prepared.scene, &outcome, None, run.outputs)?);
+        match run.session.join() {
+            Ok(outcome) => {
+                let code = conclude(&run.prepared.scene, &outcome, None, run.outputs)?;
+                worst = worst.max(code);
+            }
+            Err(error) => broken = Some(error),
+        }
     }
-    Ok(worst)
+    match broken {
+        Some(error) => Err(error.into()),
+        None => Ok(worst),
+    }
 }
 
 /// Another scene in place of the present one. Recordings are numbered on; tables, exports and viewers belong
 /// to the first scene.
-fn rebuild(args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
+fn rebuild(engine: Engine, args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
     let (threads, no_record) = (args.threads(), args.no_record);
     Box::new(move |scene| {
         let words = |failure: Failure| failure.to_string();
@@ -113,7 +134,7 @@ fn rebuild(args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
         let prepared = scenes::finish(&next, scene, name).map_err(words)?;
         let path = free_name(&prepared).map_err(words)?;
         let outputs = Outputs::open(&next, &prepared, &path, Pace::Live).map_err(words)?;
-        let run = start(threads, prepared, outputs).map_err(words)?;
+        let run = start(engine, threads, prepared, outputs).map_err(words)?;
         // It ends by itself while the new one starts; it is joined when all is over.
         if let Some(old) = runs.last_mut() {
             old.session.send(Command::Stop);
@@ -139,7 +160,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     let recording = outputs.recording.clone();
     let plan = &prepared.plan;
     let (settled, ground) = (session.settled_reader(), session.settled_reader());
-    let (scene, sweep_plan) = (prepared.scene.clone(), prepared.plan.clone());
+    let scene = prepared.scene.clone();
     let status = session.status_reader();
     let recorded = recording.as_ref().map(|(path, _)| path.clone());
     let shown = recorded.clone();
@@ -162,15 +183,12 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         commands: session.commands(),
         status: Box::new(move || run_status(&status(), recorded.as_deref())),
         settled: Box::new(settled),
-        start_sweep: Some(Box::new(move |values| {
-            let settled = ground()?;
-            let near = settled.frames.last()?.metrics.slide_roll;
+        start_sweep: Some(Box::new(move |order| {
             let ground = Ground {
                 scene: scene.clone(),
-                plan: sweep_plan.clone(),
-                state: settled.state.clone()?,
+                state: ground()?.state.clone()?,
             };
-            Some(Sweep::start(ground, values, near, threads))
+            Some(Background::start(ground, order, threads))
         })),
         interrupt,
         toggle_recording: recording.map(|(_, switch)| {
@@ -184,6 +202,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         }),
         open_viewer: shown.map(|path| Box::new(move || open_viewer(&path)) as _),
         save_scene: Some(Box::new(move |toml| save(&name, toml))),
+        write_shown: Some(shown::writer(prepared)),
         rebuild: None,
     }
 }
@@ -249,8 +268,10 @@ fn free_name(prepared: &Prepared) -> Result<PathBuf, Failure> {
         .ok_or_else(|| Failure::output(miette!("no free file name in ./recordings")))
 }
 
-fn numbered(folder: &Path, name: &str, extension: &str) -> Option<PathBuf> {
+/// `name-001.ext` or the next number that is free; without an extension a folder.
+pub(crate) fn numbered(folder: &Path, name: &str, extension: &str) -> Option<PathBuf> {
+    let dot = if extension.is_empty() { "" } else { "." };
     (1..100_000)
-        .map(|number| folder.join(format!("{name}-{number:03}.{extension}")))
+        .map(|number| folder.join(format!("{name}-{number:03}{dot}{extension}")))
         .find(|path| !path.exists())
 }

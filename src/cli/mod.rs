@@ -11,6 +11,8 @@ mod repeat;
 mod report;
 mod run;
 mod scenes;
+#[cfg(feature = "tui")]
+mod shown;
 mod study;
 mod sweep;
 mod view;
@@ -21,10 +23,14 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 use args::{Cli, Command, HeadlessArgs, RunArgs};
+use asperity::run::{Request, RunError, Session};
 use failure::Failure;
 
+/// What the explorer runs: [`Session::start`]. A test puts in an engine that breaks (`tests/broken_engine.rs`).
+pub(crate) type Engine = fn(Request) -> Result<Session, RunError>;
+
 /// Reads the command line and does what it says.
-pub(crate) fn main() -> ExitCode {
+pub(crate) fn main(engine: Engine) -> ExitCode {
     failure::install();
     start_tracing();
     let cli = match Cli::try_parse() {
@@ -35,17 +41,17 @@ pub(crate) fn main() -> ExitCode {
             return ExitCode::from(u8::from(error.exit_code() != 0));
         }
     };
-    match dispatch(cli.command) {
+    match dispatch(cli.command, engine) {
         Ok(code) => ExitCode::from(code),
         Err(failure) => failure.report(),
     }
 }
 
-fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
+fn dispatch(command: Option<Command>, engine: Engine) -> Result<u8, Failure> {
     match command {
-        None => bare(),
+        None => bare(engine),
         Some(Command::Run(args)) => run::run(&args),
-        Some(Command::Explore(args)) => explore(&args),
+        Some(Command::Explore(args)) => explore(&args, engine),
         Some(Command::Check(args)) => scenes::check(&args),
         Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
         Some(Command::Study(args)) => study::study(&args),
@@ -55,22 +61,22 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
 }
 
 /// Without a word: the explorer on a terminal, one recorded passage elsewhere.
-fn bare() -> Result<u8, Failure> {
+fn bare(engine: Engine) -> Result<u8, Failure> {
     let on_a_terminal = std::io::stdout().is_terminal() && std::io::stdin().is_terminal();
     if on_a_terminal && cfg!(feature = "tui") {
-        explore(&RunArgs::bare())
+        explore(&RunArgs::bare(), engine)
     } else {
         run::run(&HeadlessArgs::whole(RunArgs::bare_headless()))
     }
 }
 
 #[cfg(feature = "tui")]
-fn explore(args: &RunArgs) -> Result<u8, Failure> {
-    explore::explore(args)
+fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
+    explore::explore(args, engine)
 }
 
 #[cfg(not(feature = "tui"))]
-fn explore(_args: &RunArgs) -> Result<u8, Failure> {
+fn explore(_args: &RunArgs, _engine: Engine) -> Result<u8, Failure> {
     Err(Failure::input(miette::miette!(
         help = "asperity run computes the same without a screen; a build with the default features has one",
         "this program was built without the feature tui, so it has no explorer"

@@ -18,7 +18,6 @@ mod replay;
 mod session;
 mod settled;
 mod stepper;
-mod sweep;
 mod watcher;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
@@ -28,7 +27,6 @@ pub use replay::Turn;
 pub use session::{Ending, Request, RunError, Session, SessionEvent, Status};
 pub use settled::Settled;
 pub use stepper::Stepper;
-pub use sweep::{Ground, NotSettled, Sweep, SweepPoint, life_at};
 pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 
 use crate::sim::{Follow, Knob};

@@ -247,14 +247,15 @@ fn basis_index(basis: DamageBasis) -> usize {
     }
 }
 
-/// n of both bodies by formula, with the amplitudes that they now have (none, no crests); `None` where a body
-/// stands.
+/// n of both bodies by formula over the zone 2a of the present load, with the amplitudes that they now have
+/// (none, no crests); `None` where a body stands.
 pub(super) fn contacts(
     plan: &Plan,
+    a_m: f64,
     (u_m_s, s): (f64, f64),
     amplitudes_m: [f64; 2],
 ) -> [Option<f64>; 2] {
-    let kinematics = Kinematics::from_slide_roll(u_m_s, s, 2.0 * plan.hertz.a_m);
+    let kinematics = Kinematics::from_slide_roll(u_m_s, s, 2.0 * a_m);
     BodyId::BOTH.map(|body| {
         let mate = body.mate().index();
         let crests = plan.waves[mate]

@@ -164,8 +164,10 @@ impl Simulation {
             m.sigma_eff_max_depth_m = Some(door.m_from_x(peak.z));
             m.sigma_eff_max_x_m = Some(door.place_m(peak.x));
         }
+        let a_m = self.plan.hertz.a_m * door.size_ratio(m.load_n / self.plan.force_n);
         let n = contacts(
             &self.plan,
+            a_m,
             (m.entrainment_m_s, m.slide_roll),
             [m.amplitude_1_m, m.amplitude_2_m],
         );

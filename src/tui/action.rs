@@ -60,7 +60,7 @@ pub enum Action {
     MovePoint(i32),
     /// The point that is now at x/a.
     PutPoint(f64),
-    /// Life against S, or friction against S.
+    /// Life against S, friction against S, friction against speed.
     Curve,
     /// Replay the period of a passage that repeats, or go on with the run.
     Replay,
@@ -72,6 +72,8 @@ pub enum Action {
     View,
     /// Write the scene as it now is.
     Save,
+    /// Write the shown frame as fields, pictures and tables.
+    Write,
     /// Start, or end, the tour.
     Tour,
     /// Next lesson of the tour.
@@ -80,6 +82,8 @@ pub enum Action {
     Units,
     /// Other contrast.
     Contrast,
+    /// The map in half blocks, sixels, kitty's pixels.
+    Pixels,
     /// The keys.
     Help,
     /// What is computed, what is left out, and why.
@@ -180,6 +184,8 @@ mod tests {
     fn every_key_of_every_row_is_reached() {
         for row in KEYS {
             assert!(!row.help.is_empty() && !row.shown.is_empty());
+            // Two columns on a screen of 80.
+            assert!(row.help.chars().count() <= 29, "{}", row.help);
             for (chord, action) in row.keys {
                 assert_eq!(
                     press(chord.code, chord.modifiers),

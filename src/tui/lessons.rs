@@ -166,6 +166,18 @@ pub struct Beat {
     pub claims: &'static [Claim],
 }
 
+impl Beat {
+    /// The scene, knobs and map of the beat before, nothing claimed.
+    const PLAIN: Self = Self {
+        staging: None,
+        caption: "",
+        sets: &[],
+        map: None,
+        passages: 1.0,
+        claims: &[],
+    };
+}
+
 /// A lesson.
 #[derive(Debug)]
 pub struct Lesson {

@@ -14,8 +14,11 @@ pub mod app;
 pub mod choice;
 pub mod dial;
 pub mod estimate;
+mod kymograph;
 pub mod lessons;
+pub mod pixels;
 pub mod replay;
+mod tables;
 mod terminal;
 pub mod theme;
 pub mod trace;
@@ -26,20 +29,23 @@ pub mod wiring;
 use std::env;
 use std::io::{self, ErrorKind};
 use std::sync::atomic::Ordering;
-use std::sync::mpsc::RecvTimeoutError;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
 use ratatui::layout::Rect;
 
-use crate::run::{Command, Sweep};
+use crate::run::Command;
 use crate::scene::Scene;
+use crate::study::sweep::Background;
 use action::lookup;
 use app::{App, Effect, ErrandKind, Setup};
+use pixels::{Canvas, Pixels};
 use terminal::{Input, Panics, Stage};
 use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{
-    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
+    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, Shown, TuiError, Wiring,
+    WriteShown,
 };
 
 /// Time from one drawing to the next.
@@ -71,6 +77,7 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
     let mut theme = Theme::new(Capabilities::detect(variable));
     theme.contrast = Contrast::detect(variable);
     let mut app = App::new(setup_of(&wiring, theme));
+    app.set_pixels(Pixels::detect(variable));
     let panics = Panics::watch();
     let result = Stage::enter().and_then(|stage| {
         let input = Input::listen()?;
@@ -78,9 +85,14 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
             stage,
             app: &mut app,
             wiring: &mut wiring,
+            panics: &panics,
+            canvas: Canvas::default(),
             sweep: None,
+            writing: Vec::new(),
         };
-        show.go_on(&input, &panics)
+        let shown = show.go_on(&input);
+        show.finish_writing();
+        shown
     });
     panics.report();
     // A run that has ended hears nothing, which is what is wanted.
@@ -94,6 +106,7 @@ fn setup_of(wiring: &Wiring, theme: Theme) -> Setup {
         (wiring.open_viewer.is_some(), ErrandKind::View),
         (wiring.save_scene.is_some(), ErrandKind::Save),
         (wiring.rebuild.is_some(), ErrandKind::Rebuild),
+        (wiring.write_shown.is_some(), ErrandKind::Write),
     ];
     Setup {
         scene: wiring.scene.clone(),
@@ -115,22 +128,25 @@ struct Show<'a> {
     stage: Stage,
     app: &'a mut App,
     wiring: &'a mut Wiring,
-    sweep: Option<Sweep>,
+    panics: &'a Panics,
+    canvas: Canvas,
+    sweep: Option<Background>,
+    /// Files in the making.
+    writing: Vec<Receiver<Result<String, String>>>,
 }
 
 impl Show<'_> {
     /// Draws, waits for an event but not longer than a frame's time, takes all that came; again.
-    fn go_on(&mut self, input: &Input, panics: &Panics) -> io::Result<()> {
+    fn go_on(&mut self, input: &Input) -> io::Result<()> {
         let start = Instant::now();
         let mut last = start.elapsed();
         loop {
             let now = start.elapsed();
             self.app.tick(now);
-            self.take_news(panics, now.saturating_sub(last))?;
+            self.take_news(now.saturating_sub(last))?;
             last = now;
             let began = Instant::now();
-            let app = &*self.app;
-            self.stage.terminal.draw(|frame| view::draw(app, frame))?;
+            self.draw()?;
             let drawn = Instant::now();
             // Drawing counts: frames come every FRAME_TIME, not so long after each other.
             let mut wait = FRAME_TIME.saturating_sub(drawn - began).max(LEAST_WAIT);
@@ -163,12 +179,24 @@ impl Show<'_> {
         }
     }
 
-    fn take_news(&mut self, panics: &Panics, wall: Duration) -> io::Result<()> {
+    fn draw(&mut self) -> io::Result<()> {
+        let app = &*self.app;
+        let size = self.stage.terminal.size()?;
+        let screen = Rect::new(0, 0, size.width, size.height);
+        if self.canvas.must_clear(app, screen) {
+            self.stage.clear()?;
+        }
+        let drawn = self.stage.terminal.draw(|frame| view::draw(app, frame))?;
+        self.canvas.show(app, drawn.buffer)
+    }
+
+    fn take_news(&mut self, wall: Duration) -> io::Result<()> {
         let mut status = (self.wiring.status)();
-        if let Some(text) = panics.first() {
+        if let Some(text) = self.panics.of_the_run() {
             status.health = Health::Failed(text);
         }
         self.app.take_status(status);
+        self.hear_of_files();
         let mut effects = Vec::new();
         if let Some(frame) = self.wiring.frames.take() {
             let mut points = Vec::new();
@@ -178,14 +206,17 @@ impl Show<'_> {
         }
         effects.extend(self.app.take_settled((self.wiring.settled)()));
         effects.extend(self.app.advance(wall));
-        let found = self.sweep.as_ref().map_or_else(Vec::new, Sweep::take);
-        let progress = self.sweep.as_ref().map(Sweep::progress);
+        let found = self.sweep.as_ref().map_or_else(Vec::new, Background::take);
+        let progress = self.sweep.as_ref().and_then(Background::progress);
         self.app.take_swept(found, progress);
         // Nothing that comes from the run asks for the end.
         self.carry_out(effects).map(|_| ())
     }
 
     fn take_event(&mut self, event: &Event) -> io::Result<Flow> {
+        if let Event::Resize(..) = event {
+            self.canvas.forget();
+        }
         let action = match event {
             Event::Key(key) => lookup(key),
             Event::Mouse(mouse) => {
@@ -212,15 +243,18 @@ impl Show<'_> {
                     let said = self.run_errand(errand).unwrap_or_else(|reason| reason);
                     self.app.say(said);
                 }
-                Effect::Sweep(values) => {
+                Effect::Sweep(order) => {
                     // The old one ends first: its cores are wanted.
                     self.sweep = None;
                     let start = self.wiring.start_sweep.as_mut();
-                    self.sweep = start.and_then(|start| start(values));
+                    self.sweep = start.and_then(|start| start(*order));
                 }
                 Effect::EndSweep => self.sweep = None,
                 Effect::Rebuild(scene) => self.rebuild(&scene),
-                Effect::Suspend => self.stage.suspend()?,
+                Effect::Suspend => {
+                    self.canvas.forget();
+                    self.stage.suspend()?;
+                }
                 Effect::Quit => return Ok(Flow::Stop),
             }
         }
@@ -236,6 +270,7 @@ impl Show<'_> {
         match made {
             Ok(next) => {
                 self.sweep = None;
+                self.panics.another_run();
                 *self.wiring = next;
                 let setup = setup_of(self.wiring, self.app.theme);
                 let setup = app::Setup {
@@ -272,7 +307,34 @@ impl Show<'_> {
                     None => missing(),
                 }
             }
+            ErrandKind::Write => {
+                let (Some(write), Some(shown)) = (&mut wiring.write_shown, self.app.shown()) else {
+                    return Err("nothing to write before the passage".to_owned());
+                };
+                self.writing.push(write(shown));
+                Ok("writing fields, pictures and tables".to_owned())
+            }
             ErrandKind::Rebuild => missing(),
+        }
+    }
+
+    /// Says which files are there.
+    fn hear_of_files(&mut self) {
+        let app = &mut *self.app;
+        self.writing.retain(|answer| match answer.try_recv() {
+            Ok(said) => {
+                app.say(said.unwrap_or_else(|reason| reason));
+                false
+            }
+            Err(TryRecvError::Empty) => true,
+            Err(TryRecvError::Disconnected) => false,
+        });
+    }
+
+    /// What was begun is written whole.
+    fn finish_writing(&mut self) {
+        for answer in self.writing.drain(..) {
+            drop(answer.recv());
         }
     }
 }

@@ -62,9 +62,19 @@ impl Replay {
 
     /// Which frame of the period it is.
     pub fn place(&self) -> usize {
+        self.place_at(self.at_s)
+    }
+
+    fn place_at(&self, at_s: f64) -> usize {
         let n = self.settled.frames.len();
-        let part = (self.at_s / self.settled.period_s).rem_euclid(1.0);
+        let part = (at_s / self.settled.period_s).rem_euclid(1.0);
         ((part * n as f64) as usize).min(n - 1)
+    }
+
+    /// The frame so many lengths of 4 a before this moment; the orbit has no beginning.
+    pub fn before(&self, passages: f64) -> &Arc<Frame> {
+        let ago_s = passages * self.usual * PASSAGE_S;
+        &self.settled.frames[self.place_at(self.at_s - ago_s)]
     }
 
     /// Simulated time since the replay began, s.

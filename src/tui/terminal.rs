@@ -51,10 +51,19 @@ impl Stage {
         // its prompt back. It returns when the shell continues the group.
         let stopped = process::Command::new("kill").args(["-TSTP", "0"]).status();
         take()?;
-        // Drawn anew from nothing. (`clear` would ask where the cursor is, and not every line answers.)
+        self.clear()?;
+        stopped.map(|_| ())
+    }
+
+    /// Clears it: what comes next is drawn from nothing.
+    ///
+    /// # Errors
+    /// When it fails.
+    pub(super) fn clear(&mut self) -> io::Result<()> {
+        // Ratatui's own `clear` would ask where the cursor is, and not every line answers.
         execute!(stdout(), Clear(ClearType::All))?;
         self.terminal = Terminal::new(CrosstermBackend::new(stdout()))?;
-        stopped.map(|_| ())
+        Ok(())
     }
 }
 
@@ -96,8 +105,18 @@ thread_local! {
 /// What panics of other threads said: shown on the screen while it is there.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Panics {
-    said: Arc<Mutex<Vec<String>>>,
+    said: Arc<Mutex<Vec<Panic>>>,
 }
+
+#[derive(Debug)]
+struct Panic {
+    text: String,
+    /// Whether it broke the run that is on the screen: not one beside it, nor a run before it.
+    broke_the_run: bool,
+}
+
+/// Threads whose panic leaves the run as it is.
+const BESIDE: [&str; 3] = ["sweep", "keys", "files"];
 
 impl Panics {
     /// Watches panics from now on: one of this thread gives the terminal back before it is
@@ -112,7 +131,11 @@ impl Panics {
                 give_back();
                 before(info);
             } else if Arc::strong_count(&kept.said) > 1 {
-                kept.lock().push(info.to_string());
+                let name = thread::current().name().map(str::to_owned);
+                kept.lock().push(Panic {
+                    text: told(info),
+                    broke_the_run: !name.is_some_and(|name| BESIDE.contains(&name.as_str())),
+                });
             } else {
                 // The screen is gone, and the hook holds the last handle.
                 before(info);
@@ -121,21 +144,43 @@ impl Panics {
         panics
     }
 
-    /// The first of them.
-    pub(super) fn first(&self) -> Option<String> {
-        self.lock().first().cloned()
+    /// What broke the run that is on the screen.
+    pub(super) fn of_the_run(&self) -> Option<String> {
+        let said = self.lock();
+        let first = said.iter().find(|panic| panic.broke_the_run);
+        first.map(|panic| panic.text.clone())
+    }
+
+    /// Another run is on the screen.
+    pub(super) fn another_run(&self) {
+        for panic in self.lock().iter_mut() {
+            panic.broke_the_run = false;
+        }
     }
 
     /// Says, on a screen that is no longer there, what was kept.
     pub(super) fn report(&self) {
         let mut errors = io::stderr().lock();
-        for text in self.lock().drain(..) {
-            let _ = writeln!(errors, "{text}");
+        for panic in self.lock().drain(..) {
+            let _ = writeln!(errors, "{}", panic.text);
         }
     }
 
-    fn lock(&self) -> MutexGuard<'_, Vec<String>> {
+    fn lock(&self) -> MutexGuard<'_, Vec<Panic>> {
         self.said.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A panic in one line.
+fn told(info: &panic::PanicHookInfo<'_>) -> String {
+    let what = info.payload_as_str().unwrap_or("no message");
+    match info.location() {
+        Some(place) => format!(
+            "a programming error: {what} ({}:{})",
+            place.file(),
+            place.line()
+        ),
+        None => format!("a programming error: {what}"),
     }
 }
 

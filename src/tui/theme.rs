@@ -228,8 +228,7 @@ impl Theme {
 
     /// A colour of a map with white mixed in: lines drawn over it.
     pub fn map_color_lit(self, ramp: Ramp, t: f32, white: f32) -> Color {
-        let base = map_rgb(ramp, t);
-        self.rgb(base.map(|c| (f32::from(c) + (255.0 - f32::from(c)) * white) as u8))
+        self.rgb(ramp.lit(t, white))
     }
 
     /// A character of a map, `t` from 0 to 1.

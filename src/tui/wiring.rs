@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::sync::mpsc::Sender;
+use std::sync::mpsc::{Receiver, Sender};
 
 use thiserror::Error;
 
 use crate::observe::Latest;
-use crate::run::{Command, Settled, Sweep};
+use crate::run::{Command, Settled};
 use crate::scene::Scene;
+use crate::sim::Frame;
+use crate::study::sweep::{Background, Order};
 
 /// A stage that the plan leaves out, and why.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,8 +76,22 @@ pub type Errand = Box<dyn FnMut() -> Result<String, String>>;
 /// Writes a scene (its TOML text) and says where.
 pub type SaveScene = Box<dyn FnMut(&str) -> Result<PathBuf, String>>;
 
-/// Starts a sweep over values of S from where the run has settled.
-pub type StartSweep = Box<dyn FnMut(Vec<f64>) -> Option<Sweep>>;
+/// Starts a sweep beside the run, from where it has settled.
+pub type StartSweep = Box<dyn FnMut(Order) -> Option<Background>>;
+
+/// What is on the screen, to be written.
+#[derive(Debug, Clone)]
+pub struct Shown {
+    /// The frame.
+    pub frame: Arc<Frame>,
+    /// The scene as it is now, as TOML.
+    pub scene_toml: String,
+    /// Tables: file name and comma-separated text.
+    pub tables: Vec<(&'static str, String)>,
+}
+
+/// Writes what is shown on a thread of its own; the answer is one line for the status bar.
+pub type WriteShown = Box<dyn FnMut(Shown) -> Receiver<Result<String, String>>>;
 
 /// Ends the run and starts one of another scene; what it gives replaces the whole wiring (but for
 /// [`Wiring::rebuild`] itself, which stays).
@@ -103,7 +119,7 @@ pub struct Wiring {
     pub status: Box<dyn FnMut() -> RunStatus>,
     /// One period of the passage, once it repeats; asked before each drawing.
     pub settled: Box<dyn FnMut() -> Option<Arc<Settled>>>,
-    /// Sweeps S beside the run.
+    /// Sweeps S or the speed beside the run.
     pub start_sweep: Option<StartSweep>,
     /// Raised when the process is asked to end (SIGTERM, SIGHUP): the screen closes.
     pub interrupt: Arc<AtomicBool>,
@@ -115,6 +131,8 @@ pub struct Wiring {
     pub rebuild: Option<Rebuild>,
     /// Saves the scene as it now is.
     pub save_scene: Option<SaveScene>,
+    /// Writes the frame on the screen as fields, pictures and tables.
+    pub write_shown: Option<WriteShown>,
 }
 
 /// Why the screen ended otherwise than by `q`.

@@ -150,6 +150,7 @@ def shoot(program, folder, name, size, script):
             print(folder / name)
         finally:
             tmux("kill-server")
+            time.sleep(1)  # the next one needs its socket
 
 
 def main():

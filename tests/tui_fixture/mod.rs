@@ -1,14 +1,22 @@
 //! Synthetic frames that look like a run: a Hertz dome with ripples of both bodies that move at
 //! their own speeds. Nothing here is physics; it is a picture to draw.
+#![allow(dead_code, clippy::unwrap_used, reason = "each test uses its part")]
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
+use std::time::Duration;
 
+use asperity::run::{Command, Settled};
 use asperity::scene::{Body, Contact, ContactKind, Life, Load, Motion, Record, Scene, Surface};
 use asperity::sim::{Frame, LifeEstimate, MaterialPoint, Metrics, Stage, StressSlice};
-use asperity::tui::app::{App, ErrandKind, Setup};
+use asperity::study::sweep::{Began, Conditions, Found};
+use asperity::tui::app::{App, Effect, ErrandKind, Setup};
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-use asperity::tui::{LeftOut, RecorderActivity, RecorderState, RunStatus};
+use asperity::tui::{LeftOut, RecorderActivity, RecorderState, RunStatus, view};
+use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::Buffer;
 
 /// Hertz half-width at 800 N, m.
 pub(crate) const A_M: f64 = 2.2e-4;
@@ -318,5 +326,103 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         n_counted_body_2: Some(n_2 + 0.1),
         repeat: None,
         errors: None,
+    }
+}
+
+/// One period of the fixture: S = 0.5, so 3 crests of body 1 while 5 of body 2 pass.
+pub(crate) fn settled(state: &State) -> Settled {
+    let period_m = WAVE_M / (0.5 * state.slide_roll.abs()).max(0.25);
+    let step_m = 4.0 * A_M / 128.0;
+    let steps = (period_m / step_m).round() as u64;
+    Settled {
+        frames: (0..steps)
+            .map(|step| Arc::new(frame(200 + step, state)))
+            .collect(),
+        period_s: steps as f64 * step_m / state.speed_m_s,
+        state: None,
+    }
+}
+
+/// Unicode without colour: what is drawn shows in the characters.
+pub(crate) fn plain() -> Theme {
+    theme(ColorDepth::Mono, Glyphs::Unicode)
+}
+
+/// Plays so many steps of a synthetic run, a screen's frame apart.
+pub(crate) fn play(app: &mut App, steps: std::ops::RangeInclusive<u64>, state: &State) {
+    for step in steps {
+        app.tick(Duration::from_millis(17 * step));
+        app.take_status(status(step));
+        app.take_frame(Arc::new(frame(step, state)));
+    }
+}
+
+pub(crate) fn running(theme: Theme) -> App {
+    let mut app = app(theme);
+    play(&mut app, 1..=96, &State::default());
+    app
+}
+
+pub(crate) fn buffer(app: &App, width: u16, height: u16) -> Buffer {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+    terminal.draw(|frame| view::draw(app, frame)).unwrap();
+    terminal.backend().buffer().clone()
+}
+
+pub(crate) fn text(app: &App, width: u16, height: u16) -> String {
+    let buffer = buffer(app, width, height);
+    let mut lines = Vec::new();
+    for y in 0..height {
+        let line: String = (0..width).map(|x| buffer[(x, y)].symbol()).collect();
+        lines.push(line.trim_end().to_owned());
+    }
+    lines.join("\n")
+}
+
+pub(crate) fn sent(effects: &[Effect]) -> Vec<Command> {
+    effects
+        .iter()
+        .filter_map(|effect| match effect {
+            Effect::Send(command) => Some(command.clone()),
+            _ => None,
+        })
+        .collect()
+}
+
+pub(crate) fn setup_of(scene: Scene) -> Setup {
+    Setup {
+        scene: Arc::new(scene),
+        load_n: 800.0,
+        half_width_m: A_M,
+        p_hertz_pa: P_HERTZ_PA,
+        plan_text: String::new(),
+        left_out: Vec::new(),
+        errands: vec![ErrandKind::Rebuild],
+        theme: plain(),
+    }
+}
+
+/// What a sweep would find at an S and a speed, all else as in the fixture.
+pub(crate) fn found(slide_roll: f64, entrainment_m_s: f64, life: f64) -> Found {
+    Found {
+        at: Conditions {
+            slide_roll,
+            entrainment_m_s,
+            load_n: 800.0,
+            amplitude_m: [2.0e-7; 2],
+        },
+        began: Began::Warm,
+        life: Some([0.5 * life, life, 2.0 * life]),
+        friction: 0.03 + 0.01 / entrainment_m_s,
+        lambda: Some(1.08 * entrainment_m_s.powf(0.67)),
+    }
+}
+
+pub(crate) fn mouse(kind: MouseEventKind, column: u16, row: u16) -> MouseEvent {
+    MouseEvent {
+        kind,
+        column,
+        row,
+        modifiers: KeyModifiers::NONE,
     }
 }

@@ -102,6 +102,20 @@ pub(super) fn may_follow(before: &Scene, scene: &Scene) -> bool {
     stripped(before) == stripped(scene) && !scene.surfaces().iter().any(drawn)
 }
 
+/// Runs a case after another one: from its end, where it may follow it, else from Hertz.
+pub(super) fn after(
+    before: Option<&(Scene, State)>,
+    index: usize,
+    scene: &Scene,
+    plan: &Plan,
+    threads: usize,
+    watch: &mut dyn Watch,
+) -> Ran {
+    let neighbour = before.filter(|(before, _)| may_follow(before, scene));
+    let state = neighbour.map(|(_, state)| state);
+    run(index, scene, plan, state, threads, watch)
+}
+
 /// Runs a case, from the end of its neighbour where there is one.
 pub(super) fn run(
     index: usize,

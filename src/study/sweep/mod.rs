@@ -6,9 +6,11 @@
 //!                          └ one file each, whole or not at all ─> table.csv, plots
 //! ```
 //! What a case is, in [`Sweep`]; what runs where, in [`Shard`]; what is kept, in [`Folder`]; what comes out, in
-//! [`Rows`]. The table is the same byte for byte whatever the shards, the threads and the interruptions.
+//! [`Rows`]. The table is the same byte for byte whatever the shards, the threads and the interruptions. The
+//! explorer runs the same cases beside a live run: [`Background`].
 
 mod axis;
+mod background;
 mod case;
 mod chain;
 mod cold;
@@ -29,6 +31,7 @@ mod table;
 mod window;
 
 pub use axis::{Axis, WARM_KEYS};
+pub use background::{Along, Background, Conditions, Found, Ground, Order};
 pub use case::{Began, CaseEnd, CaseRecord};
 pub use chain::Shard;
 pub use cold::{Against, against_cold};

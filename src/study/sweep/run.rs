@@ -11,9 +11,9 @@ use super::case::{self, CaseEnd, CaseRecord, Length, Watch, may_follow, shortene
 use super::chain::Shard;
 use super::error::SweepError;
 use super::folder::Folder;
-use super::spec::Sweep;
+use super::spec::{ChainKeys, Sweep};
 use super::window::window;
-use crate::plan::{March, Plan};
+use crate::plan::{March, Plan, PlanError};
 use crate::scene::Scene;
 use crate::sim::State;
 
@@ -134,12 +134,17 @@ pub fn run(
 
 /// Scene and plan of a case.
 pub(super) fn prepare(sweep: &Sweep, index: usize) -> Result<(Scene, Plan), SweepError> {
-    let (scene, length) = shortened(sweep.scene(index)?, sweep.chain);
-    let mut plan = Plan::new(&scene).map_err(|source| SweepError::Plan {
+    case_of(sweep.scene(index)?, sweep.chain).map_err(|source| SweepError::Plan {
         index,
         at: sweep.at(index),
         source,
-    })?;
+    })
+}
+
+/// A scene as a case, with its plan.
+pub(super) fn case_of(scene: Scene, chain: ChainKeys) -> Result<(Scene, Plan), PlanError> {
+    let (scene, length) = shortened(scene, chain);
+    let mut plan = Plan::new(&scene)?;
     if length == Length::Windowed {
         fit_window(&mut plan);
     }
@@ -195,16 +200,13 @@ impl Crew<'_> {
         let (from, mut neighbour) = self.take_up(chain, &cases)?;
         for index in from..cases.end {
             let (scene, plan) = prepare(self.sweep, index)?;
-            let start = neighbour
-                .as_ref()
-                .filter(|(before, _)| may_follow(before, &scene))
-                .map(|(_, state)| state);
             let was_there = self.folder.read_case(index).is_some();
             let mut share = Share {
                 progress: self.progress,
                 told: 0,
             };
-            let ran = case::run(index, &scene, &plan, start, self.threads, &mut share);
+            let before = neighbour.as_ref();
+            let ran = case::after(before, index, &scene, &plan, self.threads, &mut share);
             drop(share);
             let Some((record, state)) = ran else {
                 return Ok(());

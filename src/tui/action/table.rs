@@ -183,7 +183,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('y'), Action::Curve)],
         "y",
-        "curve: life or friction",
+        "life, friction, Stribeck",
         Group::Show,
     ),
     row(&[(ch('u'), Action::Units)], "u", "other units", Group::Show),
@@ -191,6 +191,12 @@ pub const KEYS: &[Row] = &[
         &[(ch('c'), Action::Contrast)],
         "c",
         "contrast: high, light",
+        Group::Show,
+    ),
+    row(
+        &[(ch('g'), Action::Pixels)],
+        "g",
+        "map in blocks, sixels, kitty",
         Group::Show,
     ),
     row(
@@ -221,6 +227,12 @@ pub const KEYS: &[Row] = &[
         &[(ch('s'), Action::Save)],
         "s",
         "save the scene as it is now",
+        Group::Program,
+    ),
+    row(
+        &[(ch('w'), Action::Write)],
+        "w",
+        "write it: npz, png, csv",
         Group::Program,
     ),
     row(

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::run::Command;
 use crate::scene::Scene;
+use crate::study::sweep::Order;
 use crate::tui::app::Leading;
 use crate::tui::theme::Theme;
 use crate::tui::wiring::LeftOut;
@@ -19,6 +20,8 @@ pub enum ErrandKind {
     Save,
     /// Runs another scene.
     Rebuild,
+    /// Writes what is shown.
+    Write,
 }
 
 /// What the app asks of the loop around it.
@@ -28,8 +31,8 @@ pub enum Effect {
     Send(Command),
     /// An errand.
     Errand(ErrandKind),
-    /// Compute life at these S beside the run, from where it has settled.
-    Sweep(Vec<f64>),
+    /// Compute this beside the run, from where it has settled.
+    Sweep(Box<Order>),
     /// Call that off.
     EndSweep,
     /// Run this scene in place of the present one.
@@ -68,19 +71,6 @@ pub struct Ranges {
     pub stress_pa: f64,
     /// Shear of the material point to either side, Pa.
     pub shear_pa: f64,
-}
-
-/// A settled life at one S.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LifePoint {
-    /// S.
-    pub slide_roll: f64,
-    /// Relative life.
-    pub life_relative: f64,
-    /// Its band.
-    pub band: [f64; 2],
-    /// Friction coefficient.
-    pub friction: f64,
 }
 
 /// One point of the life's history.

@@ -1,18 +1,13 @@
-//! A passage that repeats: its replay, the sweep of S beside it, and the material point.
+//! A passage that repeats: its replay, and the material point.
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::run::{Command, Settled, SweepPoint};
+use crate::run::{Command, Settled};
 use crate::sim::Follow;
-use crate::tui::app::{App, AutoReplay, Effect, LifePoint, Pace};
+use crate::tui::app::{App, AutoReplay, Effect, Pace};
 use crate::tui::replay::{Motion, Replay};
 use crate::tui::trace::{Chosen, Trace, TraceSample};
-
-/// Values of S that a sweep visits, of either sign: close where life falls fastest.
-const SWEPT: [f64; 10] = [0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
-/// Values of S that are as good as the same.
-pub(super) const SAME_S: f64 = 0.02;
 
 impl App {
     /// Takes what the run says of a passage that repeats; `None`: it does not (any more).
@@ -38,20 +33,6 @@ impl App {
         }
     }
 
-    /// Takes lives that a sweep has found; `progress`: values done and in all, `None` when there is no sweep.
-    pub fn take_swept(&mut self, points: Vec<SweepPoint>, progress: Option<(usize, usize)>) {
-        self.sweep = progress.filter(|(done, all)| done < all);
-        for point in points {
-            let life = point.life;
-            self.keep_point(LifePoint {
-                slide_roll: point.slide_roll,
-                life_relative: life.life_relative,
-                band: [life.life_relative_low, life.life_relative_high],
-                friction: point.friction,
-            });
-        }
-    }
-
     /// Lets time go by: the replay goes on, the tour follows.
     pub fn advance(&mut self, wall: Duration) -> Vec<Effect> {
         let Some(replay) = &mut self.replay else {
@@ -69,31 +50,9 @@ impl App {
         newest + self.replay.as_ref().map_or(0.0, Replay::passages)
     }
 
-    fn begin_sweep(&mut self) -> Vec<Effect> {
-        let Some(held) = &self.held else {
-            return Vec::new();
-        };
-        let has_life = held.frames.last().is_some_and(|f| f.metrics.life.is_some());
-        if !has_life || held.state.is_none() {
-            return Vec::new();
-        }
-        let dial = &self.dials[0];
-        let mut values: Vec<f64> = SWEPT
-            .iter()
-            .flat_map(|s| [*s, -*s])
-            .filter(|s| (dial.min..=dial.max).contains(s))
-            .filter(|s| {
-                let known = self.settled.iter();
-                known
-                    .map(|point| point.slide_roll)
-                    .all(|old| (old - s).abs() > SAME_S)
-            })
-            .collect();
-        values.dedup();
-        if values.is_empty() {
-            return Vec::new();
-        }
-        vec![Effect::Sweep(values)]
+    /// One period of the passage, where it repeats.
+    pub(super) fn held(&self) -> Option<&Settled> {
+        self.held.as_deref()
     }
 
     fn begin_replay(&mut self) -> Vec<Effect> {
@@ -129,9 +88,9 @@ impl App {
             self.left = Some(held);
         }
         self.auto_replay = AutoReplay::On;
-        if self.sweep.take().is_some() {
-            effects.push(Effect::EndSweep);
-        }
+        // Whether one goes on is known one drawing later only: what it finds would be of the old knobs.
+        self.sweep = None;
+        effects.push(Effect::EndSweep);
         effects
     }
 

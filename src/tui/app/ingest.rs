@@ -5,8 +5,9 @@ use std::time::Duration;
 
 use crate::physics::estimate::{Anchor, OperatingPoint};
 use crate::sim::{Frame, MaterialPoint, Stage};
-use crate::tui::app::held::SAME_S;
-use crate::tui::app::{App, Effect, LifePoint, LifeSample, Ranges};
+use crate::study::sweep::{Began, Found};
+use crate::tui::app::curve::{MeanFriction, conditions};
+use crate::tui::app::{App, Effect, LifeSample, Ranges};
 use crate::tui::dial::{Dial, knob_target, knob_value};
 use crate::tui::units::nice_ceiling;
 
@@ -16,8 +17,6 @@ const PAST_BYTES: usize = 48 << 20;
 const PAST_FRAMES: usize = 96;
 /// Points of the life's history.
 const HISTORY: usize = 1024;
-/// Settled lives kept for the curve of life against S.
-const SETTLED: usize = 48;
 /// Wall time over which the speed of the run is averaged.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
 /// How long a knob that was set here is not overruled by what a frame says of its target.
@@ -44,6 +43,7 @@ impl App {
         }
         self.take_rate(&frame);
         self.take_life(&frame);
+        self.waves.push(&frame);
         self.keep(frame);
         self.refresh_estimate();
         let passages = self.passages();
@@ -100,57 +100,33 @@ impl App {
             life_relative: life.life_relative,
         });
         if !life.settled || self.dials.iter().any(Dial::is_moving) {
+            self.friction = MeanFriction::default();
             return;
         }
+        let friction = self.friction.add(metrics.friction_coefficient);
+        self.keep_point(Found {
+            at: conditions(metrics),
+            began: Began::Warm,
+            life: Some([
+                life.life_relative_low,
+                life.life_relative,
+                life.life_relative_high,
+            ]),
+            friction,
+            lambda: metrics.lambda_ratio,
+        });
         let at = OperatingPoint {
             slide_roll: metrics.slide_roll,
             load_n: metrics.load_n,
             amplitude_1_m: metrics.amplitude_1_m,
             amplitude_2_m: metrics.amplitude_2_m,
         };
-        self.keep_settled(
-            [
-                at.load_n,
-                at.amplitude_1_m,
-                at.amplitude_2_m,
-                metrics.entrainment_m_s,
-            ],
-            LifePoint {
-                slide_roll: at.slide_roll,
-                life_relative: life.life_relative,
-                band: [life.life_relative_low, life.life_relative_high],
-                friction: metrics.friction_coefficient,
-            },
-        );
         self.anchor = Some(Anchor {
             at,
             cycle_factor: life.cycle_factor,
             peak_factor: life.peak_factor,
             traction_factor: life.traction_factor,
         });
-    }
-
-    /// The curve of life against S holds for one load, roughness and speed; others begin another.
-    fn keep_settled(&mut self, at: [f64; 4], point: LifePoint) {
-        let close = |(one, other): (f64, f64)| (one - other).abs() <= 1e-3 * one.abs().max(1e-12);
-        let same = self
-            .settled_at
-            .is_some_and(|old| old.into_iter().zip(at).all(close));
-        if !same {
-            self.settled.clear();
-            self.settled_at = Some(at);
-        }
-        self.keep_point(point);
-    }
-
-    /// The newer of two points at the same S stays.
-    pub(super) fn keep_point(&mut self, point: LifePoint) {
-        self.settled
-            .retain(|old| (old.slide_roll - point.slide_roll).abs() > SAME_S);
-        if self.settled.len() == SETTLED {
-            self.settled.remove(0);
-        }
-        self.settled.push(point);
     }
 
     fn keep(&mut self, frame: Arc<Frame>) {

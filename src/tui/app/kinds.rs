@@ -16,17 +16,23 @@ pub enum MapKind {
     Roughness,
     /// Effective stress in the plane y = 0.
     Stress,
+    /// Pressure on the centre line over time.
+    PressureWaves,
+    /// Film on the centre line over time.
+    FilmWaves,
 }
 
 impl MapKind {
     /// All maps in the order of the key.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Pressure,
         Self::Film,
         Self::Fringes,
         Self::Contact,
         Self::Roughness,
         Self::Stress,
+        Self::PressureWaves,
+        Self::FilmWaves,
     ];
 
     /// Name on the screen.
@@ -38,7 +44,14 @@ impl MapKind {
             Self::Contact => "contact spots",
             Self::Roughness => "roughness",
             Self::Stress => "stress below",
+            Self::PressureWaves => "pressure x-t",
+            Self::FilmWaves => "film x-t",
         }
+    }
+
+    /// Whether it shows the plane of the contact: x and y.
+    pub(crate) fn is_plane(self) -> bool {
+        !matches!(self, Self::Stress | Self::PressureWaves | Self::FilmWaves)
     }
 
     pub(super) fn shifted(self, by: usize) -> Self {
@@ -79,7 +92,7 @@ impl PointQuantity {
     }
 }
 
-/// What is drawn against S.
+/// What is drawn against S, or against the speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Curve {
     /// Relative life, logarithmic.
@@ -87,13 +100,16 @@ pub enum Curve {
     Life,
     /// Friction coefficient.
     Friction,
+    /// Friction coefficient against the speed.
+    Stribeck,
 }
 
 impl Curve {
-    pub(super) fn other(self) -> Self {
+    pub(super) fn next(self) -> Self {
         match self {
             Self::Life => Self::Friction,
-            Self::Friction => Self::Life,
+            Self::Friction => Self::Stribeck,
+            Self::Stribeck => Self::Life,
         }
     }
 }

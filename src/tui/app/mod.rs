@@ -1,6 +1,7 @@
 //! The screen's state, and the reducer: (state, action) → state and effects. Nothing here draws,
 //! waits or reads a clock, so every screen can be made in a test.
 
+mod curve;
 mod data;
 mod held;
 mod ingest;
@@ -15,17 +16,22 @@ use std::time::Duration;
 use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, OperatingPoint};
 use crate::run::Settled;
 use crate::scene::Scene;
-use crate::sim::{Frame, Knob, LifeEstimate};
+use crate::sim::{Frame, Knob, LifeEstimate, Stage};
+use crate::study::sweep::{Along, Found};
 use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
 use crate::tui::estimate::{basis, life_at_pressure};
+use crate::tui::kymograph::{Kymograph, Span};
 use crate::tui::lessons::{Staging, TourState};
+use crate::tui::pixels::Pixels;
 use crate::tui::replay::Replay;
+use crate::tui::tables;
 use crate::tui::theme::Theme;
 use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
-use crate::tui::wiring::{Health, RunStatus};
-pub use data::{Effect, ErrandKind, LifePoint, LifeSample, Pinned, Ranges, Setup};
+use crate::tui::wiring::{Health, RunStatus, Shown};
+use curve::MeanFriction;
+pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Setup};
 pub use held::PointNow;
 pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
@@ -35,6 +41,7 @@ pub struct App {
     pub(crate) setup: Setup,
     pub(crate) theme: Theme,
     pub(crate) units: Units,
+    pixels: Pixels,
     pub(crate) dials: Vec<Dial>,
     pub(crate) chosen: usize,
     pub(crate) map: MapKind,
@@ -51,12 +58,15 @@ pub struct App {
     pub(crate) ranges: Ranges,
     pub(crate) trace: Trace,
     pub(crate) history: VecDeque<LifeSample>,
-    /// Settled lives at other S, all else as now.
-    pub(crate) settled: Vec<LifePoint>,
-    /// All else: load, roughness and speed for which they hold.
-    settled_at: Option<[f64; 4]>,
-    /// Values of S done and in all, while a sweep is under way.
+    /// Pressure and film of the last steps along the centre line.
+    waves: Kymograph,
+    /// What was simulated, by the run and beside it.
+    simulated: Vec<Found>,
+    friction: MeanFriction,
+    /// Values done and in all, while a sweep is under way.
     pub(crate) sweep: Option<(usize, usize)>,
+    /// What it goes along.
+    pub(crate) sweeping: Along,
     /// One period of the passage, once it repeats.
     held: Option<Arc<Settled>>,
     /// The one that turning a knob has ended.
@@ -99,6 +109,7 @@ impl App {
         Self {
             theme: setup.theme,
             units: Units::default(),
+            pixels: Pixels::default(),
             chosen: 0,
             map: MapKind::default(),
             zoom: Zoom::default(),
@@ -113,9 +124,11 @@ impl App {
             ranges: Ranges::default(),
             trace: Trace::default(),
             history: VecDeque::new(),
-            settled: Vec::new(),
-            settled_at: None,
+            waves: Kymograph::default(),
+            simulated: Vec::new(),
+            friction: MeanFriction::default(),
             sweep: None,
+            sweeping: Along::default(),
             held: None,
             left: None,
             replay: None,
@@ -186,6 +199,27 @@ impl App {
         target_of(&self.dials, knob)
     }
 
+    /// How the map is drawn.
+    pub fn pixels(&self) -> Pixels {
+        self.pixels
+    }
+
+    /// Draws the map in another way.
+    pub fn set_pixels(&mut self, pixels: Pixels) {
+        self.pixels = pixels;
+    }
+
+    /// Whether the map is left to the terminal's own pixels: nothing lies over it, and it is in colour.
+    pub(crate) fn is_in_pixels(&self) -> bool {
+        let covered = self.overlay != Overlay::None || self.fault().is_some();
+        self.pixels != Pixels::Blocks && self.theme.paints() && !covered
+    }
+
+    /// The map that is shown.
+    pub fn map(&self) -> MapKind {
+        self.map
+    }
+
     /// The line that is being said.
     pub fn message(&self) -> Option<&str> {
         self.message.as_ref().map(|(text, _)| text.as_str())
@@ -244,6 +278,27 @@ impl App {
         self.basis.estimate(&self.anchored(), &point).life_relative
     }
 
+    /// The centre line over the way that led to the frame on the screen.
+    pub(crate) fn waves(&self) -> Option<Span<'_>> {
+        match &self.replay {
+            Some(replay) => Some(Span::Orbit(replay)),
+            None => self.frame().map(|frame| Span::Run {
+                kept: &self.waves,
+                passages: frame.passages,
+            }),
+        }
+    }
+
+    /// What is on the screen, for files; `None` before the passage.
+    pub fn shown(&self) -> Option<Shown> {
+        let frame = self.frame().filter(|frame| frame.stage == Stage::Passage)?;
+        Some(Shown {
+            frame: Arc::clone(frame),
+            scene_toml: self.scene_toml(),
+            tables: tables::of(self, frame),
+        })
+    }
+
     /// Whether the program offers an errand.
     pub fn offers(&self, errand: ErrandKind) -> bool {
         self.setup.errands.contains(&errand)
@@ -257,7 +312,8 @@ impl App {
     /// The scene with the knobs where they are going.
     fn scene_now(&self) -> Scene {
         let mut scene = (*self.setup.scene).clone();
-        for dial in &self.dials {
+        // A knob where the scene has it leaves the scene's own words (a load given as a Hertz pressure).
+        for dial in self.dials.iter().filter(|dial| dial.target != dial.home) {
             put(&mut scene, dial);
         }
         scene

@@ -2,7 +2,7 @@
 
 use crate::run::Command;
 use crate::tui::action::{Action, KEYS};
-use crate::tui::app::{App, Effect, ErrandKind, Overlay, Pace, Pinned, Zoom};
+use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pace, Pinned, Zoom};
 use crate::tui::dial::Life;
 
 impl App {
@@ -35,6 +35,8 @@ impl App {
             Action::Record => self.errand(ErrandKind::Record),
             Action::View => self.errand(ErrandKind::View),
             Action::Save => self.errand(ErrandKind::Save),
+            Action::Write => self.errand(ErrandKind::Write),
+            Action::Curve => self.next_curve(),
             Action::Replay => self.toggle_replay(),
             Action::PointBody => self.other_body(),
             Action::PointDepth(by) => self.point_depth(by),
@@ -52,8 +54,8 @@ impl App {
     /// Actions that change only what is shown.
     fn show(&mut self, action: Action) {
         match action {
-            Action::NextMap => self.map = self.map.shifted(1),
-            Action::PreviousMap => self.map = self.map.shifted(super::MapKind::ALL.len() - 1),
+            Action::NextMap => self.show_map(self.map.shifted(1)),
+            Action::PreviousMap => self.show_map(self.map.shifted(MapKind::ALL.len() - 1)),
             Action::Zoom => {
                 self.zoom = match self.zoom {
                     Zoom::Contact => Zoom::Domain,
@@ -65,15 +67,36 @@ impl App {
             Action::Unpin => self.pinned = None,
             Action::PointQuantity => self.quantity = self.quantity.next(),
             Action::ReplayFaster(times) => self.replay_faster(times),
-            Action::Curve => self.curve = self.curve.other(),
             Action::Units => self.units = self.units.next(),
             Action::Contrast => self.theme.next_contrast(),
+            Action::Pixels => self.next_pixels(),
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
             Action::Scene => self.toggle_draft(),
             Action::Close => self.close(),
             _ => {}
         }
+    }
+
+    fn next_pixels(&mut self) {
+        if !self.theme.paints() {
+            self.say("the map is drawn in letters: this terminal shows no colours");
+            return;
+        }
+        let next = self.pixels().next();
+        self.set_pixels(next);
+        self.say(format!(
+            "map in {}, if the terminal has them (g: others)",
+            next.name()
+        ));
+    }
+
+    fn show_map(&mut self, map: MapKind) {
+        // A place in the plane is none below it, or in the past.
+        if !(map.is_plane() && self.map.is_plane()) {
+            self.probe = None;
+        }
+        self.map = map;
     }
 
     /// Moves what lies over the screen, up to its last line.
@@ -193,6 +216,7 @@ impl App {
                 "no viewer is at hand; `asperity view FILE.rrd` says how to get one"
             }
             ErrandKind::Save => "this scene cannot be saved from here",
+            ErrandKind::Write => "this run writes no files from here",
             ErrandKind::Rebuild => "this run cannot be changed for another from here",
         });
         Vec::new()
@@ -214,6 +238,8 @@ impl App {
     }
 
     fn toggle(&mut self, overlay: Overlay) {
+        // What is asked for is seen, not hidden behind a fault.
+        self.fault_read |= self.fault().is_some();
         self.scroll = 0;
         self.draft = None;
         self.overlay = if self.overlay == overlay {

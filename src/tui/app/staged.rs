@@ -17,7 +17,7 @@ impl App {
         self.units = old.units;
         (self.theme, self.now, self.message) = (old.theme, old.now, old.message);
         (self.map, self.zoom, self.quantity) = (old.map, old.zoom, old.quantity);
-        self.curve = old.curve;
+        (self.curve, self.pixels) = (old.curve, old.pixels);
         self.pinned = old.pinned.filter(|_| same_contact);
         (self.staged, self.own_scene) = (old.staged, old.own_scene);
         self.tour = old.tour.map(|tour| tour.anew(0.0));
@@ -40,6 +40,7 @@ impl App {
             self.overlay = Overlay::None;
             self.draft = None;
         } else if self.offers(ErrandKind::Rebuild) {
+            self.fault_read |= self.fault().is_some();
             self.overlay = Overlay::Scene;
             self.draft = Some(Draft::new(self.scene_now()));
         } else {

@@ -38,6 +38,44 @@ const FLANKS: Staging = on(
     ],
 );
 
+const FAST: Staging = on(
+    ROLLERS,
+    &[
+        "motion.entrainment_m_s=1.6",
+        "body_1.surface.amplitude_m=1.5e-7",
+        "body_2.surface.amplitude_m=1.5e-7",
+        "friction.contact_film_m=2e-8",
+    ],
+);
+const NEARLY_DRY: Staging = on(
+    ROLLERS,
+    &[
+        "motion.entrainment_m_s=0.02",
+        "body_1.surface.amplitude_m=1.5e-7",
+        "body_2.surface.amplitude_m=1.5e-7",
+        "friction.contact_film_m=2e-8",
+    ],
+);
+const SHORT_WAVES: Staging = on(
+    ROLLERS,
+    &[
+        "motion.slide_roll=0",
+        "motion.entrainment_m_s=1",
+        "body_1.surface.amplitude_m=1.5e-7",
+        "body_2.surface.kind=smooth",
+    ],
+);
+const LONG_WAVES: Staging = on(
+    ROLLERS,
+    &[
+        "motion.slide_roll=0",
+        "motion.entrainment_m_s=1",
+        "body_1.surface.amplitude_m=1.5e-7",
+        "body_1.surface.wavelength_x_m=6e-4",
+        "body_2.surface.kind=smooth",
+    ],
+);
+
 /// The lessons, in order.
 pub const LESSONS: &[Lesson] = &[
     Lesson {
@@ -49,18 +87,17 @@ pub const LESSONS: &[Lesson] = &[
                     &["motion.slide_roll=0", "body_2.surface.kind=smooth"],
                 )),
                 caption: "Pure rolling, S = 0, only body 1 is rough. Follow the diamond: a point of the surface crosses the contact and is pressed once, n = 1.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 1.5,
                 claims: &[claim(N1, 1.0, 1.0), claim(N2, 1.0, 1.0)],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: None,
                 caption: "Its ridges cross with it: pressure peaks stand on them, but they stay the same peaks. Left out: heat, yield, wear; the bodies are elastic.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 2.0,
                 claims: &[claim(Counted1, 0.0, 1.2), claim(PeakPressure, 1.1, 3.0)],
+                ..Beat::PLAIN
             },
         ],
     },
@@ -70,38 +107,34 @@ pub const LESSONS: &[Lesson] = &[
             Beat {
                 staging: Some(FLANKS),
                 caption: "Two finely ground flanks, rolling: S = 0. Both surfaces move in step and each point is pressed once: n = 1. Pin this (b) to compare.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 2.0,
                 claims: &[claim(N1, 1.0, 1.0), claim(Counted1, 0.8, 1.2)],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: None,
                 caption: "S = 0.1: the mate's crests now overtake the point while it crosses. Each is a stress cycle of its own: n = 3, of which two or three are counted.",
                 sets: &[(S, To(0.1))],
-                map: None,
                 passages: 2.5,
                 claims: &[claim(N1, 2.8, 3.2), claim(Counted1, 1.0, 3.1)],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: None,
                 caption: "S = 0.5: the trace below has become a comb, n = 14. Life falls by the count alone, before any peak has grown.",
                 sets: &[(S, To(0.5))],
-                map: None,
                 passages: 3.0,
                 claims: &[
                     claim(N1, 13.5, 14.5),
                     claim(Counted1, 12.0, 14.5),
                     claim(Life, 0.02, 0.1),
                 ],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: None,
                 caption: "n is an upper bound on damage: it counts a small ripple like a full cycle. Left out: wear, which can reverse the trend with S.",
-                sets: &[],
-                map: None,
                 passages: 1.0,
                 claims: &[claim(N1, 13.5, 14.5), claim(N2, 8.0, 10.0)],
+                ..Beat::PLAIN
             },
         ],
     },
@@ -109,44 +142,28 @@ pub const LESSONS: &[Lesson] = &[
         title: "Thin film: from λ = 4 to dry",
         beats: &[
             Beat {
-                staging: Some(on(
-                    ROLLERS,
-                    &[
-                        "motion.entrainment_m_s=1.6",
-                        "body_1.surface.amplitude_m=1.5e-7",
-                        "body_2.surface.amplitude_m=1.5e-7",
-                        "friction.contact_film_m=2e-8",
-                    ],
-                )),
+                staging: Some(FAST),
                 caption: "Fast: the film is four times as thick as the roughness, λ = 4. Nothing touches; the film's horseshoe shows.",
-                sets: &[],
                 map: Some(Film),
                 passages: 1.5,
                 claims: &[claim(Lambda, 3.5, 4.8), claim(ContactPercent, 0.0, 0.01)],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: None,
                 caption: "An eighth of the speed: λ = 1, ripples and film are alike, pressure peaks grow.",
                 sets: &[(SPEED, TimesHome(0.125))],
                 map: Some(Film),
                 passages: 2.0,
                 claims: &[claim(Lambda, 0.9, 1.2), claim(PeakPressure, 1.2, 3.0)],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: Some(on(
-                    ROLLERS,
-                    &[
-                        "motion.entrainment_m_s=0.02",
-                        "body_1.surface.amplitude_m=1.5e-7",
-                        "body_2.surface.amplitude_m=1.5e-7",
-                        "friction.contact_film_m=2e-8",
-                    ],
-                )),
+                staging: Some(NEARLY_DRY),
                 caption: "A tenth of that: nearly dry. Half of the contact touches and rubs there with the boundary friction. Left out: heat, which would thin the oil further.",
-                sets: &[],
                 map: Some(Contact),
                 passages: 1.0,
                 claims: &[claim(Lambda, 0.1, 0.3), claim(ContactPercent, 40.0, 85.0)],
+                ..Beat::PLAIN
             },
         ],
     },
@@ -154,45 +171,28 @@ pub const LESSONS: &[Lesson] = &[
         title: "Waves that flatten",
         beats: &[
             Beat {
-                staging: Some(on(
-                    ROLLERS,
-                    &[
-                        "motion.slide_roll=0",
-                        "motion.entrainment_m_s=1",
-                        "body_1.surface.amplitude_m=1.5e-7",
-                        "body_2.surface.kind=smooth",
-                    ],
-                )),
+                staging: Some(SHORT_WAVES),
                 caption: "Short waves, 0.2 mm (W/a = 0.43), as they were ground. Under pressure some 60 % of their height is left in the film, where it rolls.",
-                sets: &[],
                 map: Some(Roughness),
                 passages: 1.5,
                 claims: &[claim(LeftPercent, 50.0, 70.0)],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: Some(on(
-                    ROLLERS,
-                    &[
-                        "motion.slide_roll=0",
-                        "motion.entrainment_m_s=1",
-                        "body_1.surface.amplitude_m=1.5e-7",
-                        "body_1.surface.wavelength_x_m=6e-4",
-                        "body_2.surface.kind=smooth",
-                    ],
-                )),
+                staging: Some(LONG_WAVES),
                 caption: "Waves three times as long: the contact presses them flat, a fifth is left in the film. Its ripple, not the heights, is what λ should know.",
-                sets: &[],
                 map: Some(Film),
                 passages: 1.5,
                 claims: &[claim(LeftPercent, 12.0, 28.0)],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: None,
                 caption: "Now they slide, S = 1: oil drawn over the slow ridges presses them flatter still, a tenth is left. Left out: heat and yield.",
                 sets: &[(S, To(1.0))],
                 map: Some(Film),
                 passages: 2.0,
                 claims: &[claim(LeftPercent, 4.0, 14.0)],
+                ..Beat::PLAIN
             },
         ],
     },
@@ -208,7 +208,6 @@ pub const LESSONS: &[Lesson] = &[
                     ],
                 )),
                 caption: "Only body 2 is rough, with ridges across the motion; S = 0.5. Its crests overtake body 1 one by one: n₁ = 4. Its own n₂ is 1.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 2.5,
                 claims: &[
@@ -216,6 +215,7 @@ pub const LESSONS: &[Lesson] = &[
                     claim(N2, 1.0, 1.0),
                     claim(Counted1, 2.8, 4.5),
                 ],
+                ..Beat::PLAIN
             },
             Beat {
                 staging: Some(on(
@@ -226,18 +226,18 @@ pub const LESSONS: &[Lesson] = &[
                     ],
                 )),
                 caption: "The same ridges along the motion: no crest passes a point, n₁ = 1 at any S. Peaks are there all the same.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 2.5,
                 claims: &[claim(N1, 1.0, 1.0), claim(PeakPressure, 1.05, 3.0)],
+                ..Beat::PLAIN
             },
             Beat {
                 staging: Some(on(ROLLERS, &["body_1.surface.kind=smooth"])),
                 caption: "Isotropic: bumps both ways. As many crests as across, half the ground between them. Left out: real lay is never one wave.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 2.5,
                 claims: &[claim(N1, 3.8, 4.5), claim(Counted1, 2.8, 4.5)],
+                ..Beat::PLAIN
             },
         ],
     },
@@ -247,26 +247,26 @@ pub const LESSONS: &[Lesson] = &[
             Beat {
                 staging: Some(on("fzg_point_a", &["grid.nodes=257"])),
                 caption: "Pinion's dedendum, where contact begins: S = 1.3. Body 1, the pinion, is the slower and meets most crests: n₁ 24, n₂ 6. Here pits begin.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 2.5,
                 claims: &[claim(N1, 23.0, 26.0), claim(N2, 5.5, 6.5)],
+                ..Beat::PLAIN
             },
             Beat {
                 staging: Some(on("fzg_pitch_point", &["grid.nodes=257"])),
                 caption: "Pitch point: one pair carries all the load, and rolls: S = 0, n = 1 for both.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 1.5,
                 claims: &[claim(N1, 1.0, 1.0), claim(N2, 1.0, 1.0)],
+                ..Beat::PLAIN
             },
             Beat {
                 staging: Some(on("fzg_point_e", &["grid.nodes=257"])),
                 caption: "Pinion's tip: S = −1.04, now the wheel is the slower: n₂ 20, n₁ 7. Left out: a tooth passes through all this in a millisecond; each point here stands.",
-                sets: &[],
                 map: Some(Pressure),
                 passages: 2.5,
                 claims: &[claim(N1, 6.5, 7.8), claim(N2, 19.0, 22.0)],
+                ..Beat::PLAIN
             },
         ],
     },
@@ -282,15 +282,14 @@ pub const LESSONS: &[Lesson] = &[
                 claims: &[claim(PeakDepth, 0.4, 0.55)],
             },
             Beat {
-                staging: None,
                 caption: "Rough: each pressure peak puts a stress peak just under the skin. The maximum moves towards the surface, and pits with it.",
                 sets: &[(A1, TimesHome(1.0)), (A2, TimesHome(1.0))],
                 map: Some(Stress),
                 passages: 1.5,
                 claims: &[claim(PeakDepth, 0.0, 0.3), claim(PeakPressure, 1.3, 4.0)],
+                ..Beat::PLAIN
             },
             Beat {
-                staging: None,
                 caption: "And sliding: friction pulls it up further, and cycles multiply. Left out: residual stress, shakedown of the asperities, inclusions.",
                 sets: &[(S, To(1.0))],
                 map: Some(Stress),
@@ -300,6 +299,7 @@ pub const LESSONS: &[Lesson] = &[
                     claim(Counted2, 1.0, 12.0),
                     claim(N2, 3.0, 6.0),
                 ],
+                ..Beat::PLAIN
             },
         ],
     },

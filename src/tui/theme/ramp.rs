@@ -11,6 +11,18 @@ pub enum Ramp {
     Diverging,
 }
 
+impl Ramp {
+    /// A colour, `t` from 0 to 1.
+    pub fn rgb(self, t: f32) -> [u8; 3] {
+        map_rgb(self, t)
+    }
+
+    /// Same with white mixed in: lines drawn over a map.
+    pub fn lit(self, t: f32, white: f32) -> [u8; 3] {
+        map_rgb(self, t).map(|c| (f32::from(c) + (255.0 - f32::from(c)) * white) as u8)
+    }
+}
+
 const HEAT: [[u8; 3]; 8] = [
     [12, 8, 38],
     [58, 12, 96],

@@ -4,6 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
+use crate::physics::estimate::speed_ratios;
 use crate::sim::Stage;
 use crate::tui::app::{App, Pace};
 use crate::tui::theme::Role;
@@ -13,18 +14,20 @@ use crate::tui::wiring::Health;
 
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    let numbers = numbers(app);
+    let numbers = numbers(app, area.width);
     put_right(area, 0, &numbers, buffer);
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
     let (mark, word, role) = state(app);
-    let left = Line::from(vec![
+    let mut left = Line::from(vec![
         Span::styled(" asperity ", theme.style(Role::Title)),
         Span::styled(format!("{mark}{word} "), theme.style(role)),
-        Span::styled(
-            ascii_text(theme, &app.setup.scene.title),
-            theme.style(Role::Dim),
-        ),
     ]);
+    let title = ascii_text(theme, &app.setup.scene.title);
+    let title = whole_words(&title, usize::from(room).saturating_sub(left.width() + 1));
+    left.push_span(Span::styled(
+        ascii_text(theme, &title),
+        theme.style(Role::Dim),
+    ));
     put(
         Rect {
             width: room,
@@ -34,6 +37,27 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         &left,
         buffer,
     );
+}
+
+/// As many whole words as fit, and a sign that there are more.
+fn whole_words(text: &str, room: usize) -> String {
+    if text.chars().count() <= room {
+        return text.to_owned();
+    }
+    let mut kept = String::new();
+    for word in text.split_inclusive(' ') {
+        // Three columns for the dots where there are no others.
+        if kept.chars().count() + word.trim_end().chars().count() + 3 > room {
+            break;
+        }
+        kept.push_str(word);
+    }
+    let kept = kept.trim_end_matches([' ', ',', ':']);
+    if kept.is_empty() {
+        String::new()
+    } else {
+        format!("{kept}…")
+    }
 }
 
 /// What the run does, as a shape, a word and a colour.
@@ -62,7 +86,10 @@ fn state(app: &App) -> (&'static str, String, Role) {
     }
 }
 
-fn numbers(app: &App) -> Line<'static> {
+/// Columns from which specific sliding has room, too.
+const ROOMY: u16 = 76;
+
+fn numbers(app: &App, columns: u16) -> Line<'static> {
     let theme = app.theme;
     let Some(frame) = app.frame() else {
         return Line::default();
@@ -73,12 +100,17 @@ fn numbers(app: &App) -> Line<'static> {
         (Some(first), Some(second)) => sig(first.max(second), 3),
         _ => theme.pick("∞", "inf").to_owned(),
     };
-    let pairs = [
+    let mut pairs = vec![
         ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
         ("p_h", pressure.show(frame.p_hertz_pa, 3), Role::Strong),
         ("λ", sig_or_dash(metrics.lambda_ratio, 2), Role::Strong),
         ("n", n, Role::Strong),
     ];
+    if columns >= ROOMY {
+        let (u1, u2) = speed_ratios(metrics.slide_roll);
+        let specific = [u1, u2].map(|own| sig((u2 - u1).abs() / own.abs(), 2));
+        pairs.insert(1, ("ζ", specific.join(" "), Role::Strong));
+    }
     let mut spans = Vec::new();
     for (name, value, role) in pairs {
         spans.push(Span::styled(
@@ -91,4 +123,24 @@ fn numbers(app: &App) -> Line<'static> {
         ));
     }
     Line::from(spans)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_are_cut_between_words() {
+        let title = "Two rough rollers, sliding";
+        let table = [
+            (26, title),
+            (25, "Two rough rollers…"),
+            (14, "Two rough…"),
+            (6, "Two…"),
+            (4, ""),
+        ];
+        for (room, cut) in table {
+            assert_eq!(whole_words(title, room), cut, "{room}");
+        }
+    }
 }

@@ -291,8 +291,8 @@ fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
     let lines = [
         ("U₁ body 1", speed.show(mean * u1, 3), Role::Body1),
         ("U₂ body 2", speed.show(mean * u2, 3), Role::Body2),
-        ("sliding |U₂−U₁|/U₁", specific(u1), Role::Body1),
-        ("sliding |U₂−U₁|/U₂", specific(u2), Role::Body2),
+        ("ζ₁ = |U₂−U₁|/U₁", specific(u1), Role::Body1),
+        ("ζ₂ = |U₂−U₁|/U₂", specific(u2), Role::Body2),
         ("a half-width x", length.show(frame.a_m, 3), Role::Text),
         match frame.kind {
             ContactKind::Point => ("b half-width y", length.show(frame.b_m, 3), Role::Text),
@@ -366,12 +366,15 @@ fn lay(app: &App, body: usize) -> String {
     }
 }
 
+/// Specific sliding: in the panel its rows are the definition.
+pub(super) const SPECIFIC: (&str, &str) = ("ζ", "|U₂−U₁|/U₁ and |U₂−U₁|/U₂");
+
 /// What the letters on the screen mean; the help screen says it too.
 pub(super) const SYMBOLS: &[(&str, &str)] = &[
-    ("S", "(U₂−U₁)/U, U the mean"),
+    ("S", "(U₂−U₁)/U, U mean"),
     ("p_h", "max. Hertz pressure"),
-    ("λ", "smooth film/rms height"),
-    ("n", "1 + 2a f |U₂−U₁|/|U|"),
-    ("", "f: crests of the mate per m"),
-    ("life", "over that of smooth rolling"),
+    ("λ", "smooth film/rms"),
+    ("n", "1 + 2af|U₂−U₁|/|U|"),
+    ("", "f: mate's crests/m"),
+    ("life", "over smooth rolling"),
 ];

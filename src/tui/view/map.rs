@@ -14,11 +14,13 @@ use ratatui::text::{Line, Span};
 use crate::sim::Frame;
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, Zoom};
+use crate::tui::kymograph::{Field, SHOWN};
+use crate::tui::pixels::Picture;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, title};
 use motion::motion;
-use paint::{color_bar, look, paint};
-use raster::{Window, rasterize};
+use paint::{Mark, Tint, color_bar, look, paint};
+use raster::{Raster, Window, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
 const BAR: u16 = 8;
@@ -33,17 +35,14 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let (picture, bar) = split(areas, inner);
     let look = look(app);
     let window = window(app, frame, picture);
-    let image = image_area(&window, picture);
+    let image = image_area(app.map, &window, picture);
     if image.is_empty() {
         return;
     }
-    match rasterize(
-        frame,
-        app.map,
-        &window,
-        usize::from(image.width),
-        rows(theme, image),
-    ) {
+    let pixels = (usize::from(image.width), rows(theme, image));
+    match picture_of(app, frame, &window, pixels) {
+        // Its room stays blank: the terminal's own pixels come there.
+        Some(_) if app.is_in_pixels() => {}
         Some(raster) => paint(theme, &raster, &look, &window, app.map, image, buffer),
         None => put(
             image,
@@ -52,10 +51,77 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             buffer,
         ),
     }
-    marker(app, frame, &window, image, buffer);
+    if !app.is_in_pixels() {
+        let marks = [(point_at(app, frame), "◆"), (app.probe, "╋")];
+        for (at, symbol) in marks {
+            if let Some(at) = at {
+                place(app, &window, image, at, symbol, buffer);
+            }
+        }
+    }
     color_bar(theme, &look, app.map, bar, buffer);
     motion(app, frame, areas, inner, buffer);
-    probe(app, frame, &window, (picture, image), buffer);
+    probe(app, frame, (picture, image), buffer);
+}
+
+/// The cells that the map fills.
+pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
+    let frame = app.frame()?;
+    let (picture, _) = split(areas, inside(areas, areas.map));
+    let window = window(app, frame, picture);
+    Some(image_area(app.map, &window, picture)).filter(|image| !image.is_empty())
+}
+
+/// The map in pixels, so many for a cell.
+pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Picture> {
+    let frame = app.frame()?;
+    let area = room(app, areas)?;
+    let (picture, _) = split(areas, inside(areas, areas.map));
+    let window = window(app, frame, picture);
+    let look = look(app);
+    let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
+    let (width, height) = (side(area.width, cell.0), side(area.height, cell.1));
+    let raster = picture_of(app, frame, &window, (width, height))?;
+    let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
+    let rgba = places
+        .flat_map(|place| Tint::of(&look, &raster, &window, app.map, place).rgba(&look))
+        .collect();
+    let mut picture = Picture {
+        area,
+        width,
+        height,
+        rgba,
+    };
+    let marks = [
+        (point_at(app, frame), Mark::Diamond),
+        (app.probe, Mark::Cross),
+    ];
+    for (at, mark) in marks {
+        if let Some(at) = at {
+            mark.draw(&mut picture, &window, at, 0.6 * f64::from(cell.0));
+        }
+    }
+    Some(picture)
+}
+
+/// The pixels of the map; `None` where the frame does not hold it.
+fn picture_of(app: &App, frame: &Frame, window: &Window, pixels: (usize, usize)) -> Option<Raster> {
+    let Some(field) = waves_of(app.map) else {
+        return rasterize(frame, app.map, window, pixels.0, pixels.1);
+    };
+    let span = app.waves()?;
+    rasterize_lines(frame, window, pixels, |passages| {
+        span.line(field, -passages)
+    })
+}
+
+/// The field of a map over time.
+fn waves_of(map: MapKind) -> Option<Field> {
+    match map {
+        MapKind::PressureWaves => Some(Field::Pressure),
+        MapKind::FilmWaves => Some(Field::Film),
+        _ => None,
+    }
 }
 
 /// A press on the picture reads it there.
@@ -63,7 +129,7 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
     let frame = app.frame()?;
     let (picture, _) = split(areas, inside(areas, areas.map));
     let window = window(app, frame, picture);
-    let image = image_area(&window, picture);
+    let image = image_area(app.map, &window, picture);
     image.contains(at).then(|| {
         let part = |place: u16, start: u16, length: u16| {
             (f64::from(place - start) + 0.5) / f64::from(length.max(1))
@@ -80,6 +146,7 @@ fn heading(app: &App) -> Line<'static> {
     let mut line = title(theme, "m", app.map.name());
     let note = match (app.map, app.zoom) {
         (MapKind::Stress, _) => "x–z plane, y = 0 ",
+        (MapKind::PressureWaves | MapKind::FilmWaves, _) => "y = 0, last 2a of way, now below ",
         (_, Zoom::Domain) => "whole domain ",
         (_, Zoom::Contact) => "",
     };
@@ -127,6 +194,16 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
     let (columns, pixels) = (f64::from(picture.width), 2.0 * f64::from(picture.height));
     let x_end = frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m;
     let domain = [frame.x_min_m / frame.a_m, x_end / frame.a_m];
+    if waves_of(app.map).is_some() {
+        let x = match app.zoom {
+            Zoom::Contact => [domain[0].max(-1.6), domain[1].min(1.4)],
+            Zoom::Domain => domain,
+        };
+        return Window {
+            x,
+            y: [-SHOWN, 0.0],
+        };
+    }
     if app.map == MapKind::Stress {
         let x = match app.zoom {
             Zoom::Contact => [domain[0].max(-1.8), domain[1].min(1.8)],
@@ -168,8 +245,8 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
 }
 
 /// The picture keeps its shape: x = 0 in the middle of the room there is, as far as that goes.
-fn image_area(window: &Window, picture: Rect) -> Rect {
-    if window.y[0] == 0.0 || picture.is_empty() {
+fn image_area(map: MapKind, window: &Window, picture: Rect) -> Rect {
+    if !map.is_plane() || picture.is_empty() {
         return picture;
     }
     let (along, across) = (window.x[1] - window.x[0], window.y[1] - window.y[0]);
@@ -186,24 +263,16 @@ fn image_area(window: &Window, picture: Rect) -> Rect {
     }
 }
 
-/// Where the material point is: on the centre line, or at its depth.
-fn marker(app: &App, frame: &Frame, window: &Window, image: Rect, buffer: &mut Buffer) {
-    let Some(point) = app.point_now() else {
-        return;
+/// Where the material point is: on the centre line, at its depth, or now.
+fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
+    let point = app.point_now()?;
+    let y = match app.map {
+        MapKind::Stress => point.depth_m / frame.a_m,
+        // Now is the last row.
+        MapKind::PressureWaves | MapKind::FilmWaves => -1e-9,
+        _ => 0.0,
     };
-    let y = if app.map == MapKind::Stress {
-        point.depth_m / frame.a_m
-    } else {
-        0.0
-    };
-    place(
-        app,
-        window,
-        image,
-        (point.sample.x_m / frame.a_m, y),
-        "◆",
-        buffer,
-    );
+    Some((point.sample.x_m / frame.a_m, y))
 }
 
 fn place(
@@ -234,18 +303,32 @@ fn place(
     }
 }
 
+/// Pressure and film at a place of the centre line, so many passages ago.
+fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
+    let span = app.waves()?;
+    let i = raster::node_at(frame, x)?;
+    let value = |field| span.line(field, ago)?.get(i).copied();
+    value(Field::Pressure).zip(value(Field::Film))
+}
+
 /// The values at the probe, on the last row of the picture.
-fn probe(
-    app: &App,
-    frame: &Frame,
-    window: &Window,
-    (picture, image): (Rect, Rect),
-    buffer: &mut Buffer,
-) {
+fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), buffer: &mut Buffer) {
     let Some((x, y)) = app.probe else { return };
-    place(app, window, image, (x, y), "╋", buffer);
     let theme = app.theme;
-    let text = if app.map == MapKind::Stress {
+    let pressure_and_film = |(pressure, film): (f32, f32)| {
+        let (p, h) = (app.units.pressure(), app.units.film());
+        format!(
+            "p {}  h {}",
+            p.show(f64::from(pressure), 3),
+            h.show(f64::from(film), 3)
+        )
+    };
+    let text = if waves_of(app.map).is_some() {
+        waves_at(app, frame, x, -y).map(|values| {
+            let values = pressure_and_film(values);
+            format!("x {x:.2} a  {:.2} a ago  {values}", -4.0 * y)
+        })
+    } else if app.map == MapKind::Stress {
         raster::stress_at(frame, x, y).map(|stress| {
             format!(
                 "x {x:.2} a  z {y:.2} a  σ {}",
@@ -253,13 +336,8 @@ fn probe(
             )
         })
     } else {
-        raster::plane_at(frame, x, y).map(|(pressure, film)| {
-            format!(
-                "x {x:.2} a  y {y:.2} b  p {}  h {}",
-                app.units.pressure().show(f64::from(pressure), 3),
-                app.units.film().show(f64::from(film), 3)
-            )
-        })
+        raster::plane_at(frame, x, y)
+            .map(|values| format!("x {x:.2} a  y {y:.2} b  {}", pressure_and_film(values)))
     };
     if let Some(text) = text {
         let line = Line::styled(

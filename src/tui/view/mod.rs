@@ -3,11 +3,11 @@
 mod caption;
 mod centre_line;
 mod chart;
+mod curve;
 mod digits;
 mod header;
 mod knobs;
 mod life;
-mod life_curve;
 mod map;
 mod overlay;
 mod point;
@@ -23,6 +23,7 @@ use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, Overlay};
+use crate::tui::pixels::Picture;
 use crate::tui::theme::{Role, Theme};
 
 /// Least size of the screen, columns and rows.
@@ -152,6 +153,21 @@ pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
         (None, Overlay::Scene) => overlay::scene(app, body, buffer),
         (None, Overlay::None) => {}
     }
+}
+
+/// The cells that the terminal's own pixels fill; `None`: none, or something lies over them.
+pub fn picture_area(app: &App, screen: Rect) -> Option<Rect> {
+    map::room(app, &picture_areas(app, screen)?)
+}
+
+/// The picture for them, with cells of so many pixels.
+pub fn picture(app: &App, screen: Rect, cell: (u16, u16)) -> Option<Picture> {
+    map::pixels(app, &picture_areas(app, screen)?, cell)
+}
+
+fn picture_areas(app: &App, screen: Rect) -> Option<Areas> {
+    let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
+    app.is_in_pixels().then_some(areas)
 }
 
 fn banner(caption: Option<&caption::Caption<'_>>, screen: Rect) -> Banner {
@@ -288,6 +304,7 @@ fn ascii_text(theme: Theme, text: &str) -> String {
     for letter in text.chars() {
         match letter {
             'λ' => plain.push_str("lambda"),
+            'ζ' => plain.push_str("zeta"),
             'µ' | 'μ' => plain.push('u'),
             'σ' => plain.push_str("sigma"),
             'τ' => plain.push_str("tau"),

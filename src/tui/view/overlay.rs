@@ -9,7 +9,7 @@ use crate::tui::action::{Action, Group, KEYS, MOUSE};
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::choice::Choice;
 use crate::tui::theme::Role;
-use crate::tui::view::knobs::SYMBOLS;
+use crate::tui::view::knobs::{SPECIFIC, SYMBOLS};
 use crate::tui::view::{ASCII_BORDER, ascii_text, put};
 
 /// Draws a box of a wanted size in the middle and gives the room inside.
@@ -123,6 +123,7 @@ fn help_lines(app: &App) -> Vec<(Heading, Line<'static>)> {
     lines.extend(
         SYMBOLS
             .iter()
+            .chain([&SPECIFIC])
             .map(|(name, meaning)| row(name, meaning, Role::Strong)),
     );
     lines
@@ -134,6 +135,7 @@ fn offered(app: &App, action: Action) -> bool {
         Action::Record => app.offers(ErrandKind::Record),
         Action::View => app.offers(ErrandKind::View),
         Action::Save => app.offers(ErrandKind::Save),
+        Action::Write => app.offers(ErrandKind::Write),
         Action::Scene => app.offers(ErrandKind::Rebuild),
         _ => true,
     }

@@ -5,6 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::sim::{Frame, Metrics, Rhythm, Stage};
+use crate::study::sweep::Along;
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
 use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
@@ -80,7 +81,10 @@ fn progress(app: &App, frame: &Frame) -> Words {
         words.push((speed, Role::Text));
     }
     if let Some((done, all)) = app.sweep {
-        words.push((format!("sweeping S {done}/{all}"), Role::Warn));
+        words.push((
+            format!("sweeping {} {done}/{all}", swept(app.sweeping)),
+            Role::Warn,
+        ));
     }
     words
 }
@@ -107,8 +111,8 @@ fn quality(app: &App, frame: &Frame) -> Words {
             format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
             Role::Text,
         ),
-        (format!("load err {:.0e}", metrics.load_error), Role::Dim),
-        (format!("mass err {:.0e}", metrics.mass_error), Role::Dim),
+        (format!("load err {}", tiny(metrics.load_error)), Role::Dim),
+        (format!("mass err {}", tiny(metrics.mass_error)), Role::Dim),
         (
             format!("µ {}", sig(metrics.friction_coefficient, 2)),
             Role::Text,
@@ -131,6 +135,22 @@ fn quality(app: &App, frame: &Frame) -> Words {
         words.truncate(4);
     }
     words
+}
+
+/// The letter of what a sweep goes along.
+fn swept(along: Along) -> &'static str {
+    match along {
+        Along::SlideRoll => "S",
+        Along::Entrainment => "U",
+    }
+}
+
+/// A small number by its power of ten.
+fn tiny(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    format!("{value:.0e}")
 }
 
 /// Who carries the load: the film, both, or the asperities.

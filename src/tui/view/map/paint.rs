@@ -2,10 +2,12 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 use ratatui::text::{Line, Span};
 
 use super::raster::{Raster, Window};
 use crate::tui::app::{App, MapKind};
+use crate::tui::pixels::Picture;
 use crate::tui::theme::{Ramp, Role, Theme};
 use crate::tui::units::{Unit, tick};
 use crate::tui::view::{ascii_text, put};
@@ -21,10 +23,12 @@ pub(super) struct Look {
 pub(super) fn look(app: &App) -> Look {
     let ranges = &app.ranges;
     let (ramp, low, high, unit) = match app.map {
-        MapKind::Pressure | MapKind::Contact => {
+        MapKind::Pressure | MapKind::Contact | MapKind::PressureWaves => {
             (Ramp::Heat, 0.0, ranges.pressure_pa, app.units.pressure())
         }
-        MapKind::Film | MapKind::Fringes => (Ramp::Depth, 0.0, ranges.film_m, app.units.film()),
+        MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => {
+            (Ramp::Depth, 0.0, ranges.film_m, app.units.film())
+        }
         MapKind::Roughness => (
             Ramp::Diverging,
             -ranges.height_m,
@@ -62,6 +66,112 @@ fn fringe(film_m: f64) -> [u8; 3] {
     })
 }
 
+/// What a pixel shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Tint {
+    /// Nothing: there is no value.
+    Blank,
+    /// A colour of its own.
+    Plain([u8; 3]),
+    /// A place on the map's ramp.
+    Ramp(f32),
+    /// Same, under a line.
+    Lit(f32),
+}
+
+impl Tint {
+    /// The white of a line.
+    const WHITE: f32 = 0.35;
+
+    pub(super) fn of(
+        look: &Look,
+        raster: &Raster,
+        window: &Window,
+        kind: MapKind,
+        (column, row): (usize, usize),
+    ) -> Self {
+        let value = f64::from(raster.at(column, row));
+        let t = look.part(value);
+        if t.is_nan() {
+            Self::Blank
+        } else if kind == MapKind::Fringes {
+            Self::Plain(fringe(value))
+        } else if kind == MapKind::Contact && raster.spot(column, row) {
+            Self::Plain([120, 214, 255])
+        } else if kind == MapKind::Contact {
+            Self::Ramp(0.45 * t)
+        } else if kind.is_plane() && on_ellipse(window, raster, column, row) {
+            Self::Lit(t)
+        } else {
+            Self::Ramp(t)
+        }
+    }
+
+    /// In the terminal's colours.
+    fn color(self, theme: Theme, ramp: Ramp) -> Color {
+        match self {
+            Self::Blank => Color::Reset,
+            Self::Plain(rgb) => theme.rgb(rgb),
+            Self::Ramp(t) => theme.map_color(ramp, t),
+            Self::Lit(t) => theme.map_color_lit(ramp, t, Self::WHITE),
+        }
+    }
+
+    /// Red, green, blue and opacity.
+    pub(super) fn rgba(self, look: &Look) -> [u8; 4] {
+        let [r, g, b] = match self {
+            Self::Blank => return [0; 4],
+            Self::Plain(rgb) => rgb,
+            Self::Ramp(t) => look.ramp.rgb(t),
+            Self::Lit(t) => look.ramp.lit(t, Self::WHITE),
+        };
+        [r, g, b, 255]
+    }
+}
+
+/// A mark on a picture, white on black.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mark {
+    /// The material point.
+    Diamond,
+    /// The probe.
+    Cross,
+}
+
+impl Mark {
+    /// Draws it at a place, with so many pixels to each side.
+    pub(super) fn draw(
+        self,
+        picture: &mut Picture,
+        window: &Window,
+        (x, y): (f64, f64),
+        half: f64,
+    ) {
+        /// How far the black around it goes.
+        const EDGE: f64 = 1.35;
+        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
+        let (along, down) = (part(x, window.x), part(y, window.y));
+        if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
+            return;
+        }
+        let middle = [along * picture.width as f64, down * picture.height as f64].map(f64::floor);
+        for row in 0..picture.height {
+            for column in 0..picture.width {
+                let (dx, dy) = (column as f64 - middle[0], row as f64 - middle[1]);
+                let away = match self {
+                    Self::Diamond => dx.abs() + dy.abs(),
+                    Self::Cross => dx.abs().max(dy.abs()) + 2.0 * dx.abs().min(dy.abs()),
+                };
+                if away <= EDGE * half {
+                    let ink = if away <= half { 255 } else { 0 };
+                    let place = 4 * (row * picture.width + column);
+                    picture.rgba[place..place + 4].copy_from_slice(&[ink, ink, ink, 255]);
+                }
+            }
+        }
+    }
+}
+
 pub(super) fn paint(
     theme: Theme,
     raster: &Raster,
@@ -72,21 +182,7 @@ pub(super) fn paint(
     buffer: &mut Buffer,
 ) {
     let pixel = |column: usize, row: usize| {
-        let t = look.part(f64::from(raster.at(column, row)));
-        if kind == MapKind::Fringes {
-            return theme.rgb(fringe(f64::from(raster.at(column, row))));
-        }
-        let spot = kind == MapKind::Contact && raster.spot(column, row);
-        let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
-        if spot {
-            theme.rgb([120, 214, 255])
-        } else if kind == MapKind::Contact {
-            theme.map_color(look.ramp, 0.45 * t)
-        } else if ring {
-            theme.map_color_lit(look.ramp, t, 0.35)
-        } else {
-            theme.map_color(look.ramp, t)
-        }
+        Tint::of(look, raster, window, kind, (column, row)).color(theme, look.ramp)
     };
     for row in 0..usize::from(image.height) {
         for column in 0..usize::from(image.width) {
@@ -95,11 +191,19 @@ pub(super) fn paint(
                 continue;
             };
             if theme.paints() {
-                cell.set_symbol("▀")
-                    .set_fg(pixel(column, 2 * row))
-                    .set_bg(pixel(column, 2 * row + 1));
+                let (upper, lower) = (pixel(column, 2 * row), pixel(column, 2 * row + 1));
+                // A blank upper half would be painted in the colour of letters.
+                let symbol = if upper == Color::Reset { "▄" } else { "▀" };
+                let (ink, back) = if upper == Color::Reset {
+                    (lower, upper)
+                } else {
+                    (upper, lower)
+                };
+                cell.set_symbol(if ink == Color::Reset { " " } else { symbol })
+                    .set_fg(ink)
+                    .set_bg(back);
             } else {
-                let ring = kind != MapKind::Stress && on_ellipse(window, raster, column, row);
+                let ring = kind.is_plane() && on_ellipse(window, raster, column, row);
                 cell.set_symbol(ink(look, raster, kind, ring, column, row));
             }
         }
@@ -115,6 +219,9 @@ fn ink(
     row: usize,
 ) -> &'static str {
     let t = look.part(f64::from(raster.at(column, row)));
+    if t.is_nan() {
+        return " ";
+    }
     match kind {
         MapKind::Contact if raster.spot(column, row) => "#",
         MapKind::Contact if ring => "o",

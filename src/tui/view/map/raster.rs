@@ -96,8 +96,8 @@ pub(super) fn rasterize(
     let take = |field: &[f32]| values(field, frame.nx, &along, &down);
     let mut spots = Vec::new();
     let values = match kind {
-        MapKind::Pressure | MapKind::Stress => take(&frame.pressure_pa),
-        MapKind::Film | MapKind::Fringes => take(&frame.film_m),
+        MapKind::Pressure | MapKind::Stress | MapKind::PressureWaves => take(&frame.pressure_pa),
+        MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => take(&frame.film_m),
         MapKind::Roughness => take(&frame.roughness_1_m)
             .into_iter()
             .zip(take(&frame.roughness_2_m))
@@ -117,12 +117,44 @@ pub(super) fn rasterize(
     })
 }
 
+/// Rasterises lines along x, one a row of pixels; a row without a line is blank (no number).
+pub(super) fn rasterize_lines<'a>(
+    frame: &Frame,
+    window: &Window,
+    (columns, rows): (usize, usize),
+    line: impl Fn(f64) -> Option<&'a [f32]>,
+) -> Option<Raster> {
+    let x = axis_of(frame.x_min_m / frame.a_m, frame.dx_m / frame.a_m, frame.nx);
+    let along = spans(columns, window.x, frame.nx, &x)?;
+    let mut values = Vec::with_capacity(columns * rows);
+    for row in 0..rows {
+        let line = line(window.y_at((row as f64 + 0.5) / rows as f64));
+        values.extend(along.iter().map(|span| {
+            line.map_or(f32::NAN, |line| {
+                over(span, |i| line.get(i).copied().unwrap_or(f32::NAN))
+            })
+        }));
+    }
+    Some(Raster {
+        columns,
+        rows,
+        values,
+        spots: Vec::new(),
+        kind: frame.kind,
+    })
+}
+
 /// Pressure and film at a place in half-widths.
 pub(super) fn plane_at(frame: &Frame, x: f64, y: f64) -> Option<(f32, f32)> {
-    let i = nearest((x * frame.a_m - frame.x_min_m) / frame.dx_m, frame.nx)?;
+    let i = node_at(frame, x)?;
     let j = nearest((y * frame.b_m - frame.y_min_m) / frame.dy_m, frame.ny)?;
     let place = j * frame.nx + i;
     Some((*frame.pressure_pa.get(place)?, *frame.film_m.get(place)?))
+}
+
+/// The node along x nearest to a place in half-widths.
+pub(super) fn node_at(frame: &Frame, x: f64) -> Option<usize> {
+    nearest((x * frame.a_m - frame.x_min_m) / frame.dx_m, frame.nx)
 }
 
 /// Stress at a place in half-widths.

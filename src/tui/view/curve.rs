@@ -1,0 +1,181 @@
+//! Right, below: a curve along S or the speed with the operating point on it, and the history of the estimate.
+
+mod along;
+mod history;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::tui::app::App;
+use crate::tui::theme::Role;
+use crate::tui::view::chart::{Chart, Pen};
+use crate::tui::view::{ascii_text, put, put_right};
+
+/// Rows from which a curve can be read, with its heading and its axis.
+const CURVE_ROWS: u16 = 7;
+/// Columns of the numbers left of it.
+const AXIS: u16 = 5;
+
+/// x, y, and between which y it may lie.
+type Place = (f64, f64, Option<[f64; 2]>);
+
+/// A curve with its axes; places in the units of the axes.
+struct Figure {
+    name: &'static str,
+    /// What a formula says; empty: there is none.
+    formula: Vec<(f64, f64)>,
+    /// What was simulated, with the ends of its band.
+    points: Vec<Place>,
+    /// Where the knob is.
+    knob: f64,
+    /// The number that leads now.
+    now: Option<f64>,
+    x: [f64; 2],
+    y: [f64; 2],
+    /// Numbers at the lower and upper end of y.
+    y_ends: [String; 2],
+    /// Words left, in the middle and right below the axis.
+    foot: [String; 3],
+}
+
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    let below = |rows: u16, from: u16| Rect {
+        y: area.y + from,
+        height: rows,
+        ..area
+    };
+    if area.height >= CURVE_ROWS + 5 {
+        let rows = (area.height / 3).clamp(4, 8);
+        let curve = area.height - rows - 1;
+        draw(app, &along::figure(app), below(curve, 1), buffer);
+        history::render(app, below(rows, 1 + curve), buffer);
+    } else if area.height > CURVE_ROWS {
+        draw(app, &along::figure(app), below(area.height - 1, 1), buffer);
+    } else if area.height >= 2 {
+        history::render(app, area, buffer);
+    }
+}
+
+fn pen(app: &App, role: Role, letter: char) -> Pen {
+    Pen {
+        style: app.theme.style(role),
+        letter,
+    }
+}
+
+fn draw(app: &App, figure: &Figure, area: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    heading(app, figure, area, buffer);
+    let plot = Rect {
+        x: area.x + AXIS,
+        y: area.y + 1,
+        width: area.width.saturating_sub(AXIS),
+        height: area.height.saturating_sub(2),
+    };
+    let mut chart = Chart::new(plot, figure.x, figure.y);
+    chart.upright(figure.knob, pen(app, Role::Dim, ':'));
+    chart.line(figure.formula.iter().copied(), pen(app, Role::Formula, '.'));
+    for &(x, _, band) in &figure.points {
+        let ends = band.into_iter().flatten().map(|y| (x, y));
+        chart.line(ends, pen(app, Role::Good, '|'));
+    }
+    chart.render(theme.is_ascii(), buffer);
+    let simulated = theme.pick("•", "o");
+    for &(x, y, _) in &figure.points {
+        spot(app, figure, plot, (x, y), (simulated, Role::Good), buffer);
+    }
+    if let Some(now) = figure.now {
+        let here = (theme.pick("◉", "O"), Role::Strong);
+        spot(app, figure, plot, (figure.knob, now), here, buffer);
+    }
+    axes(app, figure, area, plot, buffer);
+}
+
+/// A mark on a place, where that is in the plot.
+fn spot(
+    app: &App,
+    figure: &Figure,
+    plot: Rect,
+    (x, y): (f64, f64),
+    (symbol, role): (&'static str, Role),
+    buffer: &mut Buffer,
+) {
+    let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
+    let (along, up) = (part(x, figure.x), part(y, figure.y));
+    if plot.is_empty() || !(0.0..=1.0).contains(&along) || !(0.0..=1.0).contains(&up) {
+        return;
+    }
+    let cells = |part: f64, cells: u16| (part * f64::from(cells - 1)).round() as u16;
+    let at = (
+        plot.x + cells(along, plot.width),
+        plot.y + cells(1.0 - up, plot.height),
+    );
+    if let Some(cell) = buffer.cell_mut(at) {
+        cell.set_symbol(symbol).set_style(app.theme.style(role));
+    }
+}
+
+/// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.
+fn heading(app: &App, figure: &Figure, area: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let legend = |words: [&'static str; 2]| {
+        let mut spans = vec![
+            Span::styled("y ", theme.style(Role::Key)),
+            Span::styled(format!("{} ", figure.name), theme.style(Role::Title)),
+        ];
+        let marks = [("┄ ", ". ", Role::Formula), ("• ", "o ", Role::Good)];
+        for ((mark, plain, role), word) in marks.into_iter().zip(words) {
+            if role != Role::Formula || !figure.formula.is_empty() {
+                spans.push(Span::styled(theme.pick(mark, plain), theme.style(role)));
+                spans.push(Span::styled(word, theme.style(Role::Dim)));
+            }
+        }
+        Line::from(spans)
+    };
+    let full = legend(["formula ", "simulated "]);
+    let heading = if full.width() <= usize::from(area.width) {
+        full
+    } else {
+        legend(["form. ", "sim. "])
+    };
+    put(area, 0, &heading, buffer);
+    let Some((done, all)) = app.sweep else { return };
+    let text = format!("{}{done}/{all}", theme.pick("↻ ", "@ "));
+    let line = Line::styled(text, theme.style(Role::Warn));
+    let has_room = (heading.width() + line.width()) as u16 <= area.width;
+    put_right(area, u16::from(!has_room), &line, buffer);
+}
+
+fn axes(app: &App, figure: &Figure, area: Rect, plot: Rect, buffer: &mut Buffer) {
+    let dim = app.theme.style(Role::Dim);
+    let word = |text: &str| Line::styled(ascii_text(app.theme, text), dim);
+    let left = Rect {
+        y: plot.y,
+        width: AXIS - 1,
+        height: plot.height,
+        ..area
+    };
+    put_right(left, 0, &word(&figure.y_ends[1]), buffer);
+    let last = plot.height.saturating_sub(1);
+    put_right(left, last, &word(&figure.y_ends[0]), buffer);
+    let foot = Rect {
+        y: plot.bottom(),
+        height: 1,
+        ..plot
+    };
+    let [from, middle, to] = figure.foot.each_ref().map(|text| word(text));
+    put(foot, 0, &from, buffer);
+    put_right(foot, 0, &to, buffer);
+    let width = middle.width() as u16;
+    let taken = (from.width() + to.width() + 2) as u16 + width;
+    if taken <= foot.width {
+        let start = (foot.width / 2).saturating_sub(width / 2);
+        let centred = Rect {
+            x: foot.x + start.max(from.width() as u16 + 1),
+            width,
+            ..foot
+        };
+        put(centred, 0, &middle, buffer);
+    }
+}

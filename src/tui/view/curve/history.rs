@@ -1,0 +1,49 @@
+//! The estimate over the passages seen: one curve, the present on the right.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use super::pen;
+use crate::tui::app::App;
+use crate::tui::theme::Role;
+use crate::tui::view::chart::Chart;
+use crate::tui::view::{ascii_text, put};
+
+/// Half of the least range, decades: noise stays small.
+const LEAST: f64 = 0.17;
+
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let (Some(first), Some(last)) = (app.history.front(), app.history.back()) else {
+        return;
+    };
+    let plot = Rect {
+        y: area.y + 1,
+        height: area.height.saturating_sub(1),
+        ..area
+    };
+    let span = last.passages - first.passages;
+    let words = ascii_text(theme, &format!("{span:.1} passages of 4a"));
+    let heading = Line::from(vec![
+        Span::styled("history ", theme.style(Role::Title)),
+        Span::styled(words, theme.style(Role::Dim)),
+    ]);
+    put(area, 0, &heading, buffer);
+    if span <= 0.0 || plot.is_empty() {
+        return;
+    }
+    let samples = app.history.iter();
+    let points = samples.map(|sample| (sample.passages, sample.life_relative.log10()));
+    let (low, high) = points
+        .clone()
+        .fold((f64::MAX, f64::MIN), |(low, high), (_, decade)| {
+            (low.min(decade), high.max(decade))
+        });
+    let middle = 0.5 * (low + high);
+    let half = (0.55 * (high - low)).max(LEAST);
+    let passages = [first.passages, last.passages];
+    let mut chart = Chart::new(plot, passages, [middle - half, middle + half]);
+    chart.line(points, pen(app, Role::Good, '*'));
+    chart.render(theme.is_ascii(), buffer);
+}
