@@ -126,6 +126,22 @@ impl Domain {
         }
     }
 
+    /// The same for a contact that grows to `size` (1 or more) times its half-widths: edges that the scene leaves to
+    /// the plan lie as many of the grown half-widths away.
+    #[must_use]
+    pub(super) fn holding(mut self, size: f64, grid: &Grid) -> Self {
+        if grid.x_min_a.is_none() {
+            self.x_min_a *= size;
+        }
+        if grid.x_max_a.is_none() {
+            self.x_max_a *= size;
+        }
+        if grid.y_half_a.is_none() {
+            self.y_half_b *= size;
+        }
+        self
+    }
+
     /// Node spacing along x, in a.
     pub fn dx_a(&self) -> f64 {
         (self.x_max_a - self.x_min_a) / (self.nodes - 1) as f64

@@ -94,6 +94,32 @@ pub struct FilmPlan {
     pub lambda_ratio: Option<f64>,
 }
 
+/// One layer of oil molecules, m: the width of a hydrocarbon chain, which is the step in which films of n-alkanes
+/// between smooth solids are pressed out (0.4 nm: Christenson, Gruen, Horn and Israelachvili 1987, J. Chem. Phys. 87,
+/// 1834-1841). A smooth contact whose central film by formula is thinner has no film: there is no fluid that flows in
+/// less than one molecule, and Reynolds' equation says nothing. Such contacts are solved dry.
+///
+/// The choice is where the lubricated solver arrives by itself. Greatest pressure and relative life of the default
+/// scene's waves at p_h = 1 GPa on 65² (`tests/dry_switch.rs`), from which nothing jumps at the switch:
+///
+/// TABLE
+pub const MOLECULE_M: f64 = 4e-10;
+
+impl FilmPlan {
+    /// The same with a central film so many times as thick.
+    #[must_use]
+    pub fn times(mut self, ratio: f64) -> Self {
+        self.central_m *= ratio;
+        self.central *= ratio;
+        self
+    }
+
+    /// Whether it is at least one layer of molecules thick ([`MOLECULE_M`]): else the contact is solved dry.
+    pub fn is_film(&self) -> bool {
+        self.central_m >= MOLECULE_M
+    }
+}
+
 /// Films by the classic formulas of each kind of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OtherFilms {
@@ -188,7 +214,8 @@ impl Plan {
             &scene.grid,
             film.map(|film| (film.central, film.groups.l)),
             crests,
-        );
+        )
+        .holding(decide::greatest_size(scene), &scene.grid);
         let dx_m = domain.dx_a() * hertz.a_m;
         let dy_m = match kind {
             ContactKind::Point => domain.dy_b() * hertz.b_m,
@@ -203,6 +230,7 @@ impl Plan {
         let step_m = scene.time.step_nodes * dx_m;
         let waves = surfaces::plan(scene, [dx_m, dy_m], step_m, &mut warnings)?;
         let march = decide::march(scene);
+        warnings.extend(decide::step_warning(scene, film.as_ref(), &waves));
         let steps_per_passage = (4.0 * hertz.a_m / step_m).round().max(1.0) as u64;
         let steps = match march {
             March::Steady { .. } => 1,
@@ -250,6 +278,23 @@ impl Plan {
         plan.left_out = decide::left_out(scene, &plan);
         plan.cost = plan.estimate();
         Ok(plan)
+    }
+
+    /// Whether oil flows at the scene's own speed and load; else every step is that of a dry contact.
+    pub fn has_flow(&self) -> bool {
+        self.film.is_some_and(|film| film.is_film())
+    }
+
+    /// Greatest load, N (a line: N/m), whose Hertz contact ends inside of the domain: two nodes before its edge,
+    /// where the pressure must be zero.
+    pub fn most_force_n(&self) -> f64 {
+        let domain = &self.domain;
+        let along = domain.x_max_a.min(-domain.x_min_a) - 2.0 * domain.dx_a();
+        let size = match self.kind {
+            ContactKind::Point => along.min(domain.y_half_b - 2.0 * domain.dy_b()),
+            ContactKind::Line => along,
+        };
+        self.force_n * size.max(1.0).powi(self.kind.hertz_shape().order())
     }
 
     fn depths(&self) -> usize {

@@ -44,6 +44,9 @@ pub struct Stability {
     pub drift: Drift,
 }
 
+/// What asks for the long run alone.
+const LONG_RUN: &str = "long run";
+
 /// Least share of the cases that must converge.
 pub const MUST_CONVERGE: f64 = 0.95;
 
@@ -99,7 +102,10 @@ pub fn stability(
         progress,
     );
     let all = cases.len() + 1;
-    let steps = if only.is_some() { 0 } else { drift_steps };
+    let steps = match only {
+        Some(part) if part != LONG_RUN => 0,
+        _ => drift_steps,
+    };
     let drift = drift::long_run(drift_nodes, steps, &mut |done| {
         progress(&format!("long run, step {done} of {steps}"), all - 1, all);
     })
