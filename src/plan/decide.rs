@@ -3,11 +3,11 @@
 use super::LifeAsked;
 use super::{
     Crests, Domain, FilmPlan, LeftOut, MOLECULE_M, March, OtherFilms, Plan, StressPlan, Symmetry,
-    TractionDeflection, Warning, WavePlan, inlet_error, mesh_error,
+    TractionDeflection, Valleys, Warning, WavePlan, inlet_error, mesh_error,
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Rheology, Scene, Spread};
+use crate::scene::{ContactKind, Rheology, Scene, Spread, Surface};
 
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     if let Some(line) = scene.line_point() {
@@ -20,6 +20,7 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
             },
             central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
             lambda_ratio: (rq_m > 0.0).then(|| central_m / rq_m),
+            valleys: valleys(scene),
         });
     }
     let point = scene.operating_point()?;
@@ -35,7 +36,33 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
         },
         central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
         lambda_ratio: (rq_m > 0.0).then(|| hamrock_dowson_central_m / rq_m),
+        valleys: valleys(scene),
     })
+}
+
+fn valleys(scene: &Scene) -> Valleys {
+    let kind = scene.kind();
+    let leads_out = |surface: &Surface| match surface {
+        Surface::Smooth {} => true,
+        Surface::Sinusoid {
+            wavelength_x_m,
+            wavelength_y_m,
+            ..
+        } => {
+            kind == ContactKind::Point
+                && (wavelength_x_m.is_infinite() || wavelength_y_m.is_infinite())
+        }
+        Surface::HeightMap { .. } => false,
+    };
+    let surfaces = scene.surfaces();
+    let is_map = |surface: &Surface| matches!(surface, Surface::HeightMap { .. });
+    if surfaces.iter().any(|surface| leads_out(surface))
+        && !surfaces.iter().any(|surface| is_map(surface))
+    {
+        Valleys::Open
+    } else {
+        Valleys::Closed
+    }
 }
 
 pub(super) fn domain_warnings(
@@ -53,6 +80,7 @@ pub(super) fn domain_warnings(
     if !film.is_film() {
         return vec![Warning::NoFilm {
             film_m: film.central_m,
+            valleys: film.valleys,
         }];
     }
     let mut warnings = Vec::new();
@@ -73,13 +101,12 @@ pub(super) fn domain_warnings(
 /// Heights of both surfaces' crests together, m: the greatest that the scene or its events ask for.
 pub(super) fn crest_m(scene: &Scene) -> f64 {
     let surfaces = scene.surfaces();
-    let keys = [
-        "body_1.surface.amplitude_m",
-        "body_2.surface.amplitude_m",
-    ];
+    let keys = ["body_1.surface.amplitude_m", "body_2.surface.amplitude_m"];
     let heights = [0, 1].map(|body: usize| {
         let own = surfaces[body].amplitude_m().abs();
-        scripted(scene, keys[body]).map(f64::abs).fold(own, f64::max)
+        scripted(scene, keys[body])
+            .map(f64::abs)
+            .fold(own, f64::max)
     });
     heights.iter().sum()
 }
@@ -112,10 +139,12 @@ pub(super) fn step_warning(
 ) -> Option<Warning> {
     /// Time steps of a wave.
     const SAMPLES: f64 = 16.0;
-    film.filter(|film| film.is_film())?;
+    film.filter(|film| film.flows())?;
     let passing = |wave: &&WavePlan| wave.crests_per_step > 0.0;
     let shortest = waves.iter().flatten().filter(passing);
-    let wave_nodes = shortest.map(|wave| wave.nodes[0]).fold(f64::INFINITY, f64::min);
+    let wave_nodes = shortest
+        .map(|wave| wave.nodes[0])
+        .fold(f64::INFINITY, f64::min);
     // Adaptive steps find their length themselves; the start-up keeps to the usual one.
     let by_wave = if scene.time.tolerance.is_some() {
         f64::INFINITY

@@ -173,7 +173,7 @@ impl Plan {
             Symmetry::Line => "one row",
         };
         let mut lines = vec![match self.film {
-            Some(film) if film.is_film() => {
+            Some(film) if film.flows() => {
                 format!("mixed lubrication: flow, film and contact together ({rows})")
             }
             _ => format!("dry contact ({rows})"),

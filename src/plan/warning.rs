@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::Valleys;
+
 /// A stage that is left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
@@ -88,13 +90,19 @@ pub enum Warning {
     },
     /// The film by formula is no film.
     #[error(
-        "film by formula {:.2} nm, less than one layer of molecules ({:.1} nm): solved dry",
+        "film by formula {:.2} nm, less than one layer of molecules ({:.1} nm): {}",
         1e9 * film_m,
-        1e9 * super::MOLECULE_M
+        1e9 * super::MOLECULE_M,
+        match valleys {
+            Valleys::Open => "solved dry",
+            Valleys::Closed => "solved with flow all the same, because both surfaces shut oil in, which carries load",
+        }
     )]
     NoFilm {
         /// Central film by formula, m.
         film_m: f64,
+        /// Whether the oil can leave.
+        valleys: Valleys,
     },
     /// The stress integral is cut off.
     #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; 2 or more hold it")]

@@ -64,7 +64,12 @@ fn fill_fields(sim: &Simulation, frame: &mut Frame) {
     let (door, state) = (&sim.door, &sim.march.state);
     let [one, two] = &sim.terrain.heights;
     let along_x = door.heading.sign() * door.p_hertz_pa;
-    expand(sim, &state.pressure, door.p_hertz_pa, &mut frame.pressure_pa);
+    expand(
+        sim,
+        &state.pressure,
+        door.p_hertz_pa,
+        &mut frame.pressure_pa,
+    );
     expand(sim, &state.film, door.film_m, &mut frame.film_m);
     expand(sim, &sim.traction, along_x, &mut frame.traction_pa);
     expand(sim, one, door.film_m, &mut frame.roughness_1_m);

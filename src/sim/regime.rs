@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! h_c(U, w) = h_c(scene) (U/U_scene)^0.67 (w/w_scene)^−0.067     central film of the smooth contact by formula
-//! flow  where h_c ≥ one layer of oil molecules (plan::MOLECULE_M),  else  none: P ≥ 0, H ≥ 0, P H = 0
+//! flow  where h_c ≥ one layer of oil molecules (plan::MOLECULE_M) or oil cannot leave,  else  none: P ≥ 0, H ≥ 0, P H = 0
 //! ```
 //! Asked at every step with the knobs as they are, so that a speed that is turned down ends in the dry contact and
 //! one that is turned up leaves it again: pressure, film and history are the same fields in both.
@@ -48,7 +48,7 @@ impl Regime {
     pub(super) fn flow_at(&self, door: &Door, speed_m_s: f64, force: f64) -> Flow {
         let ratio = || door.film_ratio(speed_m_s / self.speed_m_s, force / self.force);
         match self.film {
-            Some(film) if film.times(ratio()).is_film() => self.wet,
+            Some(film) if film.times(ratio()).flows() => self.wet,
             _ => Flow::Dry,
         }
     }

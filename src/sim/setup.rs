@@ -46,8 +46,7 @@ impl Simulation {
         let stages = pool.install(|| Stages::new(scene, &plan, &fine, &door))?;
         let (wanted, drive) = drives(scene, &plan);
         let stepping = stepping_of(scene);
-        let most_steps =
-            LONGEST.max(plan.passage_a) / (stepping.least() * plan.domain.dx_a());
+        let most_steps = LONGEST.max(plan.passage_a) / (stepping.least() * plan.domain.dx_a());
         let speed_m_s = scene.motion.entrainment_m_s.abs();
         let regime = Regime::new(&plan, flow, speed_m_s, |flow| {
             tolerance_of(scene, flow, &door)

@@ -186,7 +186,9 @@ impl Simulation {
         self.stats.halved += u64::from(attempted.halvings > 0);
         self.stats.safer += u64::from(attempted.safer);
         self.stats.rejected += u64::from(attempted.rejected);
-        if let Some(error) = attempted.fatal(self.time_s, self.regime.tolerance(self.march.flow).pressure) {
+        if let Some(error) =
+            attempted.fatal(self.time_s, self.regime.tolerance(self.march.flow).pressure)
+        {
             return Err(error);
         }
         self.time_s += attempted.dt_s;

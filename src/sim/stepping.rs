@@ -265,7 +265,10 @@ impl Mover<'_> {
             done.worst = Some(self.place_of(report.worst_node));
             done.overlap = done.overlap.max(report.overlap);
         }
-        if let Some((node, overlap)) = self.march.overlap_at_edge(self.regime.tolerance(self.march.flow).least_film) {
+        if let Some((node, overlap)) = self
+            .march
+            .overlap_at_edge(self.regime.tolerance(self.march.flow).least_film)
+        {
             // Solved as it stands; but contact reaches beyond the domain, so it is not the scene's.
             done.converged = false;
             done.worst = Some(self.place_of(node));

@@ -11,9 +11,9 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::trial::JUMP_AT;
 use crate::physics::hertz::Hertz;
 use crate::plan::Plan;
-use super::trial::JUMP_AT;
 use crate::scene::{Event, Override, Scene};
 use crate::sim::Knob;
 
@@ -190,7 +190,8 @@ impl CaseSet {
             Texture::Rough => {
                 // The domain, and with it the spacing, follows from the amplitude: long waves of it show both.
                 let planned = |texts: &[String]| {
-                    Plan::new(&self.with_events(texts, foreseen)?).map_err(|error| error.to_string())
+                    Plan::new(&self.with_events(texts, foreseen)?)
+                        .map_err(|error| error.to_string())
                 };
                 let smooth = planned(&bare)?;
                 bare.extend(waves(case, &smooth, t, LONG_WAVE_NODES));

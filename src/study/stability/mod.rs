@@ -73,7 +73,7 @@ impl Stability {
 }
 
 /// Runs the set, `workers` cases at a time. Quick: a part of it on 33²; usual: all on 65²; full: all on 129², and
-/// 10 000 steps on 65² in place of 1 000 on 33².
+/// 10 000 steps on 65² in place of 2 000 on 33². `only`: the cases that it is part of; "long run" that alone.
 ///
 /// # Errors
 /// [`StudyError`] when the data of the study are wrong.
@@ -186,17 +186,20 @@ pub fn stability_table(result: &Stability) -> Table {
 
 /// The whole report as Markdown.
 pub fn stability_text(result: &Stability) -> String {
-    let mut text = stability_table(result).markdown();
+    let mut text = String::new();
     let all = result.rows.len();
-    let _ = writeln!(
-        text,
-        "\n{} of {all} cases converged on {n}² ({:.0} %), {} failed by name, {} quietly.",
-        result.converged(),
-        100.0 * result.converged() as f64 / all.max(1) as f64,
-        all - result.converged() - result.quiet(),
-        result.quiet(),
-        n = result.nodes,
-    );
+    if all > 0 {
+        text.push_str(&stability_table(result).markdown());
+        let _ = writeln!(
+            text,
+            "\n{} of {all} cases converged on {n}² ({:.0} %), {} failed by name, {} quietly.",
+            result.converged(),
+            100.0 * result.converged() as f64 / all as f64,
+            all - result.converged() - result.quiet(),
+            result.quiet(),
+            n = result.nodes,
+        );
+    }
     if result.drift.steps > 0 {
         let _ = writeln!(text, "\nLong run: {}.", result.drift.text());
     }
