@@ -6,6 +6,7 @@ use super::counting::{Counting, CountingSpec};
 use super::door::{Door, Heading};
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
+use super::measure::RowSums;
 use super::motion::Motion;
 use super::orbit::{LONGEST, Orbit};
 use super::pace::{Pace, Stepping};
@@ -81,6 +82,7 @@ impl Simulation {
         let most_steps = LONGEST.max(passage) / (stepping.least() * plan.domain.dx_a());
         let mut this = Self {
             traction: vec![0.0; fine.len()],
+            row_sums: vec![RowSums::default(); fine.ny],
             counting,
             cuts: cuts(scene),
             iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
@@ -120,7 +122,8 @@ impl Simulation {
             left: this.smooth_steps(first),
         };
         this.start_up_steps.1 = this.all_start_up_steps(first);
-        this.publish(&Attempted::default());
+        let measured = this.measure();
+        this.publish(&Attempted::default(), &measured);
         Ok(this)
     }
 }
@@ -165,7 +168,7 @@ fn tolerance_of(scene: &Scene, flow: Flow, door: &Door) -> Tolerance {
         },
         // What a step leaves of its film equation the next one takes over, so it need not be small against
         // the pressure's tolerance: at 5e-3 films are within 6e-4, pressure within 1e-5 of the limit.
-        film: wet(5.0),
+        film: wet(10.0),
         mass: wet(0.1),
         least_film: door.h_from_m(LEAST_FILM_M),
         load: 1e-5,
