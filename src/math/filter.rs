@@ -43,11 +43,11 @@ pub enum Parity {
     OddInX,
 }
 
-/// Weights of the images of a filter, `[symbol][node]`, and which rows have any.
+/// Weights of the images of a filter, `[row][symbol][i]`, and which rows have any.
 pub struct Weights<T> {
     nx: usize,
     values: Vec<T>,
-    /// `[symbol][row]`
+    /// `[row][symbol]`
     used: Vec<bool>,
     /// Of each symbol, whether any row is used.
     any: Vec<bool>,
@@ -64,18 +64,34 @@ impl<T: FftNum> Weights<T> {
         }
     }
 
-    /// Sets row after row, `[symbol][row]`: `set` fills a row and says whether any of it is other than zero.
-    pub fn set_rows(&mut self, set: impl Fn(usize, &mut [T]) -> bool + Sync) {
+    /// Sets row after row: `set` fills a row's weights, one symbol after the other.
+    pub fn set_rows(&mut self, set: impl Fn(usize, &mut [T]) + Sync) {
+        let (nx, n_symbols) = (self.nx, self.any.len());
         self.values
-            .par_chunks_mut(self.nx)
-            .zip(self.used.par_iter_mut())
+            .par_chunks_mut(n_symbols * nx)
+            .zip(self.used.par_chunks_mut(n_symbols))
             .enumerate()
             .with_min_len(8)
-            .for_each(|(row, (values, used))| *used = set(row, values));
-        let rows = self.used.len() / self.any.len();
-        for (any, used) in self.any.iter_mut().zip(self.used.chunks_exact(rows)) {
-            *any = used.contains(&true);
+            .for_each(|(j, (values, used))| {
+                set(j, values);
+                for (used, values) in used.iter_mut().zip(values.chunks_exact(nx)) {
+                    *used = values.iter().any(|v| !v.is_zero());
+                }
+            });
+        for (b, any) in self.any.iter_mut().enumerate() {
+            *any = self
+                .used
+                .iter()
+                .skip(b)
+                .step_by(n_symbols)
+                .any(|&used| used);
         }
+    }
+
+    /// Weights of row `j` for symbol `b`; `None`: it has none.
+    fn row(&self, j: usize, b: usize) -> Option<&[T]> {
+        let at = j * self.any.len() + b;
+        self.used[at].then(|| &self.values[at * self.nx..(at + 1) * self.nx])
     }
 }
 
@@ -295,11 +311,11 @@ impl<T: FftNum> Filter<T> {
             .for_each(|(block, (rows, work))| {
                 let (j0, n_rows) = (block * ROWS, rows.len() / nx);
                 for b in 0..n_symbols {
-                    let first = b * ny + j0;
-                    let used = weights.map(|w| &w.used[first..first + n_rows]);
-                    if used.is_some_and(|used| !used.contains(&true)) {
+                    let weight = |r: usize| weights.map(|w| w.row(j0 + r, b));
+                    if (0..n_rows).all(|r| matches!(weight(r), Some(None))) {
                         continue;
                     }
+                    let first = b * ny + j0;
                     scatter(
                         columns,
                         (n_kx, n_symbols * ny),
@@ -308,7 +324,8 @@ impl<T: FftNum> Filter<T> {
                         &mut work.spectra,
                     );
                     for (r, row) in rows.chunks_exact_mut(nx).enumerate() {
-                        if used.is_some_and(|used| !used[r]) {
+                        let weight = weight(r);
+                        if matches!(weight, Some(None)) {
                             continue;
                         }
                         let spectrum = &mut work.spectra[r * n_kx..(r + 1) * n_kx];
@@ -316,10 +333,8 @@ impl<T: FftNum> Filter<T> {
                         spectrum[n_kx - 1].im = T::zero();
                         plan.process_with_scratch(spectrum, &mut work.real, &mut work.scratch)
                             .expect("buffer lengths were made for this plan");
-                        match weights {
-                            Some(w) => {
-                                accumulate(&work.real, &w.values[(first + r) * nx..][..nx], row)
-                            }
+                        match weight.flatten() {
+                            Some(weight) => accumulate(&work.real, weight, row),
                             None => copy_row(&work.real, lx, row),
                         }
                     }

@@ -91,16 +91,15 @@ impl Preconditioner {
         );
         let (first, last) = (self.bins[1], self.bins[BINS - 1]);
         fade_flow(conductance, last, &mut self.scale);
-        let (nx, ny) = (grid.nx, grid.ny);
-        self.weights.set_rows(|row, weights| {
-            let (b, here) = (row / ny, row % ny * nx..(row % ny + 1) * nx);
+        let nx = grid.nx;
+        self.weights.set_rows(|j, weights| {
+            let here = j * nx..(j + 1) * nx;
             set_weights(
                 &conductance[here.clone()],
                 &active[here],
                 (first, last),
-                b,
                 weights,
-            )
+            );
         });
         self.sweeps.factor(jacobian, &self.extra);
     }
@@ -143,24 +142,32 @@ fn fade_flow(conductance: &[f64], last: f64, scale: &mut [f32]) {
 }
 
 dispatched! {
-/// Hats in the logarithm of the conductance: bin `b` has its tip at ε_b, bins 64 times apart. Whether any
-/// weight is other than zero.
+/// Hats in the logarithm of the conductance: bin `b` has its tip at ε_b, bins 64 times apart. One row, bin
+/// after bin.
 fn set_weights(
     conductance: &[f64],
     active: &[bool],
     (first, last): (f64, f64),
-    b: usize,
     weights: &mut [f32],
-) -> bool {
+) {
     let n_all = conductance.len();
-    let (active, weights) = (&active[..n_all], &mut weights[..n_all]);
+    let active = &active[..n_all];
     let per_bin = 1.0 / 64.0_f64.ln();
+    let (weights, position) = weights.split_at_mut((BINS - 1) * n_all);
+    let position = &mut position[..n_all];
     for n in 0..n_all {
         let inside = conductance[n].max(first / 64.0).min(last);
-        let position = 1.0 + ln(inside / first) * per_bin;
-        let hat = (1.0 - (position - b as f64).abs()).max(0.0);
-        weights[n] = if active[n] { hat as f32 } else { 0.0 };
+        let place = (1.0 + ln(inside / first) * per_bin) as f32;
+        // Far from every bin.
+        position[n] = if active[n] { place } else { -2.0 };
     }
-    weights.iter().any(|&w| w != 0.0)
+    for (b, weights) in weights.chunks_exact_mut(n_all).enumerate() {
+        for n in 0..n_all {
+            weights[n] = (1.0 - (position[n] - b as f32).abs()).max(0.0);
+        }
+    }
+    for position in position {
+        *position = (1.0 - (*position - (BINS - 1) as f32).abs()).max(0.0);
+    }
 }
 }
