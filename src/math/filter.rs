@@ -1,4 +1,4 @@
-//! Filters of 2-D fields by planned FFTs: `out = sum_b w_b . F^-1[ S_b F[in] ]`.
+//! Filters of 2-D fields by planned FFTs: `out = F^-1[ S F[in] ]`, or `out += sum_b w_b . F^-1[ S_b F[in] ]`.
 //!
 //! One real transform along x for every stored row, one complex transform along y for every
 //! wavenumber kx, the symbols `S_b` (real and even in both wavenumbers), and back. Rows of zeros
@@ -41,6 +41,58 @@ pub enum Parity {
     Even,
     /// i times real and odd: kernels that are odd in x. The symbol given is its imaginary part at kx ≥ 0.
     OddInX,
+}
+
+/// Weights of the images of a filter, `[row][symbol][i]`, and which rows have any.
+pub struct Weights<T> {
+    nx: usize,
+    values: Vec<T>,
+    /// `[row][symbol]`
+    used: Vec<bool>,
+    /// Of each symbol, whether any row is used.
+    any: Vec<bool>,
+}
+
+impl<T: FftNum> Weights<T> {
+    /// Weights of zero for `n_symbols` symbols.
+    pub fn new(grid: &Grid, n_symbols: usize) -> Self {
+        Self {
+            nx: grid.nx,
+            values: vec![T::zero(); n_symbols * grid.len()],
+            used: vec![false; n_symbols * grid.ny],
+            any: vec![false; n_symbols],
+        }
+    }
+
+    /// Sets row after row: `set` fills a row's weights, one symbol after the other.
+    pub fn set_rows(&mut self, set: impl Fn(usize, &mut [T]) + Sync) {
+        let (nx, n_symbols) = (self.nx, self.any.len());
+        self.values
+            .par_chunks_mut(n_symbols * nx)
+            .zip(self.used.par_chunks_mut(n_symbols))
+            .enumerate()
+            .with_min_len(8)
+            .for_each(|(j, (values, used))| {
+                set(j, values);
+                for (used, values) in used.iter_mut().zip(values.chunks_exact(nx)) {
+                    *used = values.iter().any(|v| !v.is_zero());
+                }
+            });
+        for (b, any) in self.any.iter_mut().enumerate() {
+            *any = self
+                .used
+                .iter()
+                .skip(b)
+                .step_by(n_symbols)
+                .any(|&used| used);
+        }
+    }
+
+    /// Weights of row `j` for symbol `b`; `None`: it has none.
+    fn row(&self, j: usize, b: usize) -> Option<&[T]> {
+        let at = j * self.any.len() + b;
+        self.used[at].then(|| &self.values[at * self.nx..(at + 1) * self.nx])
+    }
 }
 
 /// Buffers of one block of rows.
@@ -183,15 +235,14 @@ impl<T: FftNum> Filter<T> {
     /// `out = F^-1[S_0 F[input]]`.
     pub fn apply(&mut self, input: &[T], out: &mut [T]) {
         self.forward(input);
-        self.columns();
+        self.columns(None);
         self.inverse(None, out);
     }
 
-    /// `out = sum_b weights[b] . F^-1[S_b F[input]]`, `weights` of shape `[symbol][node]`. Rows where
-    /// a weight is zero throughout are not transformed back.
-    pub fn apply_weighted(&mut self, input: &[T], weights: &[T], out: &mut [T]) {
+    /// `out += sum_b weights[b] . F^-1[S_b F[input]]`. What has no weight is not transformed back.
+    pub fn add_weighted(&mut self, input: &[T], weights: &Weights<T>, out: &mut [T]) {
         self.forward(input);
-        self.columns();
+        self.columns(Some(weights));
         self.inverse(Some(weights), out);
     }
 
@@ -213,10 +264,11 @@ impl<T: FftNum> Filter<T> {
             });
     }
 
-    fn columns(&mut self) {
+    fn columns(&mut self, weights: Option<&Weights<T>>) {
         let (ny, len, n_kx, n_symbols) = (self.ny, self.column_len, self.n_kx, self.n_symbols);
         let (plan, parity) = (&self.columns, self.parity);
         let (rows, symbols) = (&self.rows_spectrum, &self.symbols);
+        let is_used = |b: usize| weights.is_none_or(|w| w.any[b]);
         self.columns_out
             .par_chunks_mut(COLUMNS * n_symbols * ny)
             .zip(self.column_work.par_iter_mut())
@@ -229,7 +281,7 @@ impl<T: FftNum> Filter<T> {
                 for c in 0..width {
                     let line = &mut work.line[c * stride..c * stride + len];
                     plan.forward(line, &mut work.work, &mut work.scratch);
-                    for b in 0..n_symbols {
+                    for b in (0..n_symbols).filter(|&b| is_used(b)) {
                         let start = (b * n_kx + k0 + c) * len;
                         multiply(line, &symbols[start..start + len], &mut work.image);
                         if parity == Parity::OddInX {
@@ -249,7 +301,7 @@ impl<T: FftNum> Filter<T> {
             });
     }
 
-    fn inverse(&mut self, weights: Option<&[T]>, out: &mut [T]) {
+    fn inverse(&mut self, weights: Option<&Weights<T>>, out: &mut [T]) {
         let (nx, ny, lx, n_kx, n_symbols) = (self.nx, self.ny, self.lx, self.n_kx, self.n_symbols);
         let plan = &self.row_inverse;
         let columns = &self.columns_out;
@@ -257,23 +309,23 @@ impl<T: FftNum> Filter<T> {
             .zip(self.row_work.par_iter_mut())
             .enumerate()
             .for_each(|(block, (rows, work))| {
-                rows.fill(T::zero());
                 let (j0, n_rows) = (block * ROWS, rows.len() / nx);
                 for b in 0..n_symbols {
-                    let weights = weights.map(|w| &w[(b * ny + j0) * nx..][..n_rows * nx]);
-                    if weights.is_some_and(is_zero) {
+                    let weight = |r: usize| weights.map(|w| w.row(j0 + r, b));
+                    if (0..n_rows).all(|r| matches!(weight(r), Some(None))) {
                         continue;
                     }
-                    // Eight rows at a time: a column's values of neighbouring rows share a cache line.
-                    for kx in 0..n_kx {
-                        let column = &columns[(kx * n_symbols + b) * ny + j0..][..n_rows];
-                        for (r, &v) in column.iter().enumerate() {
-                            work.spectra[r * n_kx + kx] = v;
-                        }
-                    }
+                    let first = b * ny + j0;
+                    scatter(
+                        columns,
+                        (n_kx, n_symbols * ny),
+                        first,
+                        n_rows,
+                        &mut work.spectra,
+                    );
                     for (r, row) in rows.chunks_exact_mut(nx).enumerate() {
-                        let weight = weights.map(|w| &w[r * nx..(r + 1) * nx]);
-                        if weight.is_some_and(is_zero) {
+                        let weight = weight(r);
+                        if matches!(weight, Some(None)) {
                             continue;
                         }
                         let spectrum = &mut work.spectra[r * n_kx..(r + 1) * n_kx];
@@ -281,32 +333,65 @@ impl<T: FftNum> Filter<T> {
                         spectrum[n_kx - 1].im = T::zero();
                         plan.process_with_scratch(spectrum, &mut work.real, &mut work.scratch)
                             .expect("buffer lengths were made for this plan");
-                        accumulate(row, &work.real, lx, weight);
+                        match weight.flatten() {
+                            Some(weight) => accumulate(&work.real, weight, row),
+                            None => copy_row(&work.real, lx, row),
+                        }
                     }
                 }
             });
     }
 }
 
-fn is_zero<T: FftNum>(values: &[T]) -> bool {
-    values.iter().all(T::is_zero)
-}
-
-fn accumulate<T: FftNum>(row: &mut [T], real: &[T], lx: usize, weight: Option<&[T]>) {
-    match weight {
-        None => {
-            let n = row.len().min(lx);
-            row[..n].copy_from_slice(&real[..n]);
-        }
-        Some(weight) => {
-            for ((o, &v), &w) in row.iter_mut().zip(real).zip(weight) {
-                *o = *o + v * w;
-            }
-        }
-    }
-    if row.len() > lx && weight.is_none() {
+/// The row of a real transform of length `lx`, periodic.
+fn copy_row<T: FftNum>(real: &[T], lx: usize, row: &mut [T]) {
+    let n = row.len().min(lx);
+    row[..n].copy_from_slice(&real[..n]);
+    if row.len() > lx {
         row[lx] = real[0];
     }
+}
+
+dispatched! {
+/// `row += weight . real`.
+fn accumulate<T: FftNum>(real: &[T], weight: &[T], row: &mut [T]) {
+    let n = real.len().min(row.len());
+    let (real, weight, row) = (&real[..n], &weight[..n], &mut row[..n]);
+    for i in 0..n {
+        row[i] = row[i] + real[i] * weight[i];
+    }
+}
+}
+
+dispatched! {
+/// Rows `first..first + n_rows` of the columns, `stride` apart, as contiguous spectra: eight rows at a time,
+/// because a column's values of neighbouring rows share a cache line.
+fn scatter<T: FftNum>(
+    columns: &[Complex<T>],
+    (n_kx, stride): (usize, usize),
+    first: usize,
+    n_rows: usize,
+    spectra: &mut [Complex<T>],
+) {
+    if n_rows == ROWS {
+        let (spectra, _) = spectra.split_at_mut(ROWS * n_kx);
+        for kx in 0..n_kx {
+            let column: &[Complex<T>; ROWS] = columns[kx * stride + first..]
+                .first_chunk()
+                .expect("a column has all rows");
+            for r in 0..ROWS {
+                spectra[r * n_kx + kx] = column[r];
+            }
+        }
+        return;
+    }
+    for kx in 0..n_kx {
+        let column = &columns[kx * stride + first..][..n_rows];
+        for (r, &v) in column.iter().enumerate() {
+            spectra[r * n_kx + kx] = v;
+        }
+    }
+}
 }
 
 impl<T: FftNum> Columns<T> {

@@ -1,5 +1,6 @@
 //! Scalars of a step from its fields, traction included.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::math::grid::{Grid, Symmetry};
@@ -24,57 +25,115 @@ pub(super) struct Measured {
     pub(super) friction: f64,
 }
 
-/// Fills the traction and measures. `a`, `b`: the Hertz half-widths of the present load.
-pub(super) fn measure(
-    grid: &Grid,
-    law: &TractionLaw,
-    p: &[f64],
-    h: &[f64],
-    (a, b): (f64, f64),
-    traction: &mut [f64],
-) -> Measured {
-    let mut out = Measured {
+/// Fields of a step and the law of its traction.
+pub(super) struct Fields<'a> {
+    /// Grid.
+    pub(super) grid: &'a Grid,
+    /// Traction law.
+    pub(super) law: &'a TractionLaw,
+    /// P.
+    pub(super) p: &'a [f64],
+    /// H.
+    pub(super) h: &'a [f64],
+    /// Hertz half-widths of the present load.
+    pub(super) ellipse: (f64, f64),
+}
+
+/// Sums of one row, and of all of them.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct RowSums {
+    p_max: f64,
+    h_min: f64,
+    load: f64,
+    drag: f64,
+    touching: f64,
+    /// Nodes in contact within the ellipse.
+    contact: f64,
+    film: f64,
+    /// Nodes within two thirds of the ellipse.
+    middle: f64,
+}
+
+/// Fills the traction and measures; `rows` is scratch for one value a row.
+pub(super) fn measure(fields: &Fields, traction: &mut [f64], rows: &mut [RowSums]) -> Measured {
+    let grid = fields.grid;
+    let ((a, b), nx) = (fields.ellipse, grid.nx);
+    let tasks = traction.par_chunks_mut(nx).zip(rows.par_iter_mut());
+    tasks.enumerate().with_min_len(8).for_each(|(j, (q, row))| {
+        let (p, h) = (
+            &fields.p[j * nx..(j + 1) * nx],
+            &fields.h[j * nx..(j + 1) * nx],
+        );
+        fields.law.traction_row(p, h, q);
+        *row = sum_row(grid, fields.law, (a, grid.y(j) / b), p, h, q);
+    });
+    let mut total = RowSums {
         h_min: f64::INFINITY,
-        ..Measured::default()
+        ..RowSums::default()
     };
-    let (mut load, mut touching, mut drag, mut area, mut film, mut middle) =
-        (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    for j in 0..grid.ny {
-        let (weight, y) = (grid.weight(j), grid.y(j) / b);
-        for i in 0..grid.nx {
-            let n = j * grid.nx + i;
-            let q = law.traction(p[n], h[n]);
-            traction[n] = q;
-            load += p[n] * weight;
-            drag += q * weight;
-            out.p_max = out.p_max.max(p[n]);
-            let r2 = (grid.x(i) / a).powi(2) + y * y;
-            let inside = r2 <= 1.0;
-            if law.is_contact(p[n], h[n]) {
-                touching += p[n] * weight;
-                if inside {
-                    area += weight;
-                }
-            }
-            if inside {
-                out.h_min = out.h_min.min(h[n]);
-            }
-            if r2 <= 4.0 / 9.0 {
-                film += h[n] * weight;
-                middle += weight;
-            }
-        }
+    for (j, row) in rows[..grid.ny].iter().enumerate() {
+        total.add(row, grid.weight(j));
     }
-    out.h_central = at_origin(grid, h);
-    out.h_mean = film / middle.max(f64::MIN_POSITIVE);
     let whole = match grid.symmetry {
         Symmetry::Line => 2.0 * a,
         Symmetry::MirrorY | Symmetry::General => std::f64::consts::PI * a * b,
     };
-    out.contact_ratio = area / whole;
-    out.contact_load_ratio = touching / load.max(f64::MIN_POSITIVE);
-    out.friction = drag / load.max(f64::MIN_POSITIVE);
-    out
+    let load = total.load.max(f64::MIN_POSITIVE);
+    Measured {
+        p_max: total.p_max,
+        h_central: at_origin(grid, fields.h),
+        h_min: total.h_min,
+        h_mean: total.film / total.middle.max(f64::MIN_POSITIVE),
+        contact_ratio: total.contact / whole,
+        contact_load_ratio: total.touching / load,
+        friction: total.drag / load,
+    }
+}
+
+impl RowSums {
+    fn add(&mut self, row: &Self, weight: f64) {
+        self.p_max = self.p_max.max(row.p_max);
+        self.h_min = self.h_min.min(row.h_min);
+        self.load += weight * row.load;
+        self.drag += weight * row.drag;
+        self.touching += weight * row.touching;
+        self.contact += weight * row.contact;
+        self.film += weight * row.film;
+        self.middle += weight * row.middle;
+    }
+}
+
+fn sum_row(
+    grid: &Grid,
+    law: &TractionLaw,
+    (a, y): (f64, f64),
+    p: &[f64],
+    h: &[f64],
+    q: &[f64],
+) -> RowSums {
+    let mut sums = RowSums {
+        h_min: f64::INFINITY,
+        ..RowSums::default()
+    };
+    for i in 0..grid.nx {
+        sums.load += p[i];
+        sums.drag += q[i];
+        sums.p_max = sums.p_max.max(p[i]);
+        let touches = law.is_contact(p[i], h[i]);
+        if touches {
+            sums.touching += p[i];
+        }
+        let r2 = (grid.x(i) / a).powi(2) + y * y;
+        if r2 <= 1.0 {
+            sums.h_min = sums.h_min.min(h[i]);
+            sums.contact += f64::from(u8::from(touches));
+            if r2 <= 4.0 / 9.0 {
+                sums.film += h[i];
+                sums.middle += 1.0;
+            }
+        }
+    }
+    sums
 }
 
 /// Value at x = 0, y = 0, linear between nodes.

@@ -6,6 +6,7 @@ use super::counting::{Counting, CountingSpec};
 use super::door::{Door, Heading};
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
+use super::measure::RowSums;
 use super::motion::Motion;
 use super::orbit::{LONGEST, Orbit};
 use super::pace::{Pace, Stepping};
@@ -53,6 +54,7 @@ impl Simulation {
         });
         let mut this = Self {
             traction: vec![0.0; fine.len()],
+            row_sums: vec![RowSums::default(); fine.ny],
             counting: stages.counting,
             cuts: cuts(scene),
             iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
@@ -92,7 +94,8 @@ impl Simulation {
             left: this.smooth_steps(first),
         };
         this.start_up_steps.1 = this.all_start_up_steps(first);
-        this.publish(&Attempted::default());
+        let measured = this.measure();
+        this.publish(&Attempted::default(), &measured);
         Ok(this)
     }
 }
@@ -199,7 +202,7 @@ fn tolerance_of(scene: &Scene, flow: Flow, door: &Door) -> Tolerance {
         },
         // What a step leaves of its film equation the next one takes over, so it need not be small against
         // the pressure's tolerance: at 5e-3 films are within 6e-4, pressure within 1e-5 of the limit.
-        film: wet(5.0),
+        film: wet(10.0),
         mass: wet(0.1),
         least_film: door.h_from_m(LEAST_FILM_M),
         load: 1e-5,

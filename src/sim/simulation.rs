@@ -14,7 +14,7 @@ use super::counting::Counting;
 use super::door::Door;
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
-use super::measure::Measured;
+use super::measure::{Measured, RowSums};
 use super::motion::Motion;
 use super::orbit::Orbit;
 use super::pace::{Pace, Stepping};
@@ -56,6 +56,7 @@ pub struct Simulation {
     pub(super) watched: [f64; 2],
     pub(super) stress: Option<StressStage>,
     pub(super) traction: Vec<f64>,
+    pub(super) row_sums: Vec<RowSums>,
     pub(super) counting: Option<Counting>,
     pub(super) cuts: Vec<Cut>,
     pub(super) iso_load_ratio: Option<f64>,

@@ -83,6 +83,7 @@ impl Simulation {
             cuts: _,
             iso_load_ratio: _,
             traction: _,
+            row_sums: _,
             counting,
             life,
             stress_error: _,

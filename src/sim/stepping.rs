@@ -115,7 +115,7 @@ impl Attempted {
 
     fn keep(&mut self, report: &NewtonReport) {
         self.converged &= report.verdict == Verdict::Converged;
-        self.residual = self.residual.max(report.change);
+        self.residual = self.residual.max(report.left);
         self.film_error = self.film_error.max(report.film_error);
         self.mass_error = self.mass_error.max(report.mass_error);
         self.load_error = self.load_error.max(report.load_error);

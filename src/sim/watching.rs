@@ -1,7 +1,7 @@
 //! What is looked at after each step: traction, stress, counts, life, scalars.
 
 use super::counting::contacts;
-use super::measure::{Measured, measure};
+use super::measure::{Fields, Measured, measure};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::{Follow, Knob, LifeEstimate};
@@ -15,8 +15,9 @@ impl Simulation {
         let before = self.watched;
         self.watched = self.motion.travelled;
         let on_fine = self.march.grid.nx == self.plan.domain.nodes;
+        let measured = self.measure();
         if on_fine && !matches!(self.phase, Phase::Smooth { .. }) {
-            self.measure_stress();
+            self.measure_stress(&measured);
         }
         if on_fine
             && self.phase == Phase::Passage
@@ -26,11 +27,10 @@ impl Simulation {
             let pressure = &self.march.state.pressure;
             counting.step(&self.march.grid, travel, pressure, self.stress.as_ref());
         }
-        self.publish(attempted);
+        self.publish(attempted, &measured);
     }
 
-    fn measure_stress(&mut self) {
-        let measured = self.measure();
+    fn measure_stress(&mut self, measured: &Measured) {
         let Some(stress) = &mut self.stress else {
             return;
         };
@@ -124,18 +124,18 @@ impl Simulation {
         let scale = self.door.size_ratio(load);
         let state = &self.march.state;
         self.traction.resize(self.march.grid.len(), 0.0);
-        measure(
-            &self.march.grid,
-            &law,
-            &state.pressure,
-            &state.film,
-            (scale, scale * self.door.b_over_a),
-            &mut self.traction,
-        )
+        let fields = Fields {
+            grid: &self.march.grid,
+            law: &law,
+            p: &state.pressure,
+            h: &state.film,
+            ellipse: (scale, scale * self.door.b_over_a),
+        };
+        let (traction, rows) = (&mut self.traction, &mut self.row_sums);
+        self.pool.install(|| measure(&fields, traction, rows))
     }
 
-    pub(super) fn publish(&mut self, attempted: &Attempted) {
-        let measured = self.measure();
+    pub(super) fn publish(&mut self, attempted: &Attempted, measured: &Measured) {
         let has_stress = self.stage_has_stress();
         let door = &self.door;
         let m = &mut self.metrics;

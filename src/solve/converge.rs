@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! natural residual  φ = min(P, F/D)          merit = Σ φ² dA
+//! pressure error    Σ|dP|/ΣP . 3 ρ/(1 − ρ),  ρ² = merit after over merit before the iteration
 //! film error        Σ|F| / Σ max(ρ̄H, h_least)         over pressurised nodes
 //! mass error        Σ (|F| − carried·max(ρ̄H, h_least))⁺ / Σ max(ρ̄H, h_least)
 //! ```
@@ -19,7 +20,7 @@ pub const OVERLAP: f64 = 0.05;
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
-    /// Σ|dP|/ΣP of the last iteration.
+    /// Estimate of Σ|P − P*|/ΣP.
     pub pressure: f64,
     /// Film error.
     pub film: f64,
@@ -57,6 +58,8 @@ pub struct NewtonReport {
     pub evaluations: u32,
     /// Last Σ|dP|/ΣP.
     pub change: f64,
+    /// Estimate of what is left, Σ|P − P*|/ΣP.
+    pub left: f64,
     /// Σ|F| over Σ ρ̄H, pressurised nodes.
     pub film_error: f64,
     /// The part of it that the next step does not take over.
@@ -67,6 +70,17 @@ pub struct NewtonReport {
     pub overlap: f64,
     /// Node of the largest |φ|.
     pub worst_node: usize,
+}
+
+/// Estimate of the pressure's error after an iteration that changed it by `change` and took the merit from
+/// `before` to `after`.
+pub(super) fn left_of(change: f64, after: f64, before: f64) -> f64 {
+    let ratio = (after / before).sqrt();
+    if ratio < 1.0 {
+        change * (3.0 * ratio / (1.0 - ratio)).min(1.0)
+    } else {
+        change
+    }
 }
 
 /// Sums over the nodes of a row, or of the grid by area.

@@ -113,6 +113,7 @@ impl Dry {
             fresh_search |= self.judge(problem, iterate);
             self.precondition(grid);
             report.change = self.size_of_step(grid) / problem.load;
+            report.left = report.change;
             if !report.change.is_finite() {
                 report.verdict = Verdict::NotFinite;
                 break;
@@ -356,6 +357,7 @@ impl NewtonReport {
             linear_iterations: 0,
             evaluations: 0,
             change: f64::INFINITY,
+            left: f64::INFINITY,
             film_error: 0.0,
             mass_error: 0.0,
             load_error: 0.0,

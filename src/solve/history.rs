@@ -49,29 +49,46 @@ pub struct History {
     pub earlier_nodes: f64,
 }
 
-/// Shift of `row` by `nodes` downstream, at node `i`: value at `i − nodes`.
-#[inline]
-fn shifted(row: &[f64], i: usize, nodes: f64) -> f64 {
-    let at = i as f64 - nodes;
-    let base = at.floor();
-    let t = at - base;
-    let k = base as isize;
-    if t < 1e-9 {
-        return sample(row, k);
+/// Shift of a row downstream by some nodes: whole ones, and four-point interpolation for the rest.
+#[derive(Debug, Clone, Copy)]
+struct Shift {
+    whole: isize,
+    /// Weights of the four nodes around; `None`: the shift is whole.
+    weights: Option<[f64; 4]>,
+}
+
+impl Shift {
+    fn new(nodes: f64) -> Self {
+        let t = nodes.ceil() - nodes;
+        Self {
+            whole: nodes.ceil() as isize,
+            weights: (t >= 1e-9).then_some([
+                -t * (t - 1.0) * (t - 2.0) / 6.0,
+                (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+                -(t + 1.0) * t * (t - 2.0) / 2.0,
+                (t + 1.0) * t * (t - 1.0) / 6.0,
+            ]),
+        }
     }
-    let (a, b, c, d) = (
-        sample(row, k - 1),
-        sample(row, k),
-        sample(row, k + 1),
-        sample(row, k + 2),
-    );
-    -a * t * (t - 1.0) * (t - 2.0) / 6.0 + b * (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0
-        - c * (t + 1.0) * t * (t - 2.0) / 2.0
-        + d * (t + 1.0) * t * (t - 1.0) / 6.0
+
+    /// Value of `row` that arrives at node `i`.
+    #[inline(always)]
+    fn of(self, row: &[f64], i: usize) -> f64 {
+        let k = i as isize - self.whole;
+        let Some(w) = self.weights else {
+            return sample(row, k);
+        };
+        if k > 0
+            && let Some(&[a, b, c, d]) = row.get(k as usize - 1..k as usize + 3)
+        {
+            return a * w[0] + b * w[1] + c * w[2] + d * w[3];
+        }
+        (0..4).map(|m| w[m] * sample(row, k - 1 + m as isize)).sum()
+    }
 }
 
 /// Node `k`, continued quadratically upstream of the inlet and constantly downstream.
-#[inline]
+#[inline(always)]
 fn sample(row: &[f64], k: isize) -> f64 {
     let last = row.len() as isize - 1;
     if k >= 0 {
@@ -135,6 +152,7 @@ impl History {
         } else {
             (0.0, 1.0)
         };
+        let (back_1, back_2) = (Shift::new(nodes), Shift::new(nodes + self.last_nodes));
         let nx = grid.nx;
         let rows = c_star.par_chunks_mut(nx).zip(s.par_chunks_mut(nx));
         rows.enumerate()
@@ -143,8 +161,8 @@ impl History {
                 let row_1 = &self.mass_1[j * nx..(j + 1) * nx];
                 let row_2 = &self.mass_2[j * nx..(j + 1) * nx];
                 for i in 0..nx {
-                    let c1 = shifted(row_1, i, nodes).max(0.0);
-                    let c2 = shifted(row_2, i, nodes + self.last_nodes).max(0.0);
+                    let c1 = back_1.of(row_1, i).max(0.0);
+                    let c2 = back_2.of(row_2, i).max(0.0);
                     let extra = weight * (c1 - c2);
                     let theta = if extra < -0.5 * c1 {
                         -0.5 * c1 / extra
@@ -169,6 +187,7 @@ impl History {
         } else {
             0.0
         };
+        let (back_1, back_2) = (Shift::new(nodes), Shift::new(nodes + self.last_nodes));
         let interior = grid.interior_rows();
         let rows = p.par_chunks_mut(nx).enumerate().with_min_len(8);
         rows.filter(|(j, _)| interior.contains(j))
@@ -180,9 +199,8 @@ impl History {
                     &self.pressure_slow[range],
                 );
                 for i in 1..nx - 1 {
-                    let back = nodes + self.last_nodes;
-                    let r1 = (shifted(one, i, nodes) + FLOOR) / (shifted(slow, i, nodes) + FLOOR);
-                    let r2 = (shifted(two, i, back) + FLOOR) / (shifted(slow, i, back) + FLOOR);
+                    let r1 = (back_1.of(one, i) + FLOOR) / (back_1.of(slow, i) + FLOOR);
+                    let r2 = (back_2.of(two, i) + FLOOR) / (back_2.of(slow, i) + FLOOR);
                     p[i] = if one[i] == 0.0 {
                         0.0
                     } else {
@@ -217,6 +235,7 @@ impl History {
             1.0 / (c * (c - b) * (d - c)),
             -1.0 / (d * (d - b) * (d - c)),
         ];
+        let backs = [b, c, d].map(Shift::new);
         let nx = grid.nx;
         let (mut sum, mut count) = (0.0, 0.0);
         for j in grid.interior_rows() {
@@ -230,9 +249,9 @@ impl History {
                 }
                 let now = mass[n];
                 let difference = weights[0] * now
-                    + weights[1] * shifted(rows[0], i, b)
-                    + weights[2] * shifted(rows[1], i, c)
-                    + weights[3] * shifted(rows[2], i, d);
+                    + weights[1] * backs[0].of(rows[0], i)
+                    + weights[2] * backs[1].of(rows[1], i)
+                    + weights[3] * backs[2].of(rows[2], i);
                 // 1/nodes steps are made from node to node.
                 gathered += factor * difference / nodes;
                 row_sum += gathered.abs() / now.max(f64::MIN_POSITIVE);

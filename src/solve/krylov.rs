@@ -96,14 +96,12 @@ impl Krylov {
     ) -> LinearReport {
         // Start from the border's answer to g alone, so that the rest adds no load.
         let h0_start = -g / self.border_load;
-        for (v, &y) in v.iter_mut().zip(&self.border) {
-            *v = -(h0_start as f32) * y;
-        }
+        v.fill(0.0);
+        subtract(h0_start as f32, &self.border, v);
         elastic.deflect_single(v, &mut self.deflection);
         jacobian.apply(grid, v, &self.deflection, h0_start as f32, &mut self.work);
-        for ((b, &r), &w) in self.basis[0].iter_mut().zip(r).zip(&self.work) {
-            *b = r - w;
-        }
+        self.basis[0].copy_from_slice(r);
+        subtract(1.0, &self.work, &mut self.basis[0]);
         let start = norm(&self.basis[0]);
         let mut report = LinearReport {
             iterations: 0,
@@ -149,9 +147,7 @@ impl Krylov {
         let direction = &mut self.directions[k];
         precondition.apply(grid, jacobian, &self.basis[k], direction);
         let h0 = load_of(grid, direction) / self.border_load;
-        for (z, &y) in direction.iter_mut().zip(&self.border) {
-            *z -= h0 as f32 * y;
-        }
+        subtract(h0 as f32, &self.border, direction);
         h0
     }
 
@@ -227,9 +223,7 @@ impl Krylov {
         for k in 0..n {
             let y = self.rhs[k];
             h0 += y * self.h0s[k];
-            for (v, &z) in v.iter_mut().zip(&self.directions[k]) {
-                *v += y as f32 * z;
-            }
+            subtract(-y as f32, &self.directions[k], v);
         }
         h0
     }
@@ -268,12 +262,32 @@ fn norm(a: &[f32]) -> f64 {
 }
 
 fn scale(a: &mut [f32], factor: f64) {
-    let factor = factor as f32;
+    scale_by(a, factor as f32);
+}
+
+dispatched! {
+fn scale_by(a: &mut [f32], factor: f32) {
     for v in a {
         *v *= factor;
     }
 }
+}
 
 fn load_of(grid: &Grid, v: &[f32]) -> f64 {
-    grid.integrate(|n| f64::from(v[n]))
+    let rows = v.chunks_exact(grid.nx).enumerate();
+    rows.map(|(j, row)| grid.weight(j) * sum(row)).sum()
+}
+
+dispatched! {
+fn sum(a: &[f32]) -> f64 {
+    let mut lanes = [0.0_f64; 16];
+    let chunks = a.chunks_exact(16);
+    let tail: f64 = chunks.remainder().iter().map(|&v| f64::from(v)).sum();
+    for x in chunks {
+        for k in 0..16 {
+            lanes[k] += f64::from(x[k]);
+        }
+    }
+    lanes.iter().sum::<f64>() + tail
+}
 }

@@ -97,29 +97,12 @@ impl LineSweep {
         }
     }
 
-    /// Sweeps the parities in `order` from z = 0 and writes z.
+    /// Sweeps the parities in `order` from z = 0 and writes z. The first two in `order` are either parity.
     pub(super) fn solve(&mut self, r: &[f32], order: &[usize], z: &mut [f32]) {
         let (nx, blocks) = (self.nx, self.blocks);
-        for (parity, half) in self.halves.iter_mut().enumerate() {
-            half.z.fill(ZERO);
-            let rows = half.rows;
-            half.r
-                .par_chunks_mut(nx)
-                .enumerate()
-                .for_each(|(block, out)| {
-                    for lane in 0..LANES {
-                        let h = lane * blocks + block;
-                        if h < rows {
-                            let row = &r[(2 * h + parity) * nx..][..nx];
-                            for (o, &v) in out.iter_mut().zip(row) {
-                                o[lane] = v;
-                            }
-                        }
-                    }
-                });
-        }
-        for &parity in order {
-            self.sweep(parity);
+        self.halves[1 - order[0]].z.fill(ZERO);
+        for (n, &parity) in order.iter().enumerate() {
+            self.sweep(parity, (n < 2).then_some(r));
         }
         z.par_chunks_mut(nx)
             .enumerate()
@@ -133,7 +116,8 @@ impl LineSweep {
             });
     }
 
-    fn sweep(&mut self, parity: usize) {
+    /// Solves the lines of one parity; `r` is the right-hand side when it has not been dealt out yet.
+    fn sweep(&mut self, parity: usize, r: Option<&[f32]>) {
         let (nx, blocks) = (self.nx, self.blocks);
         let [even, odd] = &mut self.halves;
         let (mine, other) = if parity == 0 {
@@ -144,16 +128,33 @@ impl LineSweep {
         other.fill_halo(nx, blocks);
         // Row h of the even half lies between rows h−1 and h of the odd half, row h of the odd half
         // between h and h+1 of the even half; block b of z is number b + 1, after the halo.
-        let (factors, r, neighbours) = (&mine.factors, &mine.r, &other.z[parity * nx..]);
+        let (factors, neighbours) = (&mine.factors, &other.z[parity * nx..]);
+        let rows = mine.rows;
         mine.z[nx..(blocks + 1) * nx]
             .par_chunks_mut(nx)
+            .zip(mine.r.par_chunks_mut(nx))
             .enumerate()
-            .for_each(|(block, z)| {
+            .for_each(|(block, (z, own))| {
+                if let Some(r) = r {
+                    for lane in 0..LANES {
+                        let h = lane * blocks + block;
+                        if h < rows {
+                            deal(&r[(2 * h + parity) * nx..][..nx], lane, own);
+                        }
+                    }
+                }
                 let range = block * nx..(block + 1) * nx;
                 let south = &neighbours[range.clone()];
                 let north = &neighbours[range.start + nx..range.end + nx];
-                sweep_block(&factors[range.clone()], &r[range], south, north, z);
+                sweep_block(&factors[range], own, south, north, z);
             });
+    }
+}
+
+/// Puts a row of the right-hand side into its lane.
+fn deal(row: &[f32], lane: usize, out: &mut [Lane]) {
+    for (o, &v) in out.iter_mut().zip(row) {
+        o[lane] = v;
     }
 }
 

@@ -15,6 +15,7 @@ mod line_sweep;
 pub mod march;
 pub mod material;
 pub mod newton;
+mod newton_rows;
 pub mod precondition;
 pub mod reynolds;
 mod reynolds_rows;

@@ -7,24 +7,25 @@
 //! update    P ← max(P + t v, 0), H0 ← H0 + t h0,  t halved until the natural residual falls
 //! natural residual  φ = min(P, F/D): zero exactly at the solution
 //! ```
-//! Converged when the last change of pressure Σ|dP|/ΣP, the film error Σ|F|/Σρ̄H over the pressurised
-//! nodes, the mass error and the load error are below their tolerances. What is left of F up to
+//! Converged when the error that is left in the pressure (estimated, `converge.rs`), the film error
+//! Σ|F|/Σρ̄H over the pressurised nodes, the mass error and the load error are below their tolerances. What is left of F up to
 //! [`CARRIED`] of the film is not lost: the next step takes it over (`march.rs`), so the mass error counts
 //! only what lies beyond. Not converging is a verdict, never a panic; nothing is committed by this file.
 
+use rayon::prelude::*;
+
 pub use super::converge::{CARRIED, NewtonReport, OVERLAP, Tolerance, Verdict};
-use super::converge::{Sums, sum_row};
+use super::converge::{Sums, left_of, sum_row};
 use super::film::Elastic;
 use super::jacobian::Jacobian;
 use super::krylov::Krylov;
+use super::newton_rows::{film_row, move_pressure, set_rhs, split_row};
 use super::precondition::Preconditioner;
 use super::reynolds::{Medium, Reynolds};
 use super::tangential::Shear;
 use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 
-/// Largest change of pressure (in p_h) of one iteration at one node.
-const STEP_LIMIT: f64 = 2.0;
 /// Reduction asked of the linear solve: tighter costs more than the Newton iterations it saves.
 const FORCING: f64 = 0.1;
 /// Most halvings of the line search.
@@ -81,6 +82,7 @@ pub struct Newton {
     fixed_deflection: Vec<f32>,
     rhs: Vec<f32>,
     scratch: Vec<f32>,
+    rows: Vec<Sums>,
 }
 
 struct Evaluation {
@@ -115,6 +117,7 @@ impl Newton {
             fixed_deflection: vec![0.0; n],
             rhs: vec![0.0; n],
             scratch: vec![0.0; n],
+            rows: vec![Sums::default(); grid.ny],
         }
     }
 
@@ -126,6 +129,7 @@ impl Newton {
             linear_iterations: 0,
             evaluations: 0,
             change: f64::INFINITY,
+            left: f64::INFINITY,
             film_error: f64::INFINITY,
             mass_error: f64::INFINITY,
             load_error: f64::INFINITY,
@@ -161,7 +165,7 @@ impl Newton {
     }
 
     fn is_converged(tolerance: &Tolerance, report: &NewtonReport) -> bool {
-        report.change <= tolerance.pressure
+        report.left <= tolerance.pressure
             && report.film_error <= tolerance.film
             && report.mass_error <= tolerance.mass
             && report.load_error <= tolerance.load
@@ -178,9 +182,14 @@ impl Newton {
         let grid = problem.grid;
         report.evaluations += 1;
         self.elastic.deflect(iterate.p, &mut self.deflection);
-        for ((h, &g), &u) in iterate.h.iter_mut().zip(problem.gap).zip(&self.deflection) {
-            *h = *iterate.h0 + g + u;
-        }
+        let (h0, nx) = (*iterate.h0, grid.nx);
+        iterate
+            .h
+            .par_chunks_mut(nx)
+            .zip(problem.gap.par_chunks(nx))
+            .zip(self.deflection.par_chunks(nx))
+            .with_min_len(8)
+            .for_each(|((h, gap), u)| film_row(h0, gap, u, h));
         if let (Some(shear), Some(law)) = (&mut self.shear, problem.law) {
             shear.add_to(law, iterate.p, iterate.h);
         }
@@ -198,25 +207,33 @@ impl Newton {
         self.judge(problem, iterate)
     }
 
-    fn judge(&self, problem: &Problem, iterate: &Iterate) -> Evaluation {
-        let grid = problem.grid;
+    fn judge(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
+        let (grid, nx) = (problem.grid, problem.grid.nx);
+        let interior = grid.interior_rows();
+        let (reynolds, reference) = (&self.reynolds, &self.reference);
+        let (p, h): (&[f64], &[f64]) = (iterate.p, iterate.h);
+        let rows = self.rows.par_iter_mut().enumerate().with_min_len(8);
+        rows.filter(|(j, _)| interior.contains(j))
+            .for_each(|(j, row)| {
+                // The boundary has no equation; whether surfaces overlap there is asked by `march.rs`.
+                let here = j * nx + 1..(j + 1) * nx - 1;
+                *row = sum_row(
+                    &reynolds.residual[here.clone()],
+                    &p[here.clone()],
+                    &reference[here.clone()],
+                    &reynolds.densities()[here.clone()],
+                    &h[here],
+                    problem.tolerance.least_film,
+                );
+            });
         let mut total = Sums::default();
         let (mut worst_row, mut largest) = (0, 0.0);
         for j in grid.interior_rows() {
-            // The boundary has no equation; whether surfaces overlap there is asked by `march.rs`.
-            let here = j * grid.nx + 1..(j + 1) * grid.nx - 1;
-            let row = sum_row(
-                &self.reynolds.residual[here.clone()],
-                &iterate.p[here.clone()],
-                &self.reference[here.clone()],
-                &self.reynolds.densities()[here.clone()],
-                &iterate.h[here],
-                problem.tolerance.least_film,
-            );
+            let row = &self.rows[j];
             if row.largest > largest {
                 (worst_row, largest) = (j, row.largest);
             }
-            total.add(&row, grid.weight(j));
+            total.add(row, grid.weight(j));
         }
         let mass = total.mass.max(f64::MIN_POSITIVE);
         Evaluation {
@@ -246,15 +263,15 @@ impl Newton {
     /// empty set carries no load), and notes v = −P of the others; whether any of them carries pressure.
     fn split(&mut self, grid: &Grid, p: &[f64]) -> bool {
         let (f, d) = (&self.reynolds.residual, &self.reynolds.diagonal);
-        self.active.fill(false);
-        self.fixed.fill(0.0);
         for j in grid.interior_rows() {
-            for n in j * grid.nx + 1..(j + 1) * grid.nx - 1 {
-                self.active[n] = p[n] - f[n] / d[n] > 0.0;
-                if !self.active[n] && p[n] > 0.0 {
-                    self.fixed[n] = -p[n] as f32;
-                }
-            }
+            let here = j * grid.nx + 1..(j + 1) * grid.nx - 1;
+            split_row(
+                &p[here.clone()],
+                &f[here.clone()],
+                &d[here.clone()],
+                &mut self.active[here.clone()],
+                &mut self.fixed[here],
+            );
         }
         if !self.active.contains(&true) {
             (0..p.len()).for_each(|n| self.active[n] = p[n] > 0.0);
@@ -282,13 +299,12 @@ impl Newton {
             &self.active,
             &mut self.jacobian,
         );
-        for n in 0..grid.len() {
-            self.rhs[n] = if self.active[n] {
-                (-self.reynolds.residual[n] / self.reynolds.row_scale[n]) as f32
-            } else {
-                0.0
-            };
-        }
+        set_rhs(
+            &self.reynolds.residual,
+            &self.reynolds.row_scale,
+            &self.active,
+            &mut self.rhs,
+        );
         let mut missing = problem.load - load;
         if any_fixed {
             self.elastic
@@ -347,22 +363,11 @@ impl Newton {
         let old_h0 = *iterate.h0;
         let mut t = 1.0;
         for halving in 0..=MAX_HALVINGS {
-            let (mut moved, mut total) = (0.0, 0.0);
-            for (n, p) in iterate.p.iter_mut().enumerate() {
-                let old = self.old_p[n];
-                *p = if self.active[n] {
-                    let step = (t * f64::from(self.v[n])).clamp(-STEP_LIMIT, STEP_LIMIT);
-                    (old + step).max(0.0)
-                } else {
-                    // Exactly zero for a full step: single precision would leave a trace.
-                    old * (1.0 - t)
-                };
-                moved += (*p - old).abs();
-                total += *p;
-            }
+            let (moved, total) = move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
             let new = self.evaluate(problem, iterate, report);
+            report.left = left_of(report.change, new.merit, base);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
                 return new;
             }

@@ -13,7 +13,7 @@ use super::film::Elastic;
 use super::jacobian::Jacobian;
 use super::line_sweep::LineSweep;
 use crate::math::elementary::ln;
-use crate::math::filter::{Filter, Padding};
+use crate::math::filter::{Filter, Padding, Weights};
 use crate::math::grid::Grid;
 
 /// Number of conductance bins.
@@ -28,11 +28,10 @@ const ORDER: [usize; 3] = [0, 1, 0];
 pub struct Preconditioner {
     filter: Filter<f32>,
     bins: [f64; BINS],
-    weights: Vec<f32>,
+    weights: Weights<f32>,
     extra: Vec<f32>,
     scale: Vec<f32>,
     sweeps: LineSweep,
-    z1: Vec<f32>,
     rest: Vec<f32>,
 }
 
@@ -43,11 +42,10 @@ impl Preconditioner {
         let mut this = Self {
             filter: Filter::new(grid, Padding::Periodic, BINS),
             bins: [0.0; BINS],
-            weights: vec![0.0; BINS * n],
+            weights: Weights::new(grid, BINS),
             extra: vec![0.0; n],
             scale: vec![0.0; n],
             sweeps: LineSweep::new(grid),
-            z1: vec![0.0; n],
             rest: vec![0.0; n],
         };
         this.set_symbols(grid, elastic, kappa, s);
@@ -93,20 +91,24 @@ impl Preconditioner {
         );
         let (first, last) = (self.bins[1], self.bins[BINS - 1]);
         fade_flow(conductance, last, &mut self.scale);
-        for (b, weights) in self.weights.chunks_exact_mut(grid.len()).enumerate() {
-            set_weights(conductance, active, (first, last), b, weights);
-        }
+        let nx = grid.nx;
+        self.weights.set_rows(|j, weights| {
+            let here = j * nx..(j + 1) * nx;
+            set_weights(
+                &conductance[here.clone()],
+                &active[here],
+                (first, last),
+                weights,
+            );
+        });
         self.sweeps.factor(jacobian, &self.extra);
     }
 
     /// `z = M⁻¹ r` (without the border).
     pub fn apply(&mut self, grid: &Grid, jacobian: &Jacobian, r: &[f32], z: &mut [f32]) {
-        self.sweeps.solve(r, &ORDER, &mut self.z1);
-        jacobian.local_rest(grid, &self.extra, &self.z1, r, &self.scale, &mut self.rest);
-        self.filter.apply_weighted(&self.rest, &self.weights, z);
-        for (z, &z1) in z.iter_mut().zip(&self.z1) {
-            *z += z1;
-        }
+        self.sweeps.solve(r, &ORDER, z);
+        jacobian.local_rest(grid, &self.extra, z, r, &self.scale, &mut self.rest);
+        self.filter.add_weighted(&self.rest, &self.weights, z);
     }
 }
 
@@ -140,22 +142,32 @@ fn fade_flow(conductance: &[f64], last: f64, scale: &mut [f32]) {
 }
 
 dispatched! {
-/// Hats in the logarithm of the conductance: bin `b` has its tip at ε_b, bins 64 times apart.
+/// Hats in the logarithm of the conductance: bin `b` has its tip at ε_b, bins 64 times apart. One row, bin
+/// after bin.
 fn set_weights(
     conductance: &[f64],
     active: &[bool],
     (first, last): (f64, f64),
-    b: usize,
     weights: &mut [f32],
 ) {
     let n_all = conductance.len();
-    let (active, weights) = (&active[..n_all], &mut weights[..n_all]);
+    let active = &active[..n_all];
     let per_bin = 1.0 / 64.0_f64.ln();
+    let (weights, position) = weights.split_at_mut((BINS - 1) * n_all);
+    let position = &mut position[..n_all];
     for n in 0..n_all {
         let inside = conductance[n].max(first / 64.0).min(last);
-        let position = 1.0 + ln(inside / first) * per_bin;
-        let hat = (1.0 - (position - b as f64).abs()).max(0.0);
-        weights[n] = if active[n] { hat as f32 } else { 0.0 };
+        let place = (1.0 + ln(inside / first) * per_bin) as f32;
+        // Far from every bin.
+        position[n] = if active[n] { place } else { -2.0 };
+    }
+    for (b, weights) in weights.chunks_exact_mut(n_all).enumerate() {
+        for n in 0..n_all {
+            weights[n] = (1.0 - (position[n] - b as f32).abs()).max(0.0);
+        }
+    }
+    for position in position {
+        *position = (1.0 - (*position - (BINS - 1) as f32).abs()).max(0.0);
     }
 }
 }

@@ -56,6 +56,19 @@ impl TractionLaw {
         p > 0.0 && h <= self.contact_film
     }
 
+    /// q of a row of nodes.
+    pub fn traction_row(&self, p: &[f64], h: &[f64], q: &mut [f64]) {
+        match (self.direction == 0.0, self.film) {
+            (true, _) => q.fill(0.0),
+            (false, None) => {
+                for (q, &p) in q.iter_mut().zip(p) {
+                    *q = self.direction * self.boundary * p.max(0.0);
+                }
+            }
+            (false, Some(film)) => film_row(self, &film, p, h, q),
+        }
+    }
+
     /// q of one node.
     #[inline]
     pub fn traction(&self, p: f64, h: f64) -> f64 {
@@ -74,9 +87,76 @@ impl TractionLaw {
     }
 }
 
+dispatched! {
+/// [`TractionLaw::traction`] of a row, without branches inside its loops.
+fn film_row(law: &TractionLaw, film: &FilmShear, p: &[f64], h: &[f64], q: &mut [f64]) {
+    let n = q.len();
+    let (p, h) = (&p[..n], &h[..n]);
+    // One loop a law, so that the law is no branch inside of it.
+    if let viscosity @ Viscosity::Barus { .. } = law.viscosity {
+        for i in 0..n {
+            q[i] = viscosity.ln_eta(p[i]).0;
+        }
+    } else {
+        let viscosity = law.viscosity;
+        for i in 0..n {
+            q[i] = viscosity.ln_eta(p[i]).0;
+        }
+    }
+    for i in 0..n {
+        let open = if h[i] > law.contact_film { h[i] } else { law.contact_film };
+        q[i] = film.rate / open * exp(q[i]);
+    }
+    if let Some(tau0) = film.eyring {
+        for q in &mut *q {
+            *q = tau0 * asinh(*q / tau0);
+        }
+    }
+    for i in 0..n {
+        let most = film.limit * p[i];
+        let sheared = if q[i] < most { q[i] } else { most };
+        let size = if h[i] <= law.contact_film { law.boundary * p[i] } else { sheared };
+        q[i] = if p[i] > 0.0 { law.direction * size } else { 0.0 };
+    }
+}
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_row_is_its_nodes() {
+        let p: Vec<f64> = (0..40)
+            .map(|n| (0.07 * f64::from(n) - 0.2).max(0.0))
+            .collect();
+        let h: Vec<f64> = (0..40).map(|n| 0.02 * (0.5 * f64::from(n)).sin()).collect();
+        for viscosity in [
+            Viscosity::barus(2e-8, 1.5e9),
+            Viscosity::roelands(0.08, 2e-8, 1.5e9),
+        ] {
+            for eyring in [None, Some(3e-3)] {
+                let law = TractionLaw {
+                    film: Some(FilmShear {
+                        rate: 1e-6,
+                        eyring,
+                        limit: 0.08,
+                    }),
+                    viscosity,
+                    boundary: 0.1,
+                    contact_film: 1e-4,
+                    direction: -1.0,
+                };
+                let mut q = vec![f64::NAN; 40];
+                for law in [law, TractionLaw { film: None, ..law }] {
+                    law.traction_row(&p, &h, &mut q);
+                    for n in 0..40 {
+                        assert_eq!(q[n], law.traction(p[n], h[n]), "node {n}");
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn regimes_and_signs() {
