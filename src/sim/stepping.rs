@@ -24,8 +24,8 @@ use crate::solve::traction::TractionLaw;
 
 /// Most times a step is halved.
 const MAX_HALVINGS: u32 = 5;
-/// Newton iterations of one step after which it is halved no more.
-const MOST_NEWTON: u32 = 4000;
+/// Newton iterations of one step after which it is halved no more: what 32 parts cost if all coarser ones failed.
+const MOST_NEWTON: u32 = 1500;
 /// Film error above which an unconverged step is not kept: it would pump mass into the history.
 const HOPELESS: f64 = 0.05;
 
