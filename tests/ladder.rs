@@ -12,7 +12,7 @@
 //! | 0.1 | −2 | 136 | 7.0 | 1 | 0 | 0 | 9.4e-5 | 0 | 0.30 |
 //! | 1e-3 | 2 | 136 | 36.8 | 150 | 47 | 0 | 2.9e-5 | 0.045 | 0.92 |
 //! | 1e-4 | 2 | 136 | 58.9 | 244 | 59 | 0 | 9.6e-5 | 0.041 | 0.95 |
-//! | 1e-4 | −2 | 136 | 61.7 | 260 | 61 | 0 | 1.7e-11 | 0.050 | 0.87 |
+//! | 1e-4 | −2 | 136 | 67.3 | 291 | 64 | 0 | 1.0e-4 | 0.042 | 0.85 |
 //!
 //! On 129² with U = 1e-4 m/s and steps halved at most twice the run ended by name while the roughness came up
 //! (`StepError::Stalled` with time, place and size; exit code 3), after 165 converged steps at 1.73 GPa and 173 at 4 GPa,
