@@ -8,19 +8,20 @@
 //!
 //! | U, m/s | S | steps | Newtons a step | tried again | halved | on the safe side | mass error | overlap, nm | contact |
 //! |---|---|---|---|---|---|---|---|---|---|
-//! | 0.1 | 2 | 136 | 7.7 | 1 | 0 | 0 | 9.7e-5 | 0 | 0.37 |
-//! | 0.1 | −2 | 136 | 8.0 | 4 | 0 | 0 | 1.4e-5 | 0 | 0.30 |
-//! | 1e-3 | 2 | 136 | 42.2 | 180 | 56 | 0 | 5.4e-5 | 0.045 | 0.92 |
-//! | 1e-4 | 2 | 136 | 82.5 | 388 | 64 | 2 | 7.2e-5 | 0.018 | 0.95 |
-//! | 1e-4 | −2 | 136 | 93.3 | 451 | 64 | 15 | 7.2e-5 | 0.047 | 0.93 |
+//! | 0.1 | 2 | 136 | 7.0 | 2 | 0 | 0 | 9.4e-5 | 0 | 0.37 |
+//! | 0.1 | −2 | 136 | 7.0 | 1 | 0 | 0 | 9.4e-5 | 0 | 0.30 |
+//! | 1e-3 | 2 | 136 | 36.8 | 150 | 47 | 0 | 2.9e-5 | 0.045 | 0.92 |
+//! | 1e-4 | 2 | 136 | 58.9 | 244 | 59 | 0 | 9.6e-5 | 0.041 | 0.95 |
+//! | 1e-4 | −2 | 136 | 67.3 | 291 | 64 | 0 | 1.0e-4 | 0.042 | 0.85 |
 //!
-//! On 129² with U = 1e-4 m/s the run ends by name while the roughness comes up (`StepError::Stalled` with time, place
-//! and size; exit code 3), after 165 converged steps at 1.73 GPa and 173 at 4 GPa, S = −2 and 2: not solved yet.
+//! On 129² with U = 1e-4 m/s and steps halved at most twice the run ended by name while the roughness came up
+//! (`StepError::Stalled` with time, place and size; exit code 3), after 165 converged steps at 1.73 GPa and 173 at 4 GPa,
+//! S = −2 and 2: not solved then, and not tried to the end since steps are halved up to five times.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use asperity::plan::Plan;
 use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation, Stage, StepError};
+use asperity::sim::{Frame, Knob, SimError, Simulation, Stage, StepError};
 
 /// A stiff scene.
 #[derive(Debug, Clone, Copy)]
@@ -200,16 +201,47 @@ fn the_stiff_set_on_129() {
     table(&cases, 8);
 }
 
-/// What cannot converge, with two Newton iterations a step, is named or ends the run; it never passes.
+/// What cannot converge, to 1e-9 with two Newton iterations a part, is named or ends the run; it never passes. (To the
+/// usual 1e-3 two are enough on 65²: all 136 steps converge in parts.)
 #[test]
 fn steps_that_cannot_converge_are_named() {
     let stiff = Stiff {
         p_hertz_pa: 4e9,
         speed_m_s: 1e-3,
         slide_roll: 2.0,
-        nodes: 65,
+        nodes: 33,
     };
-    let found = run(stiff, 8, &["numerics.max_iterations=2"]);
+    let found = run(
+        stiff,
+        8,
+        &["numerics.max_iterations=2", "numerics.tolerance=1e-9"],
+    );
     println!("two iterations a step: {found:?}");
     assert!(found.named > 0 || found.stalled.is_some(), "{found:?}");
+}
+
+/// A load turned up by hand is taken as far as its contact stays within the domain, and refused beyond with the
+/// greatest that is taken.
+#[test]
+fn a_load_is_taken_up_to_the_edge_of_the_domain() {
+    let sets = ["grid.nodes=65", "stress=none", "life=none"];
+    let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
+    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let plan = Plan::new(&scene).unwrap();
+    let most = plan.most_force_n();
+    let mut sim = Simulation::new(&scene, plan, 1).unwrap();
+    let Err(SimError::Knob { value, allowed, .. }) = sim.set(Knob::ForceN, 1.001 * most) else {
+        panic!("refused");
+    };
+    assert!(
+        value > most && allowed.contains(&format!("at most {most:.4e}")),
+        "{allowed}"
+    );
+    sim.set(Knob::ForceN, most).unwrap();
+    // The ramp takes 4 a/U.
+    while sim.passage_steps() < 80 {
+        sim.step().unwrap();
+        assert!(sim.metrics().converged, "{:?}", sim.metrics());
+    }
+    assert_eq!(sim.metrics().load_n, most);
 }

@@ -210,3 +210,67 @@ fn events_keep_time_marching() {
     let plan = Plan::new(&Scene::from_toml(&with_event).unwrap()).unwrap();
     assert_eq!(plan.march, March::Transient);
 }
+
+#[test]
+fn long_steps_are_warned_of_with_the_length_that_is_advised() {
+    let advised = |settings: &[&str]| {
+        let plan = plan(settings).unwrap();
+        plan.warnings.iter().find_map(|warning| match warning {
+            Warning::LongStep { advised, .. } => Some((*advised, warning.to_string())),
+            _ => None,
+        })
+    };
+    let smooth = ["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"];
+    let with = |more: &[&'static str]| [&smooth[..], more].concat();
+    assert_eq!(advised(&with(&[])), None);
+    let (nodes, text) = advised(&with(&["time.step_nodes=4"])).unwrap();
+    assert_eq!(nodes, 1.0);
+    assert_eq!(
+        text,
+        "time.step_nodes = 4 is more than a node; 1 or less is advised: long steps thin the film"
+    );
+    // 13.6 nodes a wave: 16 steps of it are 0.85 nodes long.
+    let (nodes, text) = advised(&[]).unwrap();
+    assert!((nodes - 13.609 / 16.0).abs() < 1e-3, "{nodes}");
+    assert!(
+        text.starts_with(
+            "time.step_nodes = 1 leaves a wave of 13.6 nodes 13.6 steps; 0.85 or less"
+        ),
+        "{text}"
+    );
+    assert_eq!(advised(&["time.step_nodes=0.85"]), None);
+    // Adaptive steps are as short as they must be; a dry contact has no film to lose.
+    assert_eq!(advised(&["time.tolerance=1e-3"]), None);
+    assert_eq!(advised(&["lubricant=none", "time.step_nodes=4"]), None);
+}
+
+#[test]
+fn loads_and_amplitudes_of_events_are_foreseen() {
+    let text = Scene::load(presets::DEFAULT).unwrap().to_toml();
+    let with = |set: &str| {
+        let text = format!("{text}\n[[event]]\nat_s = 1e-3\nset = {{ {set} }}\n");
+        Plan::new(&Scene::from_toml(&text).unwrap()).unwrap()
+    };
+    let usual = plan(&[]).unwrap();
+    let edges = |plan: &Plan| {
+        let domain = plan.domain;
+        [domain.x_min_a, domain.x_max_a, domain.y_half_b]
+    };
+    // Eight times the load is a contact of twice the size.
+    let heavy = with("\"load.force_n\" = 6400.0");
+    for (twice, once) in edges(&heavy).into_iter().zip(edges(&usual)) {
+        assert!((twice / once - 2.0).abs() < 1e-12);
+    }
+    assert!(heavy.most_force_n() > 6400.0 && usual.most_force_n() < 6400.0);
+    assert_eq!(edges(&with("\"load.force_n\" = 100.0")), edges(&usual));
+    let rough = with("\"body_1.surface.amplitude_m\" = 5e-6");
+    assert_eq!(
+        edges(&rough),
+        edges(&plan(&["body_1.surface.amplitude_m=5e-6"]).unwrap())
+    );
+    // What the scene says of its grid holds.
+    let own = text.replace("nodes = 129", "nodes = 129\nx_max_a = 1.75");
+    let own = format!("{own}\n[[event]]\nat_s = 1e-3\nset = {{ \"load.force_n\" = 6400.0 }}\n");
+    let own = Plan::new(&Scene::from_toml(&own).unwrap()).unwrap();
+    assert_eq!((own.domain.x_max_a, own.domain.x_min_a), (1.75, -5.0));
+}

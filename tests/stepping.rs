@@ -204,7 +204,14 @@ fn every_rung_of_the_ladder_is_climbed_and_told() {
     assert_eq!((stats.retries, stats.halved, stats.safer), (0, 0, 0));
     // Fewer and fewer iterations climb rung by rung.
     let mut seen = [false; 4];
-    for (most, tolerance) in [(6, 1e-3), (5, 1e-3), (4, 1e-3), (2, 1e-3), (1, 1e-9)] {
+    for (most, tolerance) in [
+        (6, 1e-3),
+        (5, 1e-3),
+        (4, 1e-3),
+        (2, 1e-3),
+        (1, 1e-3),
+        (1, 1e-9),
+    ] {
         let settings = [
             format!("numerics.max_iterations={most}"),
             format!("numerics.tolerance={tolerance:e}"),

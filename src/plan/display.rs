@@ -173,8 +173,10 @@ impl Plan {
             Symmetry::Line => "one row",
         };
         let mut lines = vec![match self.film {
-            Some(_) => format!("mixed lubrication: flow, film and contact together ({rows})"),
-            None => format!("dry contact ({rows})"),
+            Some(film) if film.flows() => {
+                format!("mixed lubrication: flow, film and contact together ({rows})")
+            }
+            _ => format!("dry contact ({rows})"),
         }];
         lines.push("traction on both bodies, friction coefficient".to_owned());
         if let Some(traction) = self.traction_deflection {

@@ -33,8 +33,9 @@
 //!
 //! *Rough surfaces.* Under a light load crests meet far outside of the Hertz contact: wherever the gap of the smooth
 //! contact is less than their heights together. The edges lie beyond that, up to 6 a, and a warning says so
-//! where they do not (a larger load or amplitude in mid-run is not foreseen: a step whose surfaces overlap at
-//! an edge is named as not converged).
+//! where they do not. Loads and amplitudes that events of the scene set in mid-run are foreseen. What a hand turns is
+//! not: a load whose Hertz contact would reach an edge is refused with the greatest that does not, and a step whose
+//! surfaces overlap at an edge is named as not converged.
 //!
 //! The line's factors are measured too (`tests/line.rs`: at M = 20 and 100 the inlet rule holds within 1.3
 //! from −2 to −3.5).
@@ -124,6 +125,22 @@ impl Domain {
             x_max_a: grid.x_max_a.unwrap_or(x_max_a),
             y_half_b: grid.y_half_a.unwrap_or(y_half_b),
         }
+    }
+
+    /// The same for a contact that grows to `size` (1 or more) times its half-widths: edges that the scene leaves to
+    /// the plan lie as many of the grown half-widths away.
+    #[must_use]
+    pub(super) fn holding(mut self, size: f64, grid: &Grid) -> Self {
+        if grid.x_min_a.is_none() {
+            self.x_min_a *= size;
+        }
+        if grid.x_max_a.is_none() {
+            self.x_max_a *= size;
+        }
+        if grid.y_half_a.is_none() {
+            self.y_half_b *= size;
+        }
+        self
     }
 
     /// Node spacing along x, in a.

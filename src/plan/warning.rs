@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::Valleys;
+
 /// A stage that is left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
@@ -67,6 +69,40 @@ pub enum Warning {
         body: u8,
         /// Time steps in which one crest of it slides past a point of the other body.
         samples: f64,
+    },
+    /// The time step is too long for the film or for a wave.
+    #[error(
+        "time.step_nodes = {nodes} {}; {} or less is advised: long steps thin the film",
+        if wave_nodes.is_finite() {
+            format!("leaves a wave of {wave_nodes:.1} nodes {:.1} steps", wave_nodes / nodes)
+        } else {
+            "is more than a node".to_owned()
+        },
+        (100.0 * advised).floor() / 100.0
+    )]
+    LongStep {
+        /// Step, in nodes at U.
+        nodes: f64,
+        /// Nodes of the shortest wave that passes; infinite: none does.
+        wave_nodes: f64,
+        /// Longest step that is advised, in nodes.
+        advised: f64,
+    },
+    /// The film by formula is no film.
+    #[error(
+        "film by formula {:.2} nm, less than one layer of molecules ({:.1} nm): {}",
+        1e9 * film_m,
+        1e9 * super::MOLECULE_M,
+        match valleys {
+            Valleys::Open => "solved dry",
+            Valleys::Closed => "solved with flow all the same, because both surfaces shut oil in, which carries load",
+        }
+    )]
+    NoFilm {
+        /// Central film by formula, m.
+        film_m: f64,
+        /// Whether the oil can leave.
+        valleys: Valleys,
     },
     /// The stress integral is cut off.
     #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; 2 or more hold it")]

@@ -123,6 +123,16 @@ impl Door {
         }
     }
 
+    /// The fluid of a step without flow: λ = ∞.
+    pub(super) fn medium_at_rest(&self) -> Medium {
+        Medium {
+            viscosity: self.viscosity,
+            density: self.density,
+            lambda: f64::INFINITY,
+            sliding: 0.0,
+        }
+    }
+
     /// Load integral of a force, N (a line: N/m).
     pub(super) fn load(&self, force: f64) -> f64 {
         let width_m = match self.kind {

@@ -12,9 +12,6 @@ use crate::solve::stress::{Cut, Plane};
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
 pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
-    let (grid, door) = (&sim.march.grid, &sim.door);
-    let load = sim.drive.get(door.load_knob()).now / sim.plan.force_n;
-    let scale = door.size_ratio(load);
     frame.step = sim.step;
     frame.time_s = sim.time_s();
     frame.stage = sim.stage();
@@ -23,71 +20,8 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     } else {
         0.0
     };
-    frame.kind = door.kind;
-    let rows = match door.kind {
-        ContactKind::Point => grid.ny_full(),
-        ContactKind::Line => LINE_ROWS,
-    };
-    let stored = |j: usize| match door.kind {
-        ContactKind::Point => grid.stored_row(j),
-        ContactKind::Line => 0,
-    };
-    (frame.nx, frame.ny) = (grid.nx, rows);
-    let heading = door.heading;
-    frame.x_min_m = match heading {
-        Heading::Forward => door.m_from_x(grid.x_min),
-        Heading::Backward => -door.m_from_x(grid.x(grid.nx - 1)),
-    };
-    frame.dx_m = door.m_from_x(grid.dx);
-    frame.dy_m = match door.kind {
-        ContactKind::Point => door.m_from_x(grid.dy),
-        ContactKind::Line => sim.plan.dy_m,
-    };
-    frame.y_min_m = -0.5 * (frame.ny - 1) as f64 * frame.dy_m;
-    frame.a_m = door.a_m * scale;
-    frame.b_m = door.a_m * door.b_over_a * scale;
-    frame.p_hertz_pa = door.p_hertz_pa * scale;
-    let expand = |from: &[f64], unit: f64, to: &mut Vec<f32>| {
-        to.resize(frame_len(grid.nx, rows), 0.0);
-        for (j, row) in to.chunks_exact_mut(grid.nx).enumerate() {
-            let start = stored(j) * grid.nx;
-            if from.len() < start + grid.nx {
-                row.fill(0.0);
-                continue;
-            }
-            for (to, &from) in row.iter_mut().zip(&from[start..start + grid.nx]) {
-                *to = (from * unit) as f32;
-            }
-            if heading == Heading::Backward {
-                row.reverse();
-            }
-        }
-    };
-    let state = &sim.march.state;
-    expand(&state.pressure, door.p_hertz_pa, &mut frame.pressure_pa);
-    expand(&state.film, door.film_m, &mut frame.film_m);
-    let along_x = heading.sign() * door.p_hertz_pa;
-    expand(&sim.traction, along_x, &mut frame.traction_pa);
-    expand(
-        &sim.terrain.heights[0],
-        door.film_m,
-        &mut frame.roughness_1_m,
-    );
-    expand(
-        &sim.terrain.heights[1],
-        door.film_m,
-        &mut frame.roughness_2_m,
-    );
-    let contact_film = sim.contact_film_m() as f32;
-    frame.contact.resize(frame.film_m.len(), 0);
-    for ((c, &h), &p) in frame
-        .contact
-        .iter_mut()
-        .zip(&frame.film_m)
-        .zip(&frame.pressure_pa)
-    {
-        *c = u8::from(p > 0.0 && h <= contact_film);
-    }
+    fill_shape(sim, frame);
+    fill_fields(sim, frame);
     fill_slices(sim, frame);
     frame.material_point = material_point(sim);
     fill_planes(sim, frame);
@@ -103,8 +37,76 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     frame.metrics.clone_from(&sim.metrics);
 }
 
-fn frame_len(nx: usize, ny: usize) -> usize {
-    nx * ny
+/// Nodes, edges and scales.
+fn fill_shape(sim: &Simulation, frame: &mut Frame) {
+    let (grid, door) = (&sim.march.grid, &sim.door);
+    let load = sim.drive.get(door.load_knob()).now / sim.plan.force_n;
+    let scale = door.size_ratio(load);
+    frame.kind = door.kind;
+    frame.nx = grid.nx;
+    (frame.ny, frame.dy_m) = match door.kind {
+        ContactKind::Point => (grid.ny_full(), door.m_from_x(grid.dy)),
+        ContactKind::Line => (LINE_ROWS, sim.plan.dy_m),
+    };
+    frame.x_min_m = match door.heading {
+        Heading::Forward => door.m_from_x(grid.x_min),
+        Heading::Backward => -door.m_from_x(grid.x(grid.nx - 1)),
+    };
+    frame.dx_m = door.m_from_x(grid.dx);
+    frame.y_min_m = -0.5 * (frame.ny - 1) as f64 * frame.dy_m;
+    frame.a_m = door.a_m * scale;
+    frame.b_m = door.a_m * door.b_over_a * scale;
+    frame.p_hertz_pa = door.p_hertz_pa * scale;
+}
+
+/// Pressure, film, traction, both surfaces, and where they touch.
+fn fill_fields(sim: &Simulation, frame: &mut Frame) {
+    let (door, state) = (&sim.door, &sim.march.state);
+    let [one, two] = &sim.terrain.heights;
+    let along_x = door.heading.sign() * door.p_hertz_pa;
+    expand(
+        sim,
+        &state.pressure,
+        door.p_hertz_pa,
+        &mut frame.pressure_pa,
+    );
+    expand(sim, &state.film, door.film_m, &mut frame.film_m);
+    expand(sim, &sim.traction, along_x, &mut frame.traction_pa);
+    expand(sim, one, door.film_m, &mut frame.roughness_1_m);
+    expand(sim, two, door.film_m, &mut frame.roughness_2_m);
+    let contact_film = sim.contact_film_m() as f32;
+    frame.contact.resize(frame.film_m.len(), 0);
+    let fields = frame.film_m.iter().zip(&frame.pressure_pa);
+    for (c, (&h, &p)) in frame.contact.iter_mut().zip(fields) {
+        *c = u8::from(p > 0.0 && h <= contact_film);
+    }
+}
+
+/// A field in SI over the whole domain, in the scene's direction; 0 where nothing is stored.
+fn expand(sim: &Simulation, from: &[f64], unit: f64, to: &mut Vec<f32>) {
+    let (grid, door) = (&sim.march.grid, &sim.door);
+    let rows = match door.kind {
+        ContactKind::Point => grid.ny_full(),
+        ContactKind::Line => LINE_ROWS,
+    };
+    to.resize(grid.nx * rows, 0.0);
+    for (j, row) in to.chunks_exact_mut(grid.nx).enumerate() {
+        let stored = match door.kind {
+            ContactKind::Point => grid.stored_row(j),
+            ContactKind::Line => 0,
+        };
+        let start = stored * grid.nx;
+        if from.len() < start + grid.nx {
+            row.fill(0.0);
+            continue;
+        }
+        for (to, &from) in row.iter_mut().zip(&from[start..start + grid.nx]) {
+            *to = (from * unit) as f32;
+        }
+        if door.heading == Heading::Backward {
+            row.reverse();
+        }
+    }
 }
 
 /// Stress of both bodies in the plane y = 0.

@@ -13,6 +13,7 @@ mod measure;
 mod motion;
 mod orbit;
 mod pace;
+mod regime;
 mod setup;
 mod simulation;
 mod start_up;

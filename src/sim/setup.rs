@@ -10,6 +10,7 @@ use super::measure::RowSums;
 use super::motion::Motion;
 use super::orbit::{LONGEST, Orbit};
 use super::pace::{Pace, Stepping};
+use super::regime::Regime;
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::stress_stage::StressStage;
@@ -36,70 +37,42 @@ impl Simulation {
         let pool = thread_pool(threads)?;
         let door = Door::new(scene);
         let flow = flow_of(scene);
-        let shape = Shape {
-            kappa: door.kappa,
-            curvature_y: door.curvature_y,
-            b_over_a: door.b_over_a,
-            kappa_s: plan
-                .traction_deflection
-                .map_or(0.0, |t| door.kappa_s(t.mismatch_per_pa)),
-        };
+        let shape = shape_of(&plan, &door);
         let first = COARSEST.min(plan.domain.nodes);
         let grid = grid_of(&plan, first, door.b_over_a);
         let film = plan.film.map_or(0.0, |film| film.central);
         let nodes = scene.time.step_nodes;
         let march = pool.install(|| March::from_hertz(grid, &shape, film, nodes, flow));
         let fine = grid_of(&plan, plan.domain.nodes, door.b_over_a);
-        let stress = pool.install(|| stress_stage(scene, &plan, &fine, &door))?;
-        let life = stress
-            .as_ref()
-            .and_then(|stress| LifeStage::new(scene, &plan, stress));
-        let counting = stress.as_ref().map(|stress| {
-            let spec = counting_spec(scene, &plan, door.heading, stress.depth_count());
-            Counting::new(&fine, stress.depths(), &spec)
+        let stages = pool.install(|| Stages::new(scene, &plan, &fine, &door))?;
+        let (wanted, drive) = drives(scene, &plan);
+        let stepping = stepping_of(scene);
+        let most_steps = LONGEST.max(plan.passage_a) / (stepping.least() * plan.domain.dx_a());
+        let speed_m_s = scene.motion.entrainment_m_s.abs();
+        let regime = Regime::new(&plan, flow, speed_m_s, |flow| {
+            tolerance_of(scene, flow, &door)
         });
-        let wanted = Drive::new(|knob| initial(scene, &plan, knob));
-        let mut drive = wanted.clone();
-        for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
-            drive.jump(knob, 0.0);
-        }
-        let tolerance = tolerance_of(scene, flow, &door);
-        let terrain = Terrain::new(&fine, scene.surfaces(), door.a_m, door.heading);
-        let law = traction_law(scene, &door);
-        let mut motion = Motion::new(nodes);
-        motion.shear_rate = scene.lubricant.as_ref().map_or(0.0, |oil| {
-            oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
-        });
-        let composite = scene.surfaces().map(rms_share);
-        let stepping = match scene.time.tolerance {
-            None => Stepping::Fixed(nodes),
-            Some(tolerance) => Stepping::Adaptive {
-                tolerance,
-                usual: nodes,
-            },
-        };
-        let passage = plan.passage_a;
-        let most_steps = LONGEST.max(passage) / (stepping.least() * plan.domain.dx_a());
         let mut this = Self {
             traction: vec![0.0; fine.len()],
             row_sums: vec![RowSums::default(); fine.ny],
-            counting,
+            counting: stages.counting,
             cuts: cuts(scene),
             iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
             stress_error: stress_error(&plan),
+            terrain: Terrain::new(&fine, scene.surfaces(), door.a_m, door.heading),
+            law: traction_law(scene, &door),
+            motion: motion_of(scene, &door),
+            orbit: Orbit::new(fine.len(), plan.passage_a),
             plan,
             door,
             march,
-            terrain,
             drive,
-            motion,
             watched: [0.0; 2],
-            stress,
-            life,
-            law,
+            stress: stages.stress,
+            life: stages.life,
             shape,
             flow,
-            tolerance,
+            regime,
             pool,
             phase: Phase::Smooth { left: 0 },
             wanted,
@@ -108,8 +81,7 @@ impl Simulation {
             totals: super::totals::Totals::new(most_steps),
             coarser: None,
             smooth_film: 0.0,
-            composite,
-            orbit: Orbit::new(fine.len(), passage),
+            composite: scene.surfaces().map(rms_share),
             pace: Pace::new(stepping),
             stepping,
             way: 0.0,
@@ -125,6 +97,68 @@ impl Simulation {
         let measured = this.measure();
         this.publish(&Attempted::default(), &measured);
         Ok(this)
+    }
+}
+
+/// What looks at a step: stress, life, counts; `None`: not asked for.
+struct Stages {
+    stress: Option<StressStage>,
+    life: Option<LifeStage>,
+    counting: Option<Counting>,
+}
+
+impl Stages {
+    fn new(scene: &Scene, plan: &Plan, grid: &Grid, door: &Door) -> Result<Self, SimError> {
+        let stress = stress_stage(scene, plan, grid, door)?;
+        let life = stress
+            .as_ref()
+            .and_then(|stress| LifeStage::new(scene, plan, stress));
+        let counting = stress.as_ref().map(|stress| {
+            let spec = counting_spec(scene, plan, door.heading, stress.depth_count());
+            Counting::new(grid, stress.depths(), &spec)
+        });
+        Ok(Self {
+            stress,
+            life,
+            counting,
+        })
+    }
+}
+
+fn shape_of(plan: &Plan, door: &Door) -> Shape {
+    Shape {
+        kappa: door.kappa,
+        curvature_y: door.curvature_y,
+        b_over_a: door.b_over_a,
+        kappa_s: plan
+            .traction_deflection
+            .map_or(0.0, |t| door.kappa_s(t.mismatch_per_pa)),
+    }
+}
+
+/// The knobs as the scene wants them, and as the start-up begins: smooth, and without sliding.
+fn drives(scene: &Scene, plan: &Plan) -> (Drive, Drive) {
+    let wanted = Drive::new(|knob| initial(scene, plan, knob));
+    let mut drive = wanted.clone();
+    for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
+        drive.jump(knob, 0.0);
+    }
+    (wanted, drive)
+}
+
+fn motion_of(scene: &Scene, door: &Door) -> Motion {
+    let mut motion = Motion::new(scene.time.step_nodes);
+    motion.shear_rate = scene.lubricant.as_ref().map_or(0.0, |oil| {
+        oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
+    });
+    motion
+}
+
+fn stepping_of(scene: &Scene) -> Stepping {
+    let usual = scene.time.step_nodes;
+    match scene.time.tolerance {
+        None => Stepping::Fixed(usual),
+        Some(tolerance) => Stepping::Adaptive { tolerance, usual },
     }
 }
 

@@ -18,13 +18,13 @@ use super::measure::{Measured, RowSums};
 use super::motion::Motion;
 use super::orbit::Orbit;
 use super::pace::{Pace, Stepping};
+use super::regime::Regime;
 use super::stepping::{Attempted, Mover};
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
 use super::{Frame, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
 use crate::plan::{March as Marching, Plan};
 use crate::solve::march::{Flow, March, Shape};
-use crate::solve::newton::Tolerance;
 use crate::solve::stress::Cut;
 use crate::solve::traction::TractionLaw;
 
@@ -65,7 +65,7 @@ pub struct Simulation {
     pub(super) law: TractionLaw,
     pub(super) shape: Shape,
     pub(super) flow: Flow,
-    pub(super) tolerance: Tolerance,
+    pub(super) regime: Regime,
     pub(super) pool: ThreadPool,
     pub(super) phase: Phase,
     pub(super) wanted: Drive,
@@ -165,7 +165,7 @@ impl Simulation {
 
     /// One time step: solved, committed, measured.
     pub(super) fn advance(&mut self) -> Result<(), StepError> {
-        let law = self.law_now();
+        let law = self.law_of_oil();
         let (stepping, nodes) = self.next_step();
         let attempted = self.pool.install(|| {
             Mover {
@@ -175,7 +175,7 @@ impl Simulation {
                 motion: &mut self.motion,
                 door: &self.door,
                 law,
-                tolerance: self.tolerance,
+                regime: self.regime,
                 stepping,
             }
             .advance(nodes)
@@ -187,7 +187,9 @@ impl Simulation {
         self.stats.halved += u64::from(attempted.halvings > 0);
         self.stats.safer += u64::from(attempted.safer);
         self.stats.rejected += u64::from(attempted.rejected);
-        if let Some(error) = attempted.fatal(self.time_s, self.tolerance.pressure) {
+        if let Some(error) =
+            attempted.fatal(self.time_s, self.regime.tolerance(self.march.flow).pressure)
+        {
             return Err(error);
         }
         self.time_s += attempted.dt_s;
@@ -257,6 +259,12 @@ impl Simulation {
                         .to_owned(),
                 ));
             }
+        }
+        let most = self.plan.most_force_n();
+        if knob == self.door.load_knob() && value > most * (1.0 + 1e-9) {
+            return Err(refuse(format!(
+                "at most {most:.4e} in this domain: a greater contact would reach its edge (grid.x_min_a, grid.x_max_a and grid.y_half_a widen it; a load that an event of the scene sets is foreseen)"
+            )));
         }
         let body = match knob {
             Knob::Amplitude1M => Some(0),

@@ -3,7 +3,7 @@
 use super::setup::{COARSEST, grid_of};
 use super::simulation::{DEVELOP, Phase, Simulation};
 use super::{Knob, MeshErrors, StepError};
-use crate::solve::march::{Flow, March};
+use crate::solve::march::March;
 
 impl Simulation {
     /// The next finer grid, or the reference and the development.
@@ -70,7 +70,7 @@ impl Simulation {
     /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, the
     /// finer ones lose the error of interpolation. Without a film one solve is enough.
     pub(super) fn smooth_steps(&self, nodes: usize) -> u64 {
-        if self.flow == Flow::Dry {
+        if !self.plan.has_flow() {
             return 2;
         }
         let length = self.plan.domain.x_max_a - self.plan.domain.x_min_a;

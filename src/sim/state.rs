@@ -90,7 +90,7 @@ impl Simulation {
             law: _,
             shape: _,
             flow: _,
-            tolerance: _,
+            regime: _,
             pool: _,
             phase,
             wanted,

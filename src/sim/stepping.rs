@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! 1  as asked           from the extrapolated pressure, then from the last one
-//! 2  in halves          at most twice, each part from rung 1 on
+//! 2  in halves          at most five times, each part from rung 1 on
 //! 3  on the safe side   backward Euler, symbols of the preconditioner made for this step, thrice the iterations
 //! 4  named              kept where the mass error is below 5 % (exit code 2: where and how much are told),
 //!                       else not kept: the run ends (exit code 3)
@@ -16,13 +16,16 @@ use super::frame::Metrics;
 use super::knob::Knob;
 use super::motion::Motion;
 use super::pace::{Judgement, Stepping};
+use super::regime::Regime;
 use super::terrain::Terrain;
-use crate::solve::march::{Conditions, Guess, March};
-use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
+use crate::solve::march::{Conditions, Flow, Guess, March};
+use crate::solve::newton::{NewtonReport, Verdict};
 use crate::solve::traction::TractionLaw;
 
 /// Most times a step is halved.
-const MAX_HALVINGS: u32 = 2;
+const MAX_HALVINGS: u32 = 5;
+/// Newton iterations of one step after which it is halved no more: what 32 parts cost if all coarser ones failed.
+const MOST_NEWTON: u32 = 1500;
 /// Film error above which an unconverged step is not kept: it would pump mass into the history.
 const HOPELESS: f64 = 0.05;
 
@@ -153,7 +156,7 @@ pub(super) struct Mover<'a> {
     pub(super) motion: &'a mut Motion,
     pub(super) door: &'a Door,
     pub(super) law: TractionLaw,
-    pub(super) tolerance: Tolerance,
+    pub(super) regime: Regime,
     pub(super) stepping: Stepping,
 }
 
@@ -221,7 +224,7 @@ impl Mover<'_> {
         self.place(nodes);
         if let Some(report) = self.solve(nodes, done) {
             self.commit(nodes, &report, done);
-        } else if halvings < MAX_HALVINGS {
+        } else if halvings < MAX_HALVINGS && done.newton < MOST_NEWTON {
             (*self.drive, *self.motion) = before;
             self.in_halves(nodes, halvings + 1, done);
         } else {
@@ -262,7 +265,10 @@ impl Mover<'_> {
             done.worst = Some(self.place_of(report.worst_node));
             done.overlap = done.overlap.max(report.overlap);
         }
-        if let Some((node, overlap)) = self.march.overlap_at_edge(self.tolerance.least_film) {
+        if let Some((node, overlap)) = self
+            .march
+            .overlap_at_edge(self.regime.tolerance(self.march.flow).least_film)
+        {
             // Solved as it stands; but contact reaches beyond the domain, so it is not the scene's.
             done.converged = false;
             done.worst = Some(self.place_of(node));
@@ -292,15 +298,23 @@ impl Mover<'_> {
         solve: impl FnOnce(&mut March, &Conditions) -> NewtonReport,
     ) -> NewtonReport {
         let value = |knob| self.drive.get(knob).now;
-        let medium = self
-            .door
-            .medium(value(Knob::EntrainmentMS), value(Knob::SlideRoll));
+        let flow = self.regime.flow_now(self.door, self.drive);
+        let (speed, slide_roll) = (value(Knob::EntrainmentMS), value(Knob::SlideRoll));
+        let medium = match flow {
+            Flow::Dry => self.door.medium_at_rest(),
+            Flow::Film | Flow::MassConserving => self.door.medium(speed, slide_roll),
+        };
+        let law = match flow {
+            Flow::Dry => self.law.without_film(),
+            Flow::Film | Flow::MassConserving => self.law,
+        };
         let conditions = Conditions {
             medium: &medium,
-            law: Some(&self.law),
+            law: Some(&law),
             load: self.door.load(value(self.door.load_knob())),
-            tolerance: self.tolerance,
+            tolerance: self.regime.tolerance(flow),
         };
+        self.march.flow = flow;
         solve(self.march, &conditions)
     }
 }

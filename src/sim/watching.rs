@@ -6,6 +6,7 @@ use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::{Follow, Knob, LifeEstimate};
 use crate::physics::cycles::BodyId;
+use crate::solve::march::Flow;
 use crate::solve::traction::TractionLaw;
 
 impl Simulation {
@@ -96,8 +97,17 @@ impl Simulation {
         self.metrics.repeat = Some(self.orbit.repeat(second_per_a));
     }
 
-    /// The traction law at the knobs' present values.
+    /// The traction law at the knobs' present values: of the film, if there is one, and of contact.
     pub(super) fn law_now(&self) -> TractionLaw {
+        let law = self.law_of_oil();
+        match self.regime.flow_now(&self.door, &self.drive) {
+            Flow::Dry => law.without_film(),
+            Flow::Film | Flow::MassConserving => law,
+        }
+    }
+
+    /// The same where oil flows; a step decides that for itself, because its knobs have moved on.
+    pub(super) fn law_of_oil(&self) -> TractionLaw {
         let s = self.drive.get(Knob::SlideRoll).now;
         let u = self.drive.get(Knob::EntrainmentMS).now;
         let mut law = self.law;

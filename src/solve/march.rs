@@ -72,7 +72,8 @@ pub struct March {
     mass: Vec<f64>,
     /// Film against which the last attempt judged its errors where there is less.
     least_film: f64,
-    flow: Flow,
+    /// What the next attempt solves, and the next commit stores.
+    pub flow: Flow,
     kappa: f64,
     /// The step that the preconditioner is made for.
     usual_nodes: f64,

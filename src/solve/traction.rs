@@ -43,6 +43,13 @@ pub struct FilmShear {
 }
 
 impl TractionLaw {
+    /// The law of a contact without a film.
+    #[must_use]
+    pub fn without_film(mut self) -> Self {
+        self.film = None;
+        self
+    }
+
     /// Whether a node is in contact.
     #[inline]
     pub fn is_contact(&self, p: f64, h: f64) -> bool {

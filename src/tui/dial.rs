@@ -1,5 +1,6 @@
 //! A dial: one knob on the screen, with its range, its steps and where it is going.
 
+use crate::plan::Plan;
 use crate::scene::keys::{self, Kind};
 use crate::scene::{ContactKind, Scene, Surface};
 use crate::sim::{Knob, Metrics};
@@ -168,7 +169,20 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
             Knob::EntrainmentMS => Some(speed(scene.motion.entrainment_m_s)),
         })
         .map(within_the_scenes_range)
+        .map(|dial| within_the_domain(dial, scene))
         .collect()
+}
+
+/// No dial turns the load beyond the domain of the run, which would refuse it.
+fn within_the_domain(mut dial: Dial, scene: &Scene) -> Dial {
+    if matches!(dial.knob, Knob::ForceN | Knob::ForceNPerM)
+        && let Ok(plan) = Plan::new(scene)
+    {
+        dial.max = dial.max.min(plan.most_force_n());
+        let (min, max) = (dial.min, dial.max);
+        dial.typical.retain(|value| (min..=max).contains(value));
+    }
+    dial
 }
 
 /// No dial reaches where the run would refuse to go.

@@ -72,7 +72,7 @@ impl Forced {
         match self {
             Self::WholeGrid | Self::TractionDeflection | Self::Waves => (
                 2e-3,
-                "twice the tolerance of a step: sums run in another order",
+                "twice the usual tolerance of a step: sums run in another order",
             ),
             Self::TimeSteps => (5e-3, "what the start-up had not settled"),
             Self::Rheology => (5e-3, "asinh at a large finite stress"),

@@ -20,6 +20,11 @@ use crate::scene::{Override, Scene, presets};
 /// Presets and variants of them: name, preset, settings.
 type Variant = (String, &'static str, Vec<String>);
 
+/// Tolerance of the study's steps. At the usual one (1e-3) the iteration hides the stages: in an all but dry line what
+/// each step leaves adds up to 4 % of the life in FZG's point B (3.5, 1.4 and 0 % at 1e-4, 1e-5 and 1e-6), and two runs
+/// that differ by rounding differ by as much.
+const TOLERANCE: f64 = 1e-6;
+
 /// Scenes in which stages are left out that no preset leaves out.
 const VARIANTS: [(&str, &str, &[&str]); 4] = [
     (
@@ -59,6 +64,9 @@ fn variants(extent: Extent, only: Option<&str>) -> Vec<Variant> {
             format!("time.passages={passages}"),
             "numerics.error_estimate=none".to_owned(),
             "record.every_steps=16".to_owned(),
+            // So that a difference is the stage's and not the iteration's.
+            format!("numerics.tolerance={TOLERANCE:e}"),
+            "numerics.max_iterations=60".to_owned(),
         ];
         sets.extend(nodes.map(|nodes| format!("grid.nodes={nodes}")));
         sets
@@ -163,9 +171,10 @@ pub fn pruning_table(rows: &[PruningRow]) -> Table {
 
 /// The whole report as Markdown: the table, and each stage over all scenes.
 pub fn pruning_text(rows: &[PruningRow]) -> String {
-    let mut text = String::from(
+    let mut text = format!(
         "Relative differences of the last step's fields and of life's stress factor, with the stage against without; times and work of \
-         the whole run, start-up included.\n\n",
+         the whole run, start-up included. Steps are solved to {TOLERANCE:e} of the pressure: at the usual 1e-3 two runs that differ \
+         by rounding alone differ by up to 3 % of the life where films all but close.\n\n",
     );
     text.push_str(&pruning_table(rows).markdown());
     text.push_str(

@@ -11,9 +11,10 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::trial::JUMP_AT;
 use crate::physics::hertz::Hertz;
 use crate::plan::Plan;
-use crate::scene::{Override, Scene};
+use crate::scene::{Event, Override, Scene};
 use crate::sim::Knob;
 
 /// The set, as it stands in the program.
@@ -38,6 +39,17 @@ pub enum Texture {
     Own,
 }
 
+/// Who turns a knob in mid-run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Turned {
+    /// An event of the scene: the plan foresees it.
+    #[default]
+    ByScript,
+    /// A hand: the plan does not know.
+    ByHand,
+}
+
 /// One case.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -58,6 +70,9 @@ pub struct Case {
     /// Whether the quick form runs it.
     #[serde(default)]
     pub quick: bool,
+    /// Who turns the knobs of its jumps.
+    #[serde(default)]
+    pub turned: Turned,
     /// Keys with their usual and their extreme value.
     #[serde(default)]
     pub push: BTreeMap<String, [f64; 2]>,
@@ -159,6 +174,10 @@ impl CaseSet {
                 _ => {}
             }
         }
+        let foreseen = match case.turned {
+            Turned::ByScript => &jumps[..],
+            Turned::ByHand => &[],
+        };
         let smooth = ["body_1", "body_2"].map(|body| format!("{body}.surface.kind=smooth"));
         let mut bare = texts.clone();
         bare.extend(smooth.clone());
@@ -171,7 +190,8 @@ impl CaseSet {
             Texture::Rough => {
                 // The domain, and with it the spacing, follows from the amplitude: long waves of it show both.
                 let planned = |texts: &[String]| {
-                    Plan::new(&self.load(texts)?).map_err(|error| error.to_string())
+                    Plan::new(&self.with_events(texts, foreseen)?)
+                        .map_err(|error| error.to_string())
                 };
                 let smooth = planned(&bare)?;
                 bare.extend(waves(case, &smooth, t, LONG_WAVE_NODES));
@@ -183,7 +203,7 @@ impl CaseSet {
                 texts.extend(waves(case, &rough, t, nodes));
             }
         }
-        let scene = self.load(&texts)?;
+        let scene = self.with_events(&texts, foreseen)?;
         let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
         Ok(Ready { scene, plan, jumps })
     }
@@ -195,6 +215,23 @@ impl CaseSet {
             .collect::<Result<Vec<_>, _>>()
             .map_err(|error| error.to_string())?;
         Scene::load_with(&self.scene, &overrides).map_err(|error| error.to_string())
+    }
+
+    /// The scene with its jumps as an event.
+    fn with_events(&self, texts: &[String], jumps: &[(Knob, f64)]) -> Result<Scene, String> {
+        let mut scene = self.load(texts)?;
+        if !jumps.is_empty() {
+            let length_m = 4.0 * scene.hertz().a_m * scene.time.passages;
+            scene.events.push(Event {
+                at_s: JUMP_AT * length_m / scene.motion.entrainment_m_s.abs(),
+                set: jumps
+                    .iter()
+                    .map(|(knob, value)| (knob.key().to_owned(), *value))
+                    .collect(),
+                caption: String::new(),
+            });
+        }
+        Ok(scene)
     }
 
     /// Keys that follow from others of the scene: of the ellipse and of Moes' groups.

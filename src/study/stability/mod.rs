@@ -44,6 +44,9 @@ pub struct Stability {
     pub drift: Drift,
 }
 
+/// What asks for the long run alone.
+const LONG_RUN: &str = "long run";
+
 /// Least share of the cases that must converge.
 pub const MUST_CONVERGE: f64 = 0.95;
 
@@ -70,7 +73,7 @@ impl Stability {
 }
 
 /// Runs the set, `workers` cases at a time. Quick: a part of it on 33²; usual: all on 65²; full: all on 129², and
-/// 10 000 steps on 65² in place of 1 000 on 33².
+/// 10 000 steps on 65² in place of 2 000 on 33². `only`: the cases that it is part of; "long run" that alone.
 ///
 /// # Errors
 /// [`StudyError`] when the data of the study are wrong.
@@ -99,7 +102,10 @@ pub fn stability(
         progress,
     );
     let all = cases.len() + 1;
-    let steps = if only.is_some() { 0 } else { drift_steps };
+    let steps = match only {
+        Some(part) if part != LONG_RUN => 0,
+        _ => drift_steps,
+    };
     let drift = drift::long_run(drift_nodes, steps, &mut |done| {
         progress(&format!("long run, step {done} of {steps}"), all - 1, all);
     })
@@ -180,17 +186,20 @@ pub fn stability_table(result: &Stability) -> Table {
 
 /// The whole report as Markdown.
 pub fn stability_text(result: &Stability) -> String {
-    let mut text = stability_table(result).markdown();
+    let mut text = String::new();
     let all = result.rows.len();
-    let _ = writeln!(
-        text,
-        "\n{} of {all} cases converged on {n}² ({:.0} %), {} failed by name, {} quietly.",
-        result.converged(),
-        100.0 * result.converged() as f64 / all.max(1) as f64,
-        all - result.converged() - result.quiet(),
-        result.quiet(),
-        n = result.nodes,
-    );
+    if all > 0 {
+        text.push_str(&stability_table(result).markdown());
+        let _ = writeln!(
+            text,
+            "\n{} of {all} cases converged on {n}² ({:.0} %), {} failed by name, {} quietly.",
+            result.converged(),
+            100.0 * result.converged() as f64 / all as f64,
+            all - result.converged() - result.quiet(),
+            result.quiet(),
+            n = result.nodes,
+        );
+    }
     if result.drift.steps > 0 {
         let _ = writeln!(text, "\nLong run: {}.", result.drift.text());
     }

@@ -13,7 +13,7 @@ const MOST_STEPS: u64 = 20_000;
 /// Deepest overlap of a converged contact, nm: `tests/ladder.rs` says why.
 const OVERLAP_NM: f64 = 0.5;
 /// Step of the passage at which knobs are turned, as a share of it.
-const JUMP_AT: f64 = 0.125;
+pub(super) const JUMP_AT: f64 = 0.125;
 /// Central film of the smooth start-up over the regression, where the mesh carries it. The regression itself
 /// lies 7 to 13 % below computed films for heavy loads, and knows neither Roelands' law nor compression.
 const FILM_BAND: std::ops::RangeInclusive<f64> = 0.5..=1.6;

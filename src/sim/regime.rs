@@ -1,0 +1,66 @@
+//! Which equation a step is solved by: flow in a film, or contact without one.
+//!
+//! ```text
+//! h_c(U, w) = h_c(scene) (U/U_scene)^0.67 (w/w_scene)^−0.067     central film of the smooth contact by formula
+//! flow  where h_c ≥ one layer of oil molecules (plan::MOLECULE_M) or oil cannot leave,  else  none: P ≥ 0, H ≥ 0, P H = 0
+//! ```
+//! Asked at every step with the knobs as they are, so that a speed that is turned down ends in the dry contact and
+//! one that is turned up leaves it again: pressure, film and history are the same fields in both.
+
+use super::door::Door;
+use super::drive::Drive;
+use super::knob::Knob;
+use crate::plan::{FilmPlan, Plan};
+use crate::solve::march::Flow;
+use crate::solve::newton::Tolerance;
+
+/// The rule, and the tolerances on both sides of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Regime {
+    /// Flow of the films that are films.
+    wet: Flow,
+    /// Film by formula at `speed_m_s` and `force`, the scene's; `None`: the scene has no oil.
+    film: Option<FilmPlan>,
+    speed_m_s: f64,
+    force: f64,
+    /// Of steps with flow and of steps without.
+    tolerances: [Tolerance; 2],
+}
+
+impl Regime {
+    /// The rule for a planned scene.
+    pub(super) fn new(
+        plan: &Plan,
+        wet: Flow,
+        speed_m_s: f64,
+        tolerance: impl Fn(Flow) -> Tolerance,
+    ) -> Self {
+        Self {
+            wet,
+            film: plan.film,
+            speed_m_s,
+            force: plan.force_n,
+            tolerances: [tolerance(wet), tolerance(Flow::Dry)],
+        }
+    }
+
+    /// Flow at an entrainment speed and a load.
+    pub(super) fn flow_at(&self, door: &Door, speed_m_s: f64, force: f64) -> Flow {
+        let ratio = || door.film_ratio(speed_m_s / self.speed_m_s, force / self.force);
+        match self.film {
+            Some(film) if film.times(ratio()).flows() => self.wet,
+            _ => Flow::Dry,
+        }
+    }
+
+    /// Flow at the knobs' present values.
+    pub(super) fn flow_now(&self, door: &Door, drive: &Drive) -> Flow {
+        let now = |knob| drive.get(knob).now;
+        self.flow_at(door, now(Knob::EntrainmentMS), now(door.load_knob()))
+    }
+
+    /// Tolerance of a step.
+    pub(super) fn tolerance(&self, flow: Flow) -> Tolerance {
+        self.tolerances[usize::from(flow == Flow::Dry)]
+    }
+}
