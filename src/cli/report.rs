@@ -247,8 +247,16 @@ pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
     let life = s.error_ln_life.map_or_else(String::new, |error| {
         format!(", life a factor of {:.2}", error.exp())
     });
+    let limit = match (s.h_central_extrapolated_m, s.life_extrapolated) {
+        (Some(film), Some(life)) => format!(
+            "; extrapolated: central film {:.1} nm, life {life:.4}",
+            1e9 * film
+        ),
+        (Some(film), None) => format!("; extrapolated: central film {:.1} nm", 1e9 * film),
+        _ => String::new(),
+    };
     format!(
-        "central film {}, least film {}, greatest pressure {}{life}; from {nodes} nodes in {wall_s:.1} s",
+        "central film {}, least film {}, greatest pressure {}{life}; from {nodes} nodes in {wall_s:.1} s{limit}",
         share(s.error_h_central_m, s.h_central_m),
         share(s.error_h_min_m, s.h_min_m),
         share(s.error_p_max_pa, s.p_max_pa),

@@ -9,6 +9,11 @@
 //! All buffers are made in [`Filter::new`]; work is split in fixed blocks, so that the result does
 //! not depend on the number of threads.
 
+mod moves;
+#[cfg(test)]
+mod tests;
+mod weights;
+
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -16,6 +21,9 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftNum, FftPlanner};
 
+pub use weights::Weights;
+
+use self::moves::{accumulate, copy_row, gather, multiply, scatter};
 use super::even_transform::EvenTransform;
 use super::grid::{Grid, Symmetry};
 
@@ -41,58 +49,6 @@ pub enum Parity {
     Even,
     /// i times real and odd: kernels that are odd in x. The symbol given is its imaginary part at kx ≥ 0.
     OddInX,
-}
-
-/// Weights of the images of a filter, `[row][symbol][i]`, and which rows have any.
-pub struct Weights<T> {
-    nx: usize,
-    values: Vec<T>,
-    /// `[row][symbol]`
-    used: Vec<bool>,
-    /// Of each symbol, whether any row is used.
-    any: Vec<bool>,
-}
-
-impl<T: FftNum> Weights<T> {
-    /// Weights of zero for `n_symbols` symbols.
-    pub fn new(grid: &Grid, n_symbols: usize) -> Self {
-        Self {
-            nx: grid.nx,
-            values: vec![T::zero(); n_symbols * grid.len()],
-            used: vec![false; n_symbols * grid.ny],
-            any: vec![false; n_symbols],
-        }
-    }
-
-    /// Sets row after row: `set` fills a row's weights, one symbol after the other.
-    pub fn set_rows(&mut self, set: impl Fn(usize, &mut [T]) + Sync) {
-        let (nx, n_symbols) = (self.nx, self.any.len());
-        self.values
-            .par_chunks_mut(n_symbols * nx)
-            .zip(self.used.par_chunks_mut(n_symbols))
-            .enumerate()
-            .with_min_len(8)
-            .for_each(|(j, (values, used))| {
-                set(j, values);
-                for (used, values) in used.iter_mut().zip(values.chunks_exact(nx)) {
-                    *used = values.iter().any(|v| !v.is_zero());
-                }
-            });
-        for (b, any) in self.any.iter_mut().enumerate() {
-            *any = self
-                .used
-                .iter()
-                .skip(b)
-                .step_by(n_symbols)
-                .any(|&used| used);
-        }
-    }
-
-    /// Weights of row `j` for symbol `b`; `None`: it has none.
-    fn row(&self, j: usize, b: usize) -> Option<&[T]> {
-        let at = j * self.any.len() + b;
-        self.used[at].then(|| &self.values[at * self.nx..(at + 1) * self.nx])
-    }
 }
 
 /// Buffers of one block of rows.
@@ -343,57 +299,6 @@ impl<T: FftNum> Filter<T> {
     }
 }
 
-/// The row of a real transform of length `lx`, periodic.
-fn copy_row<T: FftNum>(real: &[T], lx: usize, row: &mut [T]) {
-    let n = row.len().min(lx);
-    row[..n].copy_from_slice(&real[..n]);
-    if row.len() > lx {
-        row[lx] = real[0];
-    }
-}
-
-dispatched! {
-/// `row += weight . real`.
-fn accumulate<T: FftNum>(real: &[T], weight: &[T], row: &mut [T]) {
-    let n = real.len().min(row.len());
-    let (real, weight, row) = (&real[..n], &weight[..n], &mut row[..n]);
-    for i in 0..n {
-        row[i] = row[i] + real[i] * weight[i];
-    }
-}
-}
-
-dispatched! {
-/// Rows `first..first + n_rows` of the columns, `stride` apart, as contiguous spectra: eight rows at a time,
-/// because a column's values of neighbouring rows share a cache line.
-fn scatter<T: FftNum>(
-    columns: &[Complex<T>],
-    (n_kx, stride): (usize, usize),
-    first: usize,
-    n_rows: usize,
-    spectra: &mut [Complex<T>],
-) {
-    if n_rows == ROWS {
-        let (spectra, _) = spectra.split_at_mut(ROWS * n_kx);
-        for kx in 0..n_kx {
-            let column: &[Complex<T>; ROWS] = columns[kx * stride + first..]
-                .first_chunk()
-                .expect("a column has all rows");
-            for r in 0..ROWS {
-                spectra[r * n_kx + kx] = column[r];
-            }
-        }
-        return;
-    }
-    for kx in 0..n_kx {
-        let column = &columns[kx * stride + first..][..n_rows];
-        for (r, &v) in column.iter().enumerate() {
-            spectra[r * n_kx + kx] = v;
-        }
-    }
-}
-}
-
 impl<T: FftNum> Columns<T> {
     /// The transforms for length `ly`, the values of a column, the scratch.
     fn plan(symmetry: Symmetry, ly: usize) -> (Self, usize, usize) {
@@ -436,119 +341,6 @@ impl<T: FftNum> Columns<T> {
         match self {
             Self::Whole { inverse, .. } => inverse.process_with_scratch(line, scratch),
             Self::Even(even) => even.process(line, work, scratch),
-        }
-    }
-}
-
-dispatched! {
-/// Columns `k0..k0+width` of the row spectra as contiguous lines of length `len`, [`GAP`] apart.
-fn gather<T: FftNum>(
-    rows: &[Complex<T>],
-    n_kx: usize,
-    k0: usize,
-    width: usize,
-    ny: usize,
-    len: usize,
-    line: &mut [Complex<T>],
-) {
-    let stride = len + GAP;
-    let n = ny.min(len);
-    for j in 0..n {
-        let row = &rows[j * n_kx + k0..][..width];
-        for (c, &v) in row.iter().enumerate() {
-            line[c * stride + j] = v;
-        }
-    }
-    for c in 0..width {
-        line[c * stride + n..c * stride + len].fill(Complex::new(T::zero(), T::zero()));
-    }
-}
-}
-
-dispatched! {
-/// `out = line . symbol`.
-fn multiply<T: FftNum>(line: &[Complex<T>], symbol: &[T], out: &mut [Complex<T>]) {
-    let n = out.len();
-    let (line, symbol) = (&line[..n], &symbol[..n]);
-    for k in 0..n {
-        out[k] = Complex::new(line[k].re * symbol[k], line[k].im * symbol[k]);
-    }
-}
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::kernel_symbol::{even_kernel_symbol, odd_kernel_symbol};
-    use super::*;
-
-    fn direct(grid: &Grid, p: &[f64], kernel: impl Fn(usize, usize) -> f64) -> Vec<f64> {
-        let nyf = grid.ny_full();
-        let full = |j: usize, i: usize| p[grid.stored_row(j) * grid.nx + i];
-        let mut out = vec![0.0; grid.len()];
-        for j in 0..nyf {
-            for i in 0..grid.nx {
-                let mut sum = 0.0;
-                for jj in 0..nyf {
-                    for ii in 0..grid.nx {
-                        sum += kernel(i.abs_diff(ii), j.abs_diff(jj)) * full(jj, ii);
-                    }
-                }
-                out[grid.stored_row(j) * grid.nx + i] = sum;
-            }
-        }
-        out
-    }
-
-    #[test]
-    fn doubled_filter_is_the_direct_sum() {
-        for symmetry in [Symmetry::General, Symmetry::MirrorY, Symmetry::Line] {
-            let grid = Grid::new(9, -1.0, 1.0, 1.0, symmetry);
-            let kernel = |i: usize, j: usize| 1.0 / (1.0 + i as f64 + 0.5 * (j * j) as f64);
-            let mut p = vec![0.0; grid.len()];
-            for j in grid.interior_rows() {
-                for i in 1..grid.nx - 1 {
-                    p[j * grid.nx + i] = ((3 * i + 7 * j) % 5) as f64 - 1.3;
-                }
-            }
-            let mut filter = Filter::<f64>::new(&grid, Padding::Doubled, 1);
-            let symbol = even_kernel_symbol(filter.lx(), filter.ly(), kernel);
-            let nky = filter.ly() / 2 + 1;
-            filter.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
-            let mut out = vec![f64::NAN; grid.len()];
-            filter.apply(&p, &mut out);
-            let expected = direct(&grid, &p, kernel);
-            for (a, b) in out.iter().zip(&expected) {
-                assert!((a - b).abs() < 1e-12, "{symmetry:?}: {a} {b}");
-            }
-        }
-    }
-
-    #[test]
-    fn odd_filter_is_the_direct_sum() {
-        let grid = Grid::new(9, -1.0, 1.0, 1.0, Symmetry::General);
-        let kernel = |i: usize, j: usize| i as f64 / (1.0 + (i * i) as f64 + 0.3 * (j * j) as f64);
-        let mut p = vec![0.0; grid.len()];
-        for j in 1..8 {
-            for i in 1..8 {
-                p[j * 9 + i] = ((5 * i + 3 * j) % 7) as f64 - 2.1;
-            }
-        }
-        let mut filter = Filter::<f64>::new(&grid, Padding::Doubled, 1).odd_in_x();
-        let symbol = odd_kernel_symbol(filter.lx(), filter.ly(), kernel);
-        let nky = filter.ly() / 2 + 1;
-        filter.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
-        let mut out = vec![f64::NAN; grid.len()];
-        filter.apply(&p, &mut out);
-        for j in 0..9_usize {
-            for i in 0..9_usize {
-                let mut sum = 0.0;
-                for (n, &value) in p.iter().enumerate() {
-                    let (ii, jj) = (n % 9, n / 9);
-                    let sign = if i >= ii { 1.0 } else { -1.0 };
-                    sum += sign * kernel(i.abs_diff(ii), j.abs_diff(jj)) * value;
-                }
-                assert!((out[j * 9 + i] - sum).abs() < 1e-12, "{i} {j}");
-            }
         }
     }
 }

@@ -133,6 +133,11 @@ pub struct Summary {
     pub error_p_max_pa: Option<f64>,
     /// Same of ln `life_relative`; with it, the ends of life's band are `life_relative * exp(-+ error)`.
     pub error_ln_life: Option<f64>,
+    /// `life_relative` extrapolated to no spacing and no time step from the run and its companion on half the
+    /// nodes, at second order (Richardson); `None`: there was no companion.
+    pub life_extrapolated: Option<f64>,
+    /// Same of `h_central_m`, m.
+    pub h_central_extrapolated_m: Option<f64>,
 }
 
 /// The point of a surface whose damage is greatest.

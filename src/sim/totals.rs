@@ -185,6 +185,8 @@ pub(super) fn summary(
         error_h_min_m: None,
         error_p_max_pa: None,
         error_ln_life: None,
+        life_extrapolated: None,
+        h_central_extrapolated_m: None,
     }
 }
 

@@ -19,6 +19,7 @@ mod newton_rows;
 pub mod precondition;
 pub mod reynolds;
 mod reynolds_rows;
+mod shift;
 pub mod stress;
 mod tally;
 pub mod tangential;

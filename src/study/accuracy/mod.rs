@@ -13,7 +13,7 @@ mod row;
 mod smooth;
 mod stress;
 
-pub use passage::{LifeLimit, LifeRun, Setting};
+pub use passage::{LifeLimit, LifeRun, LifeValue, Setting};
 pub use plot::{life_plot, work_precision_plot};
 pub use report::{accuracy_table, accuracy_text};
 pub use row::{AccuracyRow, Against, Part, Varied};
@@ -86,8 +86,8 @@ impl Sizes {
                 smooth: &[33, 65, 129],
                 stress: &[32, 64, 128, 256],
                 samples: &[2, 4, 8, 16, 32, 64],
-                whole: &[65, 129],
-                whole_base: (65, 0.5),
+                whole: &[65, 129, 257],
+                whole_base: (129, 1.0),
                 steps: &[4.0, 2.0, 1.0, 0.5, 0.25],
                 rough: &[33, 65, 129],
                 rough_base: (65, 0.5),

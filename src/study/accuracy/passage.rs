@@ -185,11 +185,32 @@ pub(super) fn rough(series: &[Series], threads: usize) -> Result<Vec<AccuracyRow
     Ok(rows)
 }
 
+/// How a life was had.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LifeValue {
+    /// As computed.
+    Computed,
+    /// Extrapolated from the run and its companion on half the nodes (`life_extrapolated` of a summary).
+    Extrapolated,
+}
+
+impl LifeValue {
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Computed => "computed",
+            Self::Extrapolated => "extrapolated",
+        }
+    }
+}
+
 /// A whole run, what it cost, and its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LifeRun {
     /// Settings.
     pub setting: Setting,
+    /// How its life was had.
+    pub value: LifeValue,
     /// Relative life.
     pub life: f64,
     /// |ln| of it over the limit of all runs.
@@ -247,6 +268,7 @@ pub(super) fn life(
             row.value = Some(life);
             runs.push(LifeRun {
                 setting: *setting,
+                value: LifeValue::Computed,
                 life,
                 error: 0.0,
                 seconds: ran.seconds,
@@ -257,10 +279,32 @@ pub(super) fn life(
         rows.extend(of_one);
     }
     let limit = limit(series, &runs);
+    let with_companions = extrapolated(&runs);
+    runs.extend(with_companions);
     for run in &mut runs {
         run.error = (run.life / limit.life).ln().abs();
     }
     Ok((rows, runs, limit))
+}
+
+/// Every run whose companion on half the nodes is there too; the companion's time counts.
+fn extrapolated(runs: &[LifeRun]) -> Vec<LifeRun> {
+    let companion = |of: &LifeRun| {
+        let setting = Setting {
+            nodes: (of.setting.nodes - 1) / 2 + 1,
+            ..of.setting
+        };
+        runs.iter().find(|run| run.setting == setting)
+    };
+    let pairs = runs.iter().filter_map(|run| Some((run, companion(run)?)));
+    pairs
+        .map(|(fine, coarse)| LifeRun {
+            value: LifeValue::Extrapolated,
+            life: fine.life * (fine.life / coarse.life).cbrt(),
+            seconds: fine.seconds + coarse.seconds,
+            ..*fine
+        })
+        .collect()
 }
 
 fn is_of(row: &AccuracyRow, setting: Setting) -> bool {
@@ -302,7 +346,7 @@ pub(super) fn cheapest(runs: &[LifeRun], error: f64) -> Option<&LifeRun> {
     let robust = |run: &&LifeRun| {
         let mut finer = runs
             .iter()
-            .filter(|other| other.setting.is_as_fine_as(run.setting));
+            .filter(|other| other.value == run.value && other.setting.is_as_fine_as(run.setting));
         finer.all(|other| other.error <= error)
     };
     let good = runs.iter().filter(robust);
@@ -321,6 +365,7 @@ mod tests {
                 step,
                 ..Setting::USUAL
             },
+            value: LifeValue::Computed,
             life: 1.0,
             error,
             seconds,

@@ -1,6 +1,6 @@
 //! Work-precision diagrams.
 
-use super::{Accuracy, LEVELS, Part, Varied};
+use super::{Accuracy, LEVELS, LifeRun, Part, Varied};
 use crate::observe::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
 
 /// Error against time over the nodes (cycles: the samples), one curve a part.
@@ -40,17 +40,18 @@ pub fn work_precision_plot(result: &Accuracy) -> Result<String, String> {
 /// What the drawing library says.
 pub fn life_plot(result: &Accuracy) -> Result<String, String> {
     let all = result.lives.iter().filter(|run| run.error > 0.0);
-    let mut sizes: Vec<usize> = all.clone().map(|run| run.setting.nodes).collect();
-    sizes.sort_unstable();
-    sizes.dedup();
-    let curves: Vec<Curve> = sizes
+    let kind = |run: &LifeRun| (run.value.name(), run.setting.nodes);
+    let mut kinds: Vec<_> = all.clone().map(kind).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let curves: Vec<Curve> = kinds
         .iter()
-        .map(|&nodes| {
-            let of_size = all.clone().filter(|run| run.setting.nodes == nodes);
+        .map(|&(value, nodes)| {
+            let of_size = all.clone().filter(|run| kind(run) == (value, nodes));
             let mut points: Vec<(f64, f64)> = of_size.map(|run| (run.seconds, run.error)).collect();
             points.sort_by(|one, two| one.0.total_cmp(&two.0));
             Curve {
-                name: format!("{nodes}²"),
+                name: format!("{nodes}², {value}"),
                 points,
                 mark: Mark::Computed,
             }

@@ -81,7 +81,9 @@ fn push_lives(text: &mut String, result: &Accuracy) {
         "\n## Life of the default scene, {} passages\n\n\
          Limit {:.5}, extrapolated from the two finest with order 2; it lies {:.2} % from the finest, and no error below \
          that is known.\n\n\
-         | N | step | tolerance | depths | relative life | error | s |\n|---|---|---|---|---|---|---|",
+         *Extrapolated*: with a companion on half the nodes, which a run has by default, as `life_extrapolated`; its time \
+         is in.\n\n\
+         | N | step | tolerance | depths | value | relative life | error | s |\n|---|---|---|---|---|---|---|---|",
         result.passages,
         result.limit.life,
         100.0 * result.limit.uncertainty
@@ -90,11 +92,12 @@ fn push_lives(text: &mut String, result: &Accuracy) {
         let s = run.setting;
         let _ = writeln!(
             text,
-            "| {} | {} | {:e} | {} | {:.5} | {:.2} % | {:.2} |",
+            "| {} | {} | {:e} | {} | {} | {:.5} | {:.2} % | {:.2} |",
             s.nodes,
             s.step,
             s.tolerance,
             s.depths,
+            run.value.name(),
             run.life,
             100.0 * run.error,
             run.seconds
@@ -108,8 +111,9 @@ fn push_lives(text: &mut String, result: &Accuracy) {
         let _ = match result.recommended(level) {
             Some(run) => writeln!(
                 text,
-                "- {} % in life: `{}` ({:.2} %, {:.1} s)",
+                "- {} % in life, {}: `{}` ({:.2} %, {:.1} s)",
                 100.0 * level,
+                run.value.name(),
                 run.setting.command(),
                 100.0 * run.error,
                 run.seconds
