@@ -141,7 +141,7 @@ mod test {
             let file = std::fs::File::open(path.unwrap().path()).unwrap();
             let reader = std::io::BufReader::new(file);
             let messages = DecoderApp::decode_eager(reader).unwrap();
-            let read = messages.map(|message| message.unwrap()).count();
+            let read = messages.inspect(|message| assert!(message.is_ok())).count();
             assert!(read > GOOD as usize / 8, "{read} messages");
         }
     }
