@@ -435,7 +435,6 @@ fn behind_a_queue_nothing_is_lost() {
     assert_eq!(contents.rows("maps/film_um/image", false), STEPS as usize);
 }
 
-/// A block comes when material has crossed, and is logged when it changes.
 /// Eight frames with a map of that body from the third on, whole from the sixth on.
 fn with_damage(body: usize) -> Vec<Arc<Frame>> {
     let block = |filled: usize| DamageBlock {
@@ -464,6 +463,7 @@ fn with_damage(body: usize) -> Vec<Arc<Frame>> {
         .collect()
 }
 
+/// A block comes when material has crossed, and is logged when it changes.
 #[test]
 fn damage_maps_come_when_they_are_there_and_change() {
     let folder = tempfile::tempdir().unwrap();
