@@ -65,8 +65,6 @@ pub struct March {
     pub newton: Newton,
     /// Solver of dry contacts; `None`: there is a film.
     pub dry: Option<Dry>,
-    /// Gap less the oil in it.
-    filled: Vec<f64>,
     c_star: Vec<f64>,
     s: Vec<f64>,
     mass: Vec<f64>,
@@ -186,7 +184,6 @@ impl March {
             gap: macroscopic.clone(),
             macroscopic,
             newton,
-            filled: zero.clone(),
             c_star: zero.clone(),
             s: zero.clone(),
             mass: zero,
@@ -208,9 +205,6 @@ impl March {
             Guess::Extrapolated => {
                 history.predict(&self.grid, nodes, &mut self.state.pressure);
                 self.state.h0 = history.h0[0];
-                if self.flow != Flow::Dry && self.is_nearly_closed(conditions) {
-                    self.guess_without_flow(conditions);
-                }
             }
             Guess::Last => {
                 self.state.pressure.copy_from_slice(&history.pressure_1);

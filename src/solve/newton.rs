@@ -15,19 +15,17 @@
 use rayon::prelude::*;
 
 pub use super::converge::{CARRIED, NewtonReport, OVERLAP, Tolerance, Verdict};
-use super::converge::{Sums, left_of, sum_row};
+use super::converge::{FIRST_FORCING, Sums, forcing_after, left_of, sum_row};
 use super::film::Elastic;
 use super::jacobian::Jacobian;
 use super::krylov::Krylov;
 use super::newton_rows::{film_row, move_pressure, set_rhs, split_row};
 use super::precondition::Preconditioner;
-use super::reynolds::{Medium, Reynolds};
+use super::reynolds::{Linearisation, Medium, Reynolds};
 use super::tangential::Shear;
 use super::traction::TractionLaw;
 use crate::math::grid::Grid;
 
-/// Reduction asked of the linear solve: tighter costs more than the Newton iterations it saves.
-const FORCING: f64 = 0.1;
 /// Most halvings of the line search.
 const MAX_HALVINGS: u32 = 4;
 
@@ -87,6 +85,8 @@ pub struct Newton {
 
 struct Evaluation {
     merit: f64,
+    /// Merit over that before the iteration.
+    reduction: f64,
     film_error: f64,
     mass_error: f64,
     load: f64,
@@ -137,6 +137,7 @@ impl Newton {
             worst_node: 0,
         };
         let mut now = self.evaluate(problem, iterate, &mut report);
+        let mut forcing = FIRST_FORCING;
         loop {
             // Dry: there is no flow whose mass could be lost.
             (report.film_error, report.mass_error) = if problem.medium.lambda.is_finite() {
@@ -159,8 +160,9 @@ impl Newton {
                 return report;
             }
             report.iterations += 1;
-            let h0_step = self.linear_step(problem, iterate, now.load, &mut report);
+            let h0_step = self.linear_step(problem, iterate, now.load, forcing, &mut report);
             now = self.line_search(problem, iterate, h0_step, &mut report);
+            forcing = forcing_after(now.reduction);
         }
     }
 
@@ -238,6 +240,7 @@ impl Newton {
         let mass = total.mass.max(f64::MIN_POSITIVE);
         Evaluation {
             merit: total.merit,
+            reduction: 1.0,
             film_error: total.film / mass,
             mass_error: total.lost / mass,
             load: total.load,
@@ -286,19 +289,21 @@ impl Newton {
         problem: &Problem,
         iterate: &Iterate,
         load: f64,
+        forcing: f64,
         report: &mut NewtonReport,
     ) -> f64 {
         let grid = problem.grid;
         let any_fixed = self.split(grid, iterate.p);
-        self.reynolds.linearise(
-            grid,
-            problem.medium.lambda,
-            iterate.p,
-            iterate.h,
-            problem.s,
-            &self.active,
-            &mut self.jacobian,
-        );
+        let at = Linearisation {
+            p: iterate.p,
+            h: iterate.h,
+            c_star: problem.c_star,
+            s: problem.s,
+            lambda: problem.medium.lambda,
+            k00: self.elastic.k00,
+            active: &self.active,
+        };
+        self.reynolds.linearise(grid, &at, &mut self.jacobian);
         set_rhs(
             &self.reynolds.residual,
             &self.reynolds.row_scale,
@@ -338,7 +343,7 @@ impl Newton {
             &mut self.precondition,
             &self.rhs,
             missing,
-            FORCING,
+            forcing,
             super::krylov::MAX_ITERATIONS,
             &mut self.v,
         );
@@ -366,8 +371,9 @@ impl Newton {
             let (moved, total) = move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
-            let new = self.evaluate(problem, iterate, report);
-            report.left = left_of(report.change, new.merit, base);
+            let mut new = self.evaluate(problem, iterate, report);
+            new.reduction = new.merit / base;
+            report.left = left_of(report.change, new.reduction);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
                 return new;
             }

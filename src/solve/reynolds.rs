@@ -18,11 +18,14 @@
 //! equation is the dry contact condition ρ̄H = C* ≥ 0. Second order. Tests: `tests/ehl_smooth.rs`.
 //! Sources: Venner and Lubrecht (2000) for the scaling; Hu and Zhu (2000) for the unified view.
 
+mod closing;
 mod linearise;
 
 use rayon::prelude::*;
 
-use super::faces::{Faces, Nodes, Slopes, conductances};
+pub use linearise::Linearisation;
+
+use super::faces::{Faces, Nodes, conductances};
 use super::jacobian::Jacobian;
 use super::reynolds_rows::{balance_row, density_values, finish_row, shear_values};
 use crate::math::grid::Grid;
@@ -50,9 +53,6 @@ struct Scratch {
     /// Faces below and above the row at hand.
     south: Faces,
     north: Faces,
-    /// ∂q/∂P and ∂q/∂H of the row below, at hand and above.
-    q_p: [Vec<f64>; 2],
-    q_h: [Vec<f64>; 2],
 }
 
 /// Node properties and the residual of the current iterate.
@@ -67,6 +67,9 @@ pub struct Reynolds {
     /// ρ̄ and its derivative.
     rho: Vec<f64>,
     rho_p: Vec<f64>,
+    /// ∂q/∂P and ∂q/∂H of the linearisation (`closing.rs`).
+    q_p: Vec<f64>,
+    q_h: Vec<f64>,
     /// Conductance over λ of the faces with the eastern neighbour and with the row above.
     east: Vec<f64>,
     north: Vec<f64>,
@@ -92,8 +95,6 @@ impl Reynolds {
                 east: Faces::new(grid.nx),
                 south: Faces::new(grid.nx),
                 north: Faces::new(grid.nx),
-                q_p: [vec![0.0; grid.nx], vec![0.0; grid.nx]],
-                q_h: [vec![0.0; grid.nx], vec![0.0; grid.nx]],
             })
             .collect();
         Self {
@@ -104,6 +105,8 @@ impl Reynolds {
             ln_g_h: zero.clone(),
             rho: vec![1.0; n],
             rho_p: zero.clone(),
+            q_p: zero.clone(),
+            q_h: zero.clone(),
             east: zero.clone(),
             north: zero.clone(),
             scratch,
@@ -240,17 +243,10 @@ impl Reynolds {
             });
     }
 
-    /// The derivative of F, rows divided by `row_scale`; rows where `active` is false are zero.
-    pub fn linearise(
-        &mut self,
-        grid: &Grid,
-        lambda: f64,
-        p: &[f64],
-        h: &[f64],
-        s: &[f64],
-        active: &[bool],
-        jacobian: &mut Jacobian,
-    ) {
+    /// The derivative of F, rows divided by `row_scale`; rows that are not active are zero. Not the tangent where films
+    /// close or are about to open (`closing.rs`); at a solution it is.
+    pub fn linearise(&mut self, grid: &Grid, at: &Linearisation, jacobian: &mut Jacobian) {
+        self.fill_slopes(grid, at);
         let interior = grid.interior_rows();
         let mut scratch = std::mem::take(&mut self.scratch);
         let this = &*self;
@@ -263,28 +259,14 @@ impl Reynolds {
             .for_each(|(b, (rows, scratch))| {
                 for (k, row) in rows.chunks_exact_mut(row_len).enumerate() {
                     let j = b * ROWS + k;
-                    if !interior.contains(&j) {
+                    if interior.contains(&j) {
+                        this.linearise_row(grid, at, j, scratch, row);
+                    } else {
                         row.fill(0.0);
-                        continue;
                     }
-                    this.linearise_row(grid, lambda, p, h, s, active, j, scratch, row);
                 }
             });
         self.scratch = scratch;
-    }
-
-    fn slopes<'a>(
-        &'a self,
-        range: std::ops::Range<usize>,
-        q_p: &'a [f64],
-        q_h: &'a [f64],
-    ) -> Slopes<'a> {
-        Slopes {
-            q_p,
-            q_h,
-            ln_g_p: &self.ln_g_p[range.clone()],
-            ln_g_h: &self.ln_g_h[range],
-        }
     }
 }
 
@@ -298,6 +280,9 @@ mod tests {
     use super::*;
     use crate::math::grid::Symmetry;
     use crate::solve::film::{Elastic, macroscopic_gap};
+
+    /// C* so large that no film closes: every slope is the tangent.
+    const RICH: f64 = 1e3;
 
     /// F at fixed C*, s for pressure `p` and approach `h0`.
     fn residual_of(
@@ -317,7 +302,7 @@ mod tests {
         }
         let mut reynolds = Reynolds::new(grid);
         reynolds.properties(grid, medium, p, &h);
-        let (c, s) = (vec![0.1; n], vec![0.05; n]);
+        let (c, s) = (vec![RICH; n], vec![0.05; n]);
         reynolds.residual(grid, elastic.k00, medium.lambda, p, &h, &c, &s);
         (reynolds, h)
     }
@@ -345,8 +330,17 @@ mod tests {
             let (h0, dh0, step) = (-0.1, 0.4, 1e-6);
             let (mut reynolds, h) = residual_of(&grid, &mut elastic, &medium, &p, h0);
             let mut jacobian = Jacobian::new(&grid);
-            let (s, active) = (vec![0.05; n], vec![true; n]);
-            reynolds.linearise(&grid, medium.lambda, &p, &h, &s, &active, &mut jacobian);
+            let (c, s, active) = (vec![RICH; n], vec![0.05; n], vec![true; n]);
+            let at = Linearisation {
+                p: &p,
+                h: &h,
+                c_star: &c,
+                s: &s,
+                lambda: medium.lambda,
+                k00: elastic.k00,
+                active: &active,
+            };
+            reynolds.linearise(&grid, &at, &mut jacobian);
             let v32: Vec<f32> = v.iter().map(|&v| v as f32).collect();
             let (mut w, mut out) = (vec![0.0_f32; n], vec![0.0_f32; n]);
             elastic.deflect_single(&v32, &mut w);

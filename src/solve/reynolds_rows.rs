@@ -131,20 +131,6 @@ pub(super) fn finish_row(
 }
 
 dispatched! {
-/// ∂q/∂P and ∂q/∂H.
-pub(super) fn conductance_slopes(rho: &[f64], rho_p: &[f64], h: &[f64], q_p: &mut [f64], q_h: &mut [f64]) {
-    let n = rho.len();
-    let (rho_p, h, q_p, q_h) = (&rho_p[..n], &h[..n], &mut q_p[..n], &mut q_h[..n]);
-    for i in 0..n {
-        let open = h[i].max(0.0);
-        let square = open * open;
-        q_p[i] = rho_p[i] * square * open;
-        q_h[i] = 3.0 * rho[i] * square;
-    }
-}
-}
-
-dispatched! {
 /// ∂(ρ̄H)/∂P and ∂(ρ̄H)/∂H.
 pub(super) fn storage_row(rho: &[f64], rho_p: &[f64], h: &[f64], a_p: &mut [f32], a_h: &mut [f32]) {
     let n = rho.len();

@@ -1,135 +1,235 @@
 //! One grid row of the linearised equation: storage, then the flow through the faces around each node.
 
+use rayon::prelude::*;
+
+use super::super::faces::{Faces, Nodes, Slopes};
 use super::super::jacobian::STENCIL;
-use super::super::reynolds_rows::{conductance_slopes, flow_row, scale_row, storage_row};
-use super::{Reynolds, Scratch};
+use super::super::reynolds_rows::{flow_row, scale_row, storage_row};
+use super::closing::{conductance_slopes, keep_rising};
+use super::{ROWS, Reynolds, Scratch};
 use crate::math::grid::Grid;
 
+/// The point of linearisation and what of it is asked.
+#[derive(Clone, Copy)]
+pub struct Linearisation<'a> {
+    /// P, shape ny × nx.
+    pub p: &'a [f64],
+    /// H.
+    pub h: &'a [f64],
+    /// C*.
+    pub c_star: &'a [f64],
+    /// s.
+    pub s: &'a [f64],
+    /// λ.
+    pub lambda: f64,
+    /// K00.
+    pub k00: f64,
+    /// Rows asked for; the others are zero.
+    pub active: &'a [bool],
+}
+
 impl Reynolds {
+    /// ∂q/∂P and ∂q/∂H of all nodes.
+    pub(super) fn fill_slopes(&mut self, grid: &Grid, at: &Linearisation) {
+        let block = ROWS * grid.nx;
+        let (rho, rho_p, f) = (&self.rho, &self.rho_p, &self.residual);
+        self.q_p
+            .par_chunks_mut(block)
+            .zip(self.q_h.par_chunks_mut(block))
+            .enumerate()
+            .for_each(|(b, (q_p, q_h))| {
+                let here = b * block..b * block + q_p.len();
+                conductance_slopes(
+                    &rho[here.clone()],
+                    &rho_p[here.clone()],
+                    &at.h[here.clone()],
+                    &f[here.clone()],
+                    &at.c_star[here],
+                    q_p,
+                    q_h,
+                );
+            });
+    }
+
+    /// Fills `faces` between the runs of nodes that begin at `a` and `b`.
+    fn fill_run(&self, a: usize, b: usize, len: usize, faces: &mut Faces) {
+        let run = |start: usize| {
+            let range = start..start + len;
+            let nodes = Nodes {
+                q: &self.q[range.clone()],
+                g: &self.g[range.clone()],
+                ln_g: &self.ln_g[range.clone()],
+            };
+            let slopes = Slopes {
+                q_p: &self.q_p[range.clone()],
+                q_h: &self.q_h[range.clone()],
+                ln_g_p: &self.ln_g_p[range.clone()],
+                ln_g_h: &self.ln_g_h[range],
+            };
+            (nodes, slopes)
+        };
+        let ((nodes_a, slopes_a), (nodes_b, slopes_b)) = (run(a), run(b));
+        faces.fill(nodes_a, slopes_a, nodes_b, slopes_b);
+    }
+
+    /// The ten lines of grid row `j`.
     pub(super) fn linearise_row(
         &self,
         grid: &Grid,
-        lambda: f64,
-        p: &[f64],
-        h: &[f64],
-        s: &[f64],
-        active: &[bool],
+        at: &Linearisation,
         j: usize,
         scratch: &mut Scratch,
         row: &mut [f32],
     ) {
         let nx = grid.nx;
-        let range = |j: usize| j * nx..(j + 1) * nx;
-        let here = range(j);
-        let [q_p, other_q_p] = &mut scratch.q_p;
-        let [q_h, other_q_h] = &mut scratch.q_h;
-        let slopes = |range: std::ops::Range<usize>, q_p: &mut [f64], q_h: &mut [f64]| {
-            conductance_slopes(
-                &self.rho[range.clone()],
-                &self.rho_p[range.clone()],
-                &h[range],
-                q_p,
-                q_h,
-            );
-        };
-        slopes(here.clone(), q_p, q_h);
-        let (start, end) = (here.start, here.end);
-        scratch.east.fill(
-            self.nodes(start..end - 1),
-            self.slopes(start..end - 1, &q_p[..nx - 1], &q_h[..nx - 1]),
-            self.nodes(start + 1..end),
-            self.slopes(start + 1..end, &q_p[1..], &q_h[1..]),
-        );
-        for (faces, neighbour) in [
-            (&mut scratch.south, grid.row_below(j)),
-            (&mut scratch.north, grid.row_above(j)),
-        ] {
-            let there = range(neighbour);
-            slopes(there.clone(), other_q_p, other_q_h);
-            faces.fill(
-                self.nodes(here.clone()),
-                self.slopes(here.clone(), q_p, q_h),
-                self.nodes(there.clone()),
-                self.slopes(there, other_q_p, other_q_h),
-            );
-        }
-        let (wx, wy) = grid.flow_weights();
-        let (south, north) = (range(grid.row_below(j)), range(grid.row_above(j)));
-        let s = &s[here.clone()];
-        let row_scale = &self.row_scale[here.clone()];
-        let active = &active[here.clone()];
-        let p_here = &p[here.clone()];
+        let (start, south, north) = (j * nx, grid.row_below(j) * nx, grid.row_above(j) * nx);
+        let here = start..start + nx;
+        self.fill_run(start, start + 1, nx - 1, &mut scratch.east);
+        self.fill_run(start, south, nx, &mut scratch.south);
+        self.fill_run(start, north, nx, &mut scratch.north);
         row.fill(0.0);
-        let (a_p, a_h) = row.split_at_mut(STENCIL * nx);
-        let mut lines_p = a_p.chunks_exact_mut(nx);
-        let mut lines_h = a_h.chunks_exact_mut(nx);
-        let mut next = || {
-            let p = lines_p.next().expect("ten lines a row");
-            let h = lines_h.next().expect("ten lines a row");
-            (p, h)
-        };
-        let (own_p, own_h) = next();
-        storage_row(
-            &self.rho[here.clone()],
-            &self.rho_p[here.clone()],
-            &h[here],
-            own_p,
-            own_h,
-        );
-        let (west_p, west_h) = next();
-        let (east_p, east_h) = next();
-        let x = &scratch.east;
-        // The western face is the eastern one of the node before, seen from its other side.
-        flow_row(
-            &x.tau,
-            &x.p_b,
-            &x.h_b,
-            &x.p_a,
-            &x.h_a,
-            &p_here[1..],
-            &p_here[..nx - 1],
-            &s[1..],
-            wx / lambda,
-            &mut own_p[1..],
-            &mut own_h[1..],
-            &mut west_p[1..],
-            &mut west_h[1..],
-        );
-        flow_row(
-            &x.tau,
-            &x.p_a,
-            &x.h_a,
-            &x.p_b,
-            &x.h_b,
-            p_here,
-            &p_here[1..],
-            s,
-            wx / lambda,
-            &mut own_p[..nx - 1],
-            &mut own_h[..nx - 1],
-            &mut east_p[..nx - 1],
-            &mut east_h[..nx - 1],
-        );
-        for (y, neighbour) in [(&scratch.south, south), (&scratch.north, north)] {
-            let (other_p, other_h) = next();
-            flow_row(
-                &y.tau,
-                &y.p_a,
-                &y.h_a,
-                &y.p_b,
-                &y.h_b,
-                p_here,
-                &p[neighbour],
-                s,
-                wy / lambda,
+        {
+            let mut lines = Lines::of(row, nx);
+            let (own_p, own_h) = lines.next();
+            storage_row(
+                &self.rho[here.clone()],
+                &self.rho_p[here.clone()],
+                &at.h[here.clone()],
                 own_p,
                 own_h,
-                other_p,
-                other_h,
+            );
+            flow_along(
+                grid,
+                at,
+                start,
+                scratch,
+                (&mut *own_p, &mut *own_h),
+                &mut lines,
+            );
+            flow_across(
+                grid,
+                at,
+                [start, south, north],
+                scratch,
+                (own_p, own_h),
+                &mut lines,
             );
         }
+        let (own_p, own_h) = row.split_at_mut(STENCIL * nx);
+        keep_rising(
+            &self.rho[here.clone()],
+            at.k00,
+            &own_p[..nx],
+            &mut own_h[..nx],
+        );
         for line in row.chunks_exact_mut(nx) {
-            scale_row(row_scale, active, line);
+            scale_row(
+                &self.row_scale[here.clone()],
+                &at.active[here.clone()],
+                line,
+            );
         }
+    }
+}
+
+/// The lines of a grid row, pair after pair: ∂F/∂P and ∂F/∂H of one neighbour.
+struct Lines<'a> {
+    p: std::slice::ChunksExactMut<'a, f32>,
+    h: std::slice::ChunksExactMut<'a, f32>,
+}
+
+impl<'a> Lines<'a> {
+    fn of(row: &'a mut [f32], nx: usize) -> Self {
+        let (a_p, a_h) = row.split_at_mut(STENCIL * nx);
+        Self {
+            p: a_p.chunks_exact_mut(nx),
+            h: a_h.chunks_exact_mut(nx),
+        }
+    }
+
+    fn next(&mut self) -> (&'a mut [f32], &'a mut [f32]) {
+        let p = self.p.next().expect("ten lines a row");
+        let h = self.h.next().expect("ten lines a row");
+        (p, h)
+    }
+}
+
+/// Flow through the western and the eastern faces.
+fn flow_along(
+    grid: &Grid,
+    at: &Linearisation,
+    start: usize,
+    scratch: &Scratch,
+    (own_p, own_h): (&mut [f32], &mut [f32]),
+    lines: &mut Lines,
+) {
+    let nx = grid.nx;
+    let weight = grid.flow_weights().0 / at.lambda;
+    let (p, s) = (&at.p[start..start + nx], &at.s[start..start + nx]);
+    let x = &scratch.east;
+    let (west_p, west_h) = lines.next();
+    // The western face is the eastern one of the node before, seen from its other side.
+    flow_row(
+        &x.tau,
+        &x.p_b,
+        &x.h_b,
+        &x.p_a,
+        &x.h_a,
+        &p[1..],
+        &p[..nx - 1],
+        &s[1..],
+        weight,
+        &mut own_p[1..],
+        &mut own_h[1..],
+        &mut west_p[1..],
+        &mut west_h[1..],
+    );
+    let (east_p, east_h) = lines.next();
+    flow_row(
+        &x.tau,
+        &x.p_a,
+        &x.h_a,
+        &x.p_b,
+        &x.h_b,
+        p,
+        &p[1..],
+        s,
+        weight,
+        &mut own_p[..nx - 1],
+        &mut own_h[..nx - 1],
+        &mut east_p[..nx - 1],
+        &mut east_h[..nx - 1],
+    );
+}
+
+/// Flow through the faces with the rows below and above; `rows` are the starts of the row itself and of those two.
+fn flow_across(
+    grid: &Grid,
+    at: &Linearisation,
+    rows: [usize; 3],
+    scratch: &Scratch,
+    (own_p, own_h): (&mut [f32], &mut [f32]),
+    lines: &mut Lines,
+) {
+    let nx = grid.nx;
+    let weight = grid.flow_weights().1 / at.lambda;
+    let [start, south, north] = rows;
+    for (y, neighbour) in [(&scratch.south, south), (&scratch.north, north)] {
+        let (other_p, other_h) = lines.next();
+        flow_row(
+            &y.tau,
+            &y.p_a,
+            &y.h_a,
+            &y.p_b,
+            &y.h_b,
+            &at.p[start..start + nx],
+            &at.p[neighbour..neighbour + nx],
+            &at.s[start..start + nx],
+            weight,
+            own_p,
+            own_h,
+            other_p,
+            other_h,
+        );
     }
 }
