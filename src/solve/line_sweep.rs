@@ -134,6 +134,8 @@ impl LineSweep {
             .par_chunks_mut(nx)
             .zip(mine.r.par_chunks_mut(nx))
             .enumerate()
+            // A block takes less than a microsecond: two make a task worth handing over.
+            .with_min_len(2)
             .for_each(|(block, (z, own))| {
                 if let Some(r) = r {
                     for lane in 0..LANES {
@@ -195,7 +197,8 @@ fn gather_row(jacobian: &Jacobian, j: usize, extra: &[f32], lane: usize, factors
 }
 
 dispatched! {
-/// From coefficients (the diagonal in `inverse`) to factors.
+/// From coefficients (the diagonal in `inverse`) to factors. The upper ones are over their pivots, so that one
+/// multiplication and addition a node is all that waits for the node before.
 fn eliminate(factors: &mut [Factor]) {
     let (mut upper, mut inverse) = (ZERO, ZERO);
     for f in factors {
@@ -208,6 +211,9 @@ fn eliminate(factors: &mut [Factor]) {
         }
         upper = f.upper;
         inverse = f.inverse;
+        for k in 0..LANES {
+            f.upper[k] *= inverse[k];
+        }
     }
 }
 }
@@ -222,14 +228,14 @@ fn sweep_block(factors: &[Factor], r: &[Lane], south: &[Lane], north: &[Lane], z
         for k in 0..LANES {
             let free = r[i][k] - f.south[k] * south[i][k] - f.north[k] * north[i][k];
             carry[k] = free - f.lower[k] * carry[k];
+            z[i][k] = carry[k] * f.inverse[k];
         }
-        z[i] = carry;
     }
     carry = ZERO;
     for i in (1..nx - 1).rev() {
         let f = &factors[i];
         for k in 0..LANES {
-            carry[k] = (z[i][k] - f.upper[k] * carry[k]) * f.inverse[k];
+            carry[k] = z[i][k] - f.upper[k] * carry[k];
         }
         z[i] = carry;
     }
