@@ -64,6 +64,11 @@ impl Sample {
     }
 }
 
+/// Mean film (in a²/R; the next one in m) below which there is none to compare: about a nanometre, where oil is no
+/// continuum and the film of a dry contact is what its solver leaves.
+const CLOSED_FILM: f64 = 1e-4;
+const CLOSED_FILM_M: f64 = 1e-9;
+
 /// Sums over one window of 4 a.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 struct Means {
@@ -190,6 +195,7 @@ impl Orbit {
             terms.map(|(s, w)| w * f64::from(of(s)[n])).sum()
         };
         let (mut moved_p, mut all_p, mut moved_h, mut all_h) = (0.0, 0.0, 0.0, 0.0);
+        let mut closed = 0.0;
         for (n, &p) in self.reference.pressure.iter().enumerate() {
             if p > 0.0 {
                 moved_p += (at(n, |s| &s.pressure) - f64::from(p)).abs();
@@ -197,10 +203,16 @@ impl Orbit {
                 let h = f64::from(self.reference.film[n]);
                 moved_h += (at(n, |s| &s.film) - h).abs();
                 all_h += h;
+                closed += CLOSED_FILM;
             }
         }
         let share = |moved: f64, all: f64| moved / all.max(f64::MIN_POSITIVE);
-        share(moved_p, all_p).max(share(moved_h, all_h))
+        let film = if all_h > closed {
+            share(moved_h, all_h)
+        } else {
+            0.0
+        };
+        share(moved_p, all_p).max(film)
     }
 
     fn push_means(&mut self, way: f64, step: f64, m: &Metrics) {
@@ -221,7 +233,9 @@ impl Orbit {
         }
         let now = self.means.sums.map(|sum| sum / length);
         if let Some(before) = self.before {
-            let relative = |k: usize| (now[k] - before[k]).abs() / before[k].abs().max(1e-300);
+            // Means of a closed film may differ by what is no film.
+            let least = [CLOSED_FILM_M, CLOSED_FILM_M, f64::MIN_POSITIVE];
+            let relative = |k: usize| (now[k] - before[k]).abs() / before[k].abs().max(least[k]);
             let contact = (now[3] - before[3]).abs();
             self.drift = Some(relative(0).max(relative(1)).max(relative(2)).max(contact));
         }
