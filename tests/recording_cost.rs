@@ -11,6 +11,7 @@
 #![cfg(feature = "rerun")]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -23,6 +24,10 @@ use asperity::sim::{Frame, Simulation, Stage};
 /// Steps of a block: an eighth of a passage.
 const BLOCK: usize = 16;
 const BLOCKS: usize = 24;
+/// Of the recorder alone.
+const ROUNDS: usize = 4;
+/// From frame to frame of the recorder alone, as long as a step takes.
+const PACE: Duration = Duration::from_millis(9);
 
 struct Run {
     sim: Simulation,
@@ -61,6 +66,9 @@ impl Run {
     }
 }
 
+/// Names of the threads that record, as the system cuts them.
+const RECORDING: [&str; 3] = ["record", "ChunkBatcher::c", "RecordingStream"];
+
 /// Processor seconds of the threads of those names, which the system cuts at 15 bytes.
 fn seconds_of(names: &[&str]) -> f64 {
     let Ok(tasks) = std::fs::read_dir("/proc/self/task") else {
@@ -76,11 +84,15 @@ fn seconds_of(names: &[&str]) -> f64 {
     tasks.flatten().filter_map(|task| of(task.path())).sum()
 }
 
-fn measure(threads: usize) {
+fn scene() -> Scene {
     let mut scene = Scene::load(presets::DEFAULT).unwrap();
     scene.time.passages = 2.0 + (BLOCKS * BLOCK) as f64 / 128.0;
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("cost.rrd");
+    scene
+}
+
+/// A queue with a recorder behind it that has begun.
+fn recorder(scene: &Scene, folder: &Path) -> Queue {
+    let path = folder.join("cost.rrd");
     let record = scene.record.clone().unwrap();
     let recorder = Recorder::create(&path, Overwrite::Refuse, &record).unwrap();
     let mut queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
@@ -92,9 +104,15 @@ fn measure(threads: usize) {
         began: Began::FromScene,
     };
     queue.begin(&context).unwrap();
+    queue
+}
+
+fn measure(threads: usize) {
+    let scene = scene();
+    let folder = tempfile::tempdir().unwrap();
+    let queue = recorder(&scene, folder.path());
     let mut plain = Run::new(&scene, threads, None);
     let mut recorded = Run::new(&scene, threads, Some(queue));
-    let threads_of_ours = ["record", "ChunkBatcher::c", "RecordingStream"];
     let (mut without, mut with) = (Vec::new(), Vec::new());
     for block in 0..BLOCKS {
         if block % 2 == 0 {
@@ -105,7 +123,7 @@ fn measure(threads: usize) {
             without.push(plain.block());
         }
     }
-    let used = seconds_of(&threads_of_ours);
+    let used = seconds_of(&RECORDING);
     let mut queue = recorded.queue.take().unwrap();
     let stats = queue.stats();
     let bytes = queue.finish().unwrap().bytes;
@@ -144,5 +162,36 @@ fn measure(threads: usize) {
 fn recording_costs_less_than_a_twentieth() {
     for threads in [1, 2] {
         measure(threads);
+    }
+}
+
+/// The recorder alone, at the pace of the solver: for profiles, in which the solver would hide it.
+#[test]
+#[ignore = "measures times: run it by hand on a machine at rest"]
+fn the_recorder_alone() {
+    let scene = scene();
+    let mut run = Run::new(&scene, 2, None);
+    let frames: Vec<Arc<Frame>> = (0..BLOCKS * BLOCK)
+        .map(|_| {
+            run.sim.step().unwrap();
+            let mut frame = Frame::default();
+            run.sim.fill(&mut frame);
+            Arc::new(frame)
+        })
+        .collect();
+    for _ in 0..ROUNDS {
+        let folder = tempfile::tempdir().unwrap();
+        let mut queue = recorder(&scene, folder.path());
+        for frame in &frames {
+            queue.frame(frame).unwrap();
+            std::thread::sleep(PACE);
+        }
+        let used = RECORDING.map(|name| 1e3 * seconds_of(&[name]) / frames.len() as f64);
+        let bytes = queue.finish().unwrap().bytes;
+        println!(
+            "{:.3} ms of processor a frame ({used:.3?} in {RECORDING:?}); {:.1} MB",
+            used.iter().sum::<f64>(),
+            bytes as f64 * 1e-6
+        );
     }
 }
