@@ -315,8 +315,10 @@ fn send_with(
     };
     blueprint.send(&draft, not_yet)?;
     draft.flush_blocking()?;
-    let mut messages: Vec<LogMsg> = storage
-        .take()
+    let messages = storage.take();
+    // Its sink holds it: it would live for ever, with its threads.
+    draft.disconnect();
+    let mut messages: Vec<LogMsg> = messages
         .into_iter()
         .filter(|message| message.store_id().is_blueprint())
         .filter(|message| !matches!(message, LogMsg::BlueprintActivationCommand(_)))
@@ -335,12 +337,10 @@ fn send_with(
         extra.log(path.as_str(), value.as_ref())?;
     }
     extra.flush_blocking()?;
-    messages.extend(
-        storage
-            .take()
-            .into_iter()
-            .filter(|message| matches!(message, LogMsg::ArrowMsg(..))),
-    );
+    let properties = storage.take();
+    extra.disconnect();
+    let properties = properties.into_iter();
+    messages.extend(properties.filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
     let activation = BlueprintActivationCommand {
         blueprint_id: id,
         make_active: true,

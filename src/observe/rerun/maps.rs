@@ -1,7 +1,7 @@
 //! Maps of the contact plane seen from above: x to the right (rolling direction), y up, mm.
 
-use rerun::components::{Colormap, ImageBuffer, ImageFormat};
-use rerun::{AnnotationContext, ChannelDatatype, Rgba32, SegmentationImage};
+use rerun::components::{Colormap, ImageFormat};
+use rerun::{AnnotationContext, AsComponents, ChannelDatatype, Rgba32, SegmentationImage};
 
 use super::colour::WHITE;
 use super::geometry::Geometry;
@@ -9,6 +9,7 @@ use super::interferogram::Interferogram;
 use super::plot::{PlotBox, log_hertz, ticks_at};
 use super::raster::{Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
+use super::waiting::ClassImage;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MPA, Ranges, UM, ticks};
 use crate::sim::Frame;
@@ -37,6 +38,7 @@ pub(super) struct Maps {
     traction: Raster,
     roughness: [Option<Raster>; 2],
     interferogram: Interferogram,
+    contact: ClassImage,
     scales: Vec<(&'static str, Scale)>,
 }
 
@@ -83,6 +85,7 @@ impl Maps {
             traction: map(TRACTION, signed, "shear")?,
             roughness: [rough_map(0, ROUGHNESS_1)?, rough_map(1, ROUGHNESS_2)?],
             interferogram: Interferogram::new(stream, geometry)?,
+            contact: stream.class_image(CONTACT),
             scales,
         };
         log_contact_style(stream, geometry)?;
@@ -120,17 +123,14 @@ impl Maps {
         self.pressure.log(stream, top_down(g, &frame.pressure_pa))?;
         self.film.log(stream, top_down(g, &frame.film_m))?;
         let top = self.film_top_m() as f32;
-        let mut spots = Vec::with_capacity(g.nx * g.ny);
-        let films = top_down(g, &frame.film_m);
-        for (touches, film) in top_down(g, &frame.contact).zip(films) {
-            let pairs = touches.iter().zip(film);
-            spots.extend(pairs.map(|(&touches, &film)| match (touches, film > top) {
-                (0, false) => CLASS_FILM,
-                (0, true) => CLASS_THICK,
-                _ => CLASS_CONTACT,
-            }));
-        }
-        stream.log(CONTACT, &classes(spots))
+        stream.log_classes(self.contact, |classes| {
+            let films = top_down(g, &frame.film_m);
+            for (touches, film) in top_down(g, &frame.contact).zip(films) {
+                let from = classes.len();
+                classes.resize(from + g.nx, CLASS_FILM);
+                classify_row(touches, film, top, &mut classes[from..]);
+            }
+        })
     }
 
     /// Logs what stands beside them in a tab of its own: interferogram, shear, roughness.
@@ -147,8 +147,13 @@ impl Maps {
     }
 }
 
-pub(super) fn classes(bytes: Vec<u8>) -> SegmentationImage {
-    SegmentationImage::update_fields().with_buffer(ImageBuffer::from(bytes))
+dispatched! {
+    fn classify_row(touches: &[u8], film: &[f32], top: f32, classes: &mut [u8]) {
+        for ((out, &touches), &film) in classes.iter_mut().zip(touches).zip(film) {
+            let apart = if film > top { CLASS_THICK } else { CLASS_FILM };
+            *out = if touches == 0 { apart } else { CLASS_CONTACT };
+        }
+    }
 }
 
 /// A field's rows from the upper one (greatest y) down.
@@ -187,8 +192,6 @@ fn log_contact_style(stream: &Stream, g: Geometry) -> Result<(), ObserveError> {
         .with_format(format)
         .with_opacity(1.0)
         .with_draw_order(5.0);
-    stream.log_static(CONTACT, &image)?;
-    stream.log_static(CONTACT, &pixels.transform())?;
     let context = AnnotationContext::new([
         (
             CLASS_FILM.into(),
@@ -207,5 +210,8 @@ fn log_contact_style(stream: &Stream, g: Geometry) -> Result<(), ObserveError> {
             Rgba32::from_rgb(30, 33, 40),
         ),
     ]);
-    stream.log_static(CONTACT, &context)
+    stream.log_static(
+        CONTACT,
+        &[&image as &dyn AsComponents, &pixels.transform(), &context],
+    )
 }

@@ -131,6 +131,8 @@ pub(super) struct Slice {
     tau_xz: Raster,
     plot: PlotBox,
     scales: [(&'static str, Scale); 2],
+    /// Depth of the path that was logged last.
+    path_m: Option<f64>,
 }
 
 impl Slice {
@@ -179,6 +181,7 @@ impl Slice {
             rows,
             plot,
             scales,
+            path_m: None,
         }))
     }
 
@@ -197,7 +200,7 @@ impl Slice {
     }
 
     /// Logs one frame's slice. A frame without a slice changes nothing.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let nx = self.geometry.nx;
         let Some(slice) = frame.slice.as_ref().filter(|s| self.rows.hold(s, nx)) else {
             return Ok(());
@@ -220,17 +223,20 @@ impl Slice {
     }
 
     /// The followed point and the depth on which it travels.
-    fn log_point(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    fn log_point(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let Some(point) = frame.material_point.filter(|point| point.body == 1) else {
             return Ok(());
         };
         let (x, z) = ((point.x_m * MM) as f32, (point.depth_m * MM) as f32);
         let [left, right] = self.plot.x.map(|x| x as f32);
-        let path = LineStrips2D::new([[[left, z], [right, z]]])
-            .with_colors([faded(GREEN, 130)])
-            .with_radii([Radius::new_ui_points(0.5)])
-            .with_draw_order(18.0);
-        stream.log(format!("{POINT}/path"), &path)?;
+        if self.path_m != Some(point.depth_m) {
+            self.path_m = Some(point.depth_m);
+            let path = LineStrips2D::new([[[left, z], [right, z]]])
+                .with_colors([faded(GREEN, 130)])
+                .with_radii([Radius::new_ui_points(0.5)])
+                .with_draw_order(18.0);
+            stream.log(format!("{POINT}/path"), &path)?;
+        }
         if !(left..=right).contains(&x) {
             let nothing = Points2D::new(std::iter::empty::<[f32; 2]>());
             return stream.log(format!("{POINT}/now"), &nothing);

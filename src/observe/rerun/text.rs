@@ -69,7 +69,7 @@ pub(super) fn log_notes<'a>(
 ) -> Result<(), ObserveError> {
     let mut notes = format!(
         "# Notes on the data\n\n{cadence} Interferogram, traction, \
-         roughness and shear stress take every second of them.\n\n{exaggeration}\n\nMaps are stored in 16 bits: value = \
+         roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in 16 bits: value = \
          stored number / `meter`, in the unit of the entity's name. Colours have the same range in \
          every frame; values above it take the top colour.\n\n| entity | colours up to | stored \
          range | smallest difference |\n|---|---|---|---|\n"

@@ -5,7 +5,7 @@ use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32}
 use super::super::colour::{GREY, Ramp, WHITE, faded};
 use super::super::mesh::{Window, triangles};
 use super::super::stream::Stream;
-use super::{SPACE, Space, steel};
+use super::{BODIES, FILM, SLICE, SPACE, Space, steel};
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, number, ticks};
 
@@ -20,13 +20,9 @@ impl Space {
                 .with_albedo_factor(albedo);
             stream.log_static(format!("{SPACE}/{name}"), &mesh)
         };
-        sheet(
-            "film_coloured_by_pressure",
-            &self.film,
-            [255, 255, 255, 255],
-        )?;
-        sheet("body_1_surface", &self.bodies, [200, 222, 245, 255])?;
-        sheet("body_2_surface", &self.bodies, [250, 222, 190, 150])?;
+        sheet(FILM, &self.film, [255, 255, 255, 255])?;
+        sheet(BODIES[0], &self.bodies, [200, 222, 245, 255])?;
+        sheet(BODIES[1], &self.bodies, [250, 222, 190, 150])?;
         self.log_smooth_bodies(stream)?;
         self.log_cut(stream)?;
         self.log_legends(stream)?;
@@ -35,17 +31,16 @@ impl Space {
 
     /// The sheets of smooth bodies never change.
     fn log_smooth_bodies(&self, stream: &Stream) -> Result<(), ObserveError> {
-        let bodies = [
-            (0, "body_1_surface", self.levels.body_1),
-            (1, "body_2_surface", self.levels.body_2),
-        ];
-        for (body, name, level) in bodies {
+        for (body, level) in [self.levels.body_1, self.levels.body_2]
+            .into_iter()
+            .enumerate()
+        {
             if !self.tops.rough[body] {
-                let n = self.bodies.nodes().len();
-                let sheet = self
-                    .bodies
-                    .sheet(&vec![level as f32; n], &vec![steel(1.0); n]);
-                stream.log_static(format!("{SPACE}/{name}"), &sheet)?;
+                let places = self.bodies.xy().iter();
+                let sheet = Mesh3D::update_fields()
+                    .with_vertex_positions(places.map(|&[x, y]| [x, y, level as f32]))
+                    .with_vertex_colors(vec![steel(1.0); self.bodies.nodes().len()]);
+                stream.log_static(format!("{SPACE}/{}", BODIES[body]), &sheet)?;
             }
         }
         Ok(())
@@ -65,7 +60,7 @@ impl Space {
         });
         let mesh = Mesh3D::new(positions)
             .with_triangle_indices(triangles(sheet.columns.len(), sheet.rows.len()));
-        let entity = format!("{SPACE}/effective_stress_slice");
+        let entity = format!("{SPACE}/{SLICE}");
         stream.log_static(
             entity.as_str(),
             // Colours come with every frame: static ones would hide them.
