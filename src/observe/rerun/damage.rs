@@ -115,6 +115,12 @@ impl Block {
             sign: Sign::Both,
             colours: Colormap::Magma,
         };
+        let style = Points2D::update_fields()
+            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
+            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
+            .with_show_labels(true)
+            .with_draw_order(26.0);
+        stream.log_static(worst_point(entity), &style)?;
         Ok(Some(Self {
             entity,
             raster: Raster::new(
@@ -168,12 +174,13 @@ impl Block {
         );
         // In the middle below, where it hides little and is not cut off.
         let label_at = [0.5 * WIDTH, 0.86 * HEIGHT].map(|v| v as f32);
-        let pit = Points2D::new([at, label_at])
-            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
-            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
-            .with_labels([String::new(), label])
-            .with_show_labels(true)
-            .with_draw_order(26.0);
-        stream.log(format!("{}/worst_point", self.entity), &pit)
+        let pit = Points2D::update_fields()
+            .with_positions([at, label_at])
+            .with_labels([String::new(), label]);
+        stream.log(&worst_point(self.entity), &pit)
     }
+}
+
+fn worst_point(entity: &str) -> String {
+    format!("{entity}/worst_point")
 }

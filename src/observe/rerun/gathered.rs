@@ -10,7 +10,7 @@ use rerun::external::arrow::array::{UInt8Array, UInt32Array};
 use rerun::external::arrow::buffer::{Buffer, OffsetBuffer, ScalarBuffer};
 use rerun::external::arrow::datatypes::{ArrowNativeType, DataType, Field};
 use rerun::log::{Chunk, ChunkError, ChunkId};
-use rerun::{ComponentDescriptor, EntityPath, Mesh3D, SerializedComponentColumn};
+use rerun::{ComponentDescriptor, EntityPath, LineStrips2D, Mesh3D, SerializedComponentColumn};
 
 use super::stream::{Moment, time_columns};
 
@@ -64,6 +64,13 @@ struct Rows {
 }
 
 impl Rows {
+    fn of(entity: EntityPath) -> Self {
+        Self {
+            entity,
+            moments: Vec::new(),
+        }
+    }
+
     fn chunk(&mut self, columns: Vec<SerializedComponentColumn>) -> Result<Chunk, ChunkError> {
         let moments = std::mem::take(&mut self.moments);
         chunk_of(self.entity.clone(), &moments, columns)
@@ -100,10 +107,7 @@ impl<T: ArrowNativeType> Images<T> {
     /// Of an entity, in that component.
     pub(super) fn new(entity: EntityPath, buffer: ComponentDescriptor) -> Self {
         Self {
-            rows: Rows {
-                entity,
-                moments: Vec::new(),
-            },
+            rows: Rows::of(entity),
             buffer,
             pixels: Column::default(),
         }
@@ -150,10 +154,7 @@ impl Sheets {
     /// Of an entity.
     pub(super) fn new(entity: EntityPath) -> Self {
         Self {
-            rows: Rows {
-                entity,
-                moments: Vec::new(),
-            },
+            rows: Rows::of(entity),
             positions: Column::default(),
             colours: Column::default(),
         }
@@ -187,18 +188,105 @@ impl Sheets {
         )];
         let (numbers, ends) = self.positions.take();
         if !numbers.is_empty() {
-            let length = numbers.len() / size_of::<f32>();
-            let numbers = Float32Array::new(ScalarBuffer::new(numbers, 0, length), None);
-            let item = Arc::new(Field::new("item", DataType::Float32, false));
-            let places = FixedSizeListArray::new(item, 3, Arc::new(numbers), None);
             let ends: Vec<usize> = ends.into_iter().map(|end| end / 3).collect();
             columns.push(SerializedComponentColumn::new(
-                list(Arc::new(places), &ends, Nullable::Yes),
+                list(points(numbers, 3), &ends, Nullable::Yes),
                 Mesh3D::descriptor_vertex_positions(),
             ));
         }
         Some(self.rows.chunk(columns))
     }
+}
+
+/// Curves of one entity in a plot.
+#[derive(Debug)]
+pub(super) struct Strips {
+    rows: Rows,
+    pen: Pen,
+    /// Curves up to the end of each row.
+    ends: Vec<usize>,
+}
+
+/// Draws curves.
+#[derive(Debug)]
+pub(super) struct Pen {
+    /// x and y of each point; a row for each curve.
+    points: Column<f32>,
+}
+
+impl Pen {
+    /// Goes on to a point.
+    pub(super) fn to(&mut self, at: [f32; 2]) {
+        self.points.values.extend_from_slice(&at);
+    }
+
+    /// Ends a curve; a single point is none.
+    pub(super) fn lift(&mut self) {
+        let from = self.points.ends.last().copied().unwrap_or(0);
+        if self.points.values.len() > from + 2 {
+            self.points.end_row();
+        } else {
+            self.points.values.truncate(from);
+        }
+    }
+
+    /// A whole curve.
+    pub(super) fn draw(&mut self, curve: &[[f32; 2]]) {
+        self.points.values.extend(curve.iter().flatten());
+        self.lift();
+    }
+}
+
+impl Strips {
+    /// Of an entity.
+    pub(super) fn new(entity: EntityPath) -> Self {
+        Self {
+            rows: Rows::of(entity),
+            pen: Pen {
+                points: Column::default(),
+            },
+            ends: Vec::new(),
+        }
+    }
+
+    /// Adds the curves of a moment; how many bytes they have.
+    pub(super) fn push(&mut self, at: Moment, fill: impl FnOnce(&mut Pen)) -> usize {
+        let before = self.pen.points.values().len();
+        self.rows.moments.push(at);
+        fill(&mut self.pen);
+        self.pen.lift();
+        self.ends.push(self.pen.points.ends.len());
+        size_of::<f32>() * (self.pen.points.values.len() - before)
+    }
+
+    /// Takes what is there as a chunk.
+    pub(super) fn take(&mut self) -> Option<Result<Chunk, ChunkError>> {
+        if self.rows.moments.is_empty() {
+            return None;
+        }
+        let (numbers, ends) = self.pen.points.take();
+        let ends: Vec<usize> = ends.into_iter().map(|end| end / 2).collect();
+        let curves = list(points(numbers, 2), &ends, Nullable::No);
+        let rows = std::mem::take(&mut self.ends);
+        let column = SerializedComponentColumn::new(
+            list(Arc::new(curves), &rows, Nullable::Yes),
+            LineStrips2D::descriptor_strips(),
+        );
+        Some(self.rows.chunk(vec![column]))
+    }
+}
+
+/// Points of two or three numbers.
+fn points(numbers: Buffer, dimensions: i32) -> ArrayRef {
+    let length = numbers.len() / size_of::<f32>();
+    let numbers = Float32Array::new(ScalarBuffer::new(numbers, 0, length), None);
+    let item = Arc::new(Field::new("item", DataType::Float32, false));
+    Arc::new(FixedSizeListArray::new(
+        item,
+        dimensions,
+        Arc::new(numbers),
+        None,
+    ))
 }
 
 /// Whether a list may leave out items, as the library's outer lists may and its blobs may not.
@@ -265,6 +353,31 @@ mod tests {
             drop(images.take());
         }
         assert!(held.is_none());
+    }
+
+    #[test]
+    fn curves_are_those_that_the_library_would_make() {
+        let curve = [[0.0, 1.0], [0.5, -1.0], [2.0, 0.25]];
+        let rows: [&[&[[f32; 2]]]; 3] = [&[&curve, &curve[1..]], &[], &[&curve[..2]]];
+        let mut strips = Strips::new(entity());
+        for (step, row) in (1..).zip(rows) {
+            strips.push(moment(step), |pen| {
+                for curve in row {
+                    pen.draw(curve);
+                    // No curve.
+                    pen.draw(&curve[..1]);
+                }
+            });
+        }
+        let chunk = strips.take().expect("curves").expect("a chunk");
+        for (row, curves) in rows.into_iter().enumerate() {
+            let theirs = LineStrips2D::new(curves.iter().map(|curve| curve.to_vec()));
+            let batch = &theirs.as_serialized_batches()[0];
+            let ours = chunk.component_batch_raw(batch.descriptor.component, row);
+            let ours = ours.expect("a row").expect("a value");
+            assert_eq!(*ours, *batch.array);
+        }
+        assert!(strips.take().is_none());
     }
 
     #[test]

@@ -6,9 +6,7 @@
 //! the thickness.
 
 use rerun::components::{ImageBuffer, ImageFormat};
-use rerun::{
-    AnnotationContext, AnnotationInfo, ChannelDatatype, EntityPath, Rgba32, SegmentationImage,
-};
+use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
 
 use super::colour::{GREY, LIGHTS_NM, REFRACTIVE_INDEX, WHITE, interference};
 use super::geometry::Geometry;
@@ -158,7 +156,7 @@ impl Interferogram {
 
     fn log_static(&self, stream: &Stream) -> Result<(), ObserveError> {
         let pixels = self.pixels();
-        log_styled(stream, entity(), &styled(&pixels), &pixels)?;
+        log_styled(stream, &entity(), &styled(&pixels), &pixels)?;
         let context = AnnotationContext::new((0..256_u16).map(|class| {
             let [r, g, b] = interference(thickness_um(class));
             AnnotationInfo {
@@ -186,7 +184,7 @@ impl Interferogram {
         let entity = format!("{INTERFEROGRAM}/legend/bar");
         let ramp: Vec<u8> = (1..=255).rev().collect();
         let image = styled(&bar).with_buffer(ImageBuffer::from(ramp));
-        log_styled(stream, entity.into(), &image, &bar)?;
+        log_styled(stream, &entity, &image, &bar)?;
         let mut labels = Labels::default();
         let top = 255.0 * STEP_UM;
         for value in ticks(0.0, top, 5) {
@@ -198,8 +196,8 @@ impl Interferogram {
     }
 }
 
-fn entity() -> EntityPath {
-    EntityPath::from(format!("{INTERFEROGRAM}/image"))
+fn entity() -> String {
+    format!("{INTERFEROGRAM}/image")
 }
 
 fn styled(pixels: &Pixels) -> SegmentationImage {

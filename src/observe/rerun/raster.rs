@@ -6,7 +6,7 @@
 //! scripts get the value back in the unit of the entity's name.
 
 use rerun::components::{Colormap, ImageBuffer, ImageFormat, MagnificationFilter};
-use rerun::{AsComponents, ChannelDatatype, DepthImage, EntityPath, Transform3D};
+use rerun::{AsComponents, ChannelDatatype, DepthImage, Transform3D};
 
 use super::colour::WHITE;
 use super::plot::{Labels, PlotBox};
@@ -173,7 +173,7 @@ pub(super) enum Height {
 /// An image of a field that changes.
 #[derive(Debug, Clone)]
 pub(super) struct Raster {
-    entity: EntityPath,
+    entity: String,
     image: LevelImage,
     scale: Scale,
     columns: usize,
@@ -189,18 +189,18 @@ impl Raster {
         plot: &PlotBox,
         (title, height): (&str, Height),
     ) -> Result<Self, ObserveError> {
-        let place = EntityPath::from(format!("{entity}/image"));
+        let place = format!("{entity}/image");
         let format = ImageFormat::depth(pixels.resolution(), scale.datatype());
         // What is logged once holds for ever, so the size of a growing picture may not be.
         let fixed = match height {
             Height::Fixed => styled(&scale).with_format(format),
             Height::Growing => styled(&scale),
         };
-        log_styled(stream, place.clone(), &fixed, &pixels)?;
+        log_styled(stream, &place, &fixed, &pixels)?;
         plot.log(stream, &format!("{entity}/axes"))?;
         log_legend(stream, &format!("{entity}/legend"), &scale, plot, title)?;
         Ok(Self {
-            image: stream.level_image(place.clone()),
+            image: stream.level_image(place.as_str()),
             entity: place,
             scale,
             columns: pixels.columns,
@@ -223,14 +223,14 @@ impl Raster {
         let data = DepthImage::update_fields()
             .with_buffer(self.scale.quantised(values_si))
             .with_format(ImageFormat::depth(resolution, self.scale.datatype()));
-        stream.log(self.entity.clone(), &data)
+        stream.log(&self.entity, &data)
     }
 }
 
 /// Logs how an image looks and where it is.
 pub(super) fn log_styled(
     stream: &Stream,
-    entity: EntityPath,
+    entity: &str,
     style: &dyn AsComponents,
     pixels: &Pixels,
 ) -> Result<(), ObserveError> {
@@ -273,7 +273,7 @@ fn log_legend(
     let image = styled(scale)
         .with_format(ImageFormat::depth(pixels.resolution(), scale.datatype()))
         .with_buffer(scale.quantised(&ramp));
-    log_styled(stream, bar.into(), &image, &pixels)?;
+    log_styled(stream, &bar, &image, &pixels)?;
 
     let mut labels = Labels::default();
     let values = match scale.sign {

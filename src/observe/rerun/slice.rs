@@ -21,6 +21,7 @@ pub(super) const EFFECTIVE: &str = "slice_y0/effective_stress_GPa";
 pub(super) const TAU_XZ: &str = "slice_y0/tau_xz_GPa";
 /// The followed material point.
 pub(super) const POINT: &str = "slice_y0/material_point";
+const POINT_NOW: &str = "slice_y0/material_point/now";
 /// Where the stress is greatest.
 pub(super) const PEAK: &str = "slice_y0/greatest_stress";
 
@@ -171,6 +172,7 @@ impl Slice {
             size: [geometry.dx, rows.height_mm],
         };
         let plot = plot_box(geometry, &rows);
+        log_dots(stream)?;
         let image = |entity, scale, title| {
             Raster::new(stream, entity, scale, pixels, &plot, (title, Height::Fixed))
         };
@@ -235,18 +237,24 @@ impl Slice {
                 .with_colors([faded(GREEN, 130)])
                 .with_radii([Radius::new_ui_points(0.5)])
                 .with_draw_order(18.0);
-            stream.log(format!("{POINT}/path"), &path)?;
+            stream.log(&format!("{POINT}/path"), &path)?;
         }
-        if !(left..=right).contains(&x) {
-            let nothing = Points2D::new(std::iter::empty::<[f32; 2]>());
-            return stream.log(format!("{POINT}/now"), &nothing);
-        }
-        let now = Points2D::new([[x, z]])
-            .with_radii([Radius::new_ui_points(5.0)])
-            .with_colors([faded(GREEN, 255)])
-            .with_draw_order(26.0);
-        stream.log(format!("{POINT}/now"), &now)
+        // Outside of the picture there is none.
+        let here = (left..=right).contains(&x).then_some([x, z]);
+        stream.log(POINT_NOW, &Points2D::update_fields().with_positions(here))
     }
+}
+
+/// How the dots look: the followed point and the greatest stress.
+fn log_dots(stream: &Stream) -> Result<(), ObserveError> {
+    let dot = |colour, radius, order| {
+        Points2D::update_fields()
+            .with_radii([Radius::new_ui_points(radius)])
+            .with_colors([faded(colour, 255)])
+            .with_draw_order(order)
+    };
+    stream.log_static(POINT_NOW, &dot(GREEN, 5.0, 26.0))?;
+    stream.log_static(PEAK, &dot([255, 255, 255], 3.5, 25.0))
 }
 
 /// A dot where the effective stress is greatest.
@@ -256,11 +264,7 @@ fn log_peak(stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         return Ok(());
     };
     let at = [(x * MM) as f32, (depth * MM) as f32];
-    let ring = Points2D::new([at])
-        .with_radii([Radius::new_ui_points(3.5)])
-        .with_colors([faded([255, 255, 255], 255)])
-        .with_draw_order(25.0);
-    stream.log(PEAK, &ring)
+    stream.log(PEAK, &Points2D::update_fields().with_positions([at]))
 }
 
 fn plot_box(g: Geometry, rows: &Rows) -> PlotBox {

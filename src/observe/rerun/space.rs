@@ -8,7 +8,7 @@
 mod fixed;
 mod hung;
 
-use rerun::{Arrows3D, Color, Points3D, Radius};
+use rerun::{Arrows3D, Color, Points3D};
 
 use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, packed};
 use super::geometry::Geometry;
@@ -25,6 +25,9 @@ pub(super) const SPACE: &str = "contact_3d";
 const FILM: &str = "film_coloured_by_pressure";
 const BODIES: [&str; 2] = ["body_1_surface", "body_2_surface"];
 const SLICE: &str = "effective_stress_slice";
+/// What stands in it.
+const SPOTS: &str = "contact_3d/contact_spots";
+const POINT: &str = "contact_3d/material_point";
 /// Depth of the stress that is shown, in a.
 const SLICE_DEPTH: f64 = 1.1;
 
@@ -241,10 +244,7 @@ impl Space {
         let spots = spots
             .filter(|(at, _)| frame.contact[**at] > 0)
             .map(|(&at, &[x, y])| [x, y, (f64::from(frame.film_m[at]) * factor) as f32]);
-        let points = Points3D::new(spots)
-            .with_radii([Radius::new_scene_units((0.55 * self.geometry.dx) as f32)])
-            .with_colors([Color::from([90, 255, 250])]);
-        stream.log(format!("{SPACE}/contact_spots"), &points)
+        stream.log(SPOTS, &Points3D::update_fields().with_positions(spots))
     }
 
     /// The followed point of body 1, coloured by its stress.
@@ -252,25 +252,24 @@ impl Space {
         let (Some(point), Some(top)) = (frame.material_point, self.tops.effective_pa) else {
             return Ok(());
         };
-        let entity = format!("{SPACE}/material_point");
         let x = point.x_m * MM;
-        if point.body != 1 || x.abs() > 1.45 * self.geometry.a {
-            return stream.log(
-                entity.as_str(),
-                &Points3D::new(std::iter::empty::<[f32; 3]>()),
-            );
+        let (mut places, mut colours, mut labels) = (Vec::new(), Vec::new(), Vec::new());
+        if point.body == 1 && x.abs() <= 1.45 * self.geometry.a {
+            let z = self.levels.slice - point.depth_m * MM;
+            // A little in front of the cut, or the slice would hide half of it.
+            places = vec![[x as f32, (-0.03 * self.geometry.a) as f32, z as f32]; 2];
+            let stress = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
+            colours = vec![Color::from(GREEN), Color::from(stress)];
+            labels = vec![
+                format!("{:.2} GPa", point.effective_pa * GPA.1),
+                String::new(),
+            ];
         }
-        let z = self.levels.slice - point.depth_m * MM;
-        let colour = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
-        let label = format!("{:.2} GPa", point.effective_pa * GPA.1);
-        // A little in front of the cut, or the slice would hide half of it.
-        let at = [x as f32, (-0.03 * self.geometry.a) as f32, z as f32];
-        let dot = Points3D::new([at, at])
-            .with_radii([0.075, 0.055].map(|r| (r * self.geometry.a) as f32))
-            .with_colors([Color::from(GREEN), Color::from(colour)])
-            .with_labels([label.as_str(), ""])
-            .with_show_labels(true);
-        stream.log(entity.as_str(), &dot)
+        let dot = Points3D::update_fields()
+            .with_positions(places)
+            .with_colors(colours)
+            .with_labels(labels);
+        stream.log(POINT, &dot)
     }
 
     /// Arrows as long as the surfaces are fast, logged when a speed has changed.
@@ -299,7 +298,7 @@ impl Space {
             format!("U2 = {:.2} m/s", speeds[1]),
         ])
         .with_show_labels(true);
-        stream.log(format!("{SPACE}/surface_speeds"), &arrows)
+        stream.log(&format!("{SPACE}/surface_speeds"), &arrows)
     }
 }
 

@@ -14,9 +14,9 @@ use rerun::{
 };
 
 use super::file::RecordingFile;
-use super::gathered::chunk_of;
+use super::gathered::{Pen, chunk_of};
 use super::live::{self, Link, Live};
-use super::waiting::{ClassImage, LevelImage, Sheet, Waiting};
+use super::waiting::{ClassImage, Curves, LevelImage, Sheet, Waiting};
 use crate::observe::{ObserveError, Overwrite};
 
 /// Name under which viewers group recordings and remember layouts.
@@ -175,11 +175,11 @@ impl Stream {
     /// Logs at the time that was set last.
     pub(super) fn log(
         &self,
-        entity: impl Into<EntityPath>,
+        entity: &str,
         data: &(impl AsComponents + ?Sized),
     ) -> Result<(), ObserveError> {
         let now = self.timepoint.borrow().clone();
-        self.waiting.borrow_mut().push(entity.into(), now, data);
+        self.waiting.borrow_mut().push(entity, now, data);
         self.send_if_full()
     }
 
@@ -196,6 +196,22 @@ impl Stream {
     /// A mesh whose colours will be logged and, in all updates or in none, its positions.
     pub(super) fn sheet(&self, entity: impl Into<EntityPath>) -> Sheet {
         self.waiting.borrow_mut().sheet(entity.into())
+    }
+
+    /// Curves that will be logged.
+    pub(super) fn curves(&self, entity: impl Into<EntityPath>) -> Curves {
+        self.waiting.borrow_mut().curves(entity.into())
+    }
+
+    /// Logs curves: `fill` draws them.
+    pub(super) fn log_curves(
+        &self,
+        curves: Curves,
+        fill: impl FnOnce(&mut Pen),
+    ) -> Result<(), ObserveError> {
+        let now = self.now.get();
+        self.waiting.borrow_mut().push_curves(curves, now, fill);
+        self.send_if_full()
     }
 
     /// Logs an image: `fill` adds its pixels.

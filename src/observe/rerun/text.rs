@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use rerun::components::MediaType;
 use rerun::{TextDocument, TextLog, TextLogLevel};
 
 use super::raster::Scale;
@@ -87,13 +88,15 @@ pub(super) fn log_notes<'a>(
             scale.resolution(),
         );
     }
-    stream.log_static(NOTES, &TextDocument::from_markdown(notes))
+    stream.log_static(NOTES, &TextDocument::from_markdown(notes))?;
+    let markdown = TextDocument::update_fields().with_media_type(MediaType::markdown());
+    stream.log_static(NOW, &markdown)
 }
 
 /// The caption that holds and the numbers of a frame.
 pub(super) fn log_now(stream: &Stream, frame: &Frame, caption: &str) -> Result<(), ObserveError> {
-    let text = now(frame, caption);
-    stream.log(NOW, &TextDocument::from_markdown(text))
+    let text = TextDocument::update_fields().with_text(now(frame, caption));
+    stream.log(NOW, &text)
 }
 
 fn now(frame: &Frame, caption: &str) -> String {

@@ -10,7 +10,7 @@ use rerun::log::{Chunk, ChunkError, PendingRow};
 use rerun::time::TimePoint;
 use rerun::{AsComponents, DepthImage, EntityPath, SegmentationImage};
 
-use super::gathered::{Images, Sheets};
+use super::gathered::{Images, Pen, Sheets, Strips};
 use super::stream::Moment;
 
 /// Rows of a chunk at most where times are out of order, as the library has it.
@@ -31,15 +31,21 @@ pub(super) struct LevelImage(usize);
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sheet(usize);
 
+/// Curves in a plot.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Curves(usize);
+
 /// What waits.
 #[derive(Default)]
 pub(super) struct Waiting {
     /// Entities in the order of their first rows, so that files are made alike.
     entities: Vec<(EntityPath, Vec<PendingRow>)>,
-    places: HashMap<EntityPath, usize>,
+    /// By their names as they are logged, which are read as paths only once.
+    places: HashMap<String, usize>,
     classes: Vec<Images<u8>>,
     levels: Vec<Images<u16>>,
     sheets: Vec<Sheets>,
+    curves: Vec<Strips>,
     bytes: usize,
 }
 
@@ -47,7 +53,7 @@ impl Waiting {
     /// Adds a row.
     pub(super) fn push(
         &mut self,
-        entity: EntityPath,
+        entity: &str,
         at: TimePoint,
         data: &(impl AsComponents + ?Sized),
     ) {
@@ -56,9 +62,11 @@ impl Waiting {
             .iter()
             .map(|batch| batch.array.get_buffer_memory_size());
         self.bytes += bytes.sum::<usize>();
-        let place = *self.places.entry(entity).or_insert_with_key(|entity| {
-            self.entities.push((entity.clone(), Vec::new()));
-            self.entities.len() - 1
+        let place = self.places.get(entity).copied().unwrap_or_else(|| {
+            let place = self.entities.len();
+            self.entities.push((EntityPath::from(entity), Vec::new()));
+            self.places.insert(entity.to_owned(), place);
+            place
         });
         self.entities[place]
             .1
@@ -80,6 +88,15 @@ impl Waiting {
     pub(super) fn sheet(&mut self, entity: EntityPath) -> Sheet {
         self.sheets.push(Sheets::new(entity));
         Sheet(self.sheets.len() - 1)
+    }
+
+    pub(super) fn curves(&mut self, entity: EntityPath) -> Curves {
+        self.curves.push(Strips::new(entity));
+        Curves(self.curves.len() - 1)
+    }
+
+    pub(super) fn push_curves(&mut self, curves: Curves, at: Moment, fill: impl FnOnce(&mut Pen)) {
+        self.bytes += self.curves[curves.0].push(at, fill);
     }
 
     pub(super) fn push_classes(
@@ -128,6 +145,10 @@ impl Waiting {
         self.sheets
             .iter_mut()
             .filter_map(Sheets::take)
+            .for_each(&mut send);
+        self.curves
+            .iter_mut()
+            .filter_map(Strips::take)
             .for_each(&mut send);
         for (entity, rows) in &mut self.entities {
             if !rows.is_empty() {

@@ -5,7 +5,7 @@ use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32}
 use super::super::colour::{GREY, Ramp, WHITE, faded};
 use super::super::mesh::{Window, triangles};
 use super::super::stream::Stream;
-use super::{BODIES, FILM, SLICE, SPACE, Space, steel};
+use super::{BODIES, FILM, POINT, SLICE, SPACE, SPOTS, Space, steel};
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, number, ticks};
 
@@ -24,9 +24,22 @@ impl Space {
         sheet(BODIES[0], &self.bodies, [200, 222, 245, 255])?;
         sheet(BODIES[1], &self.bodies, [250, 222, 190, 150])?;
         self.log_smooth_bodies(stream)?;
+        self.log_dots(stream)?;
         self.log_cut(stream)?;
         self.log_legends(stream)?;
         self.log_labels(stream)
+    }
+
+    /// How contact spots and the followed point look.
+    fn log_dots(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let spots = Points3D::update_fields()
+            .with_radii([Radius::new_scene_units((0.55 * self.geometry.dx) as f32)])
+            .with_colors([Color::from([90, 255, 250])]);
+        stream.log_static(SPOTS, &spots)?;
+        let point = Points3D::update_fields()
+            .with_radii([0.075, 0.055].map(|r| (r * self.geometry.a) as f32))
+            .with_show_labels(true);
+        stream.log_static(POINT, &point)
     }
 
     /// The sheets of smooth bodies never change.

@@ -143,7 +143,7 @@ impl Space {
                 "damage of body 1, log10 D from -{DECADES} to {DECADES}; one wave, repeated"
             )])
             .with_show_labels(true);
-        stream.log(format!("{SPACE}/damage_title"), &title)
+        stream.log(&format!("{SPACE}/damage_title"), &title)
     }
 }
 
