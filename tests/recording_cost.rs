@@ -16,7 +16,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use asperity::observe::rerun::Recorder;
-use asperity::observe::{Began, FramePool, Observer, Overwrite, Queue, RunContext, WhenFull};
+use asperity::observe::{
+    Began, FramePool, Observer, Overwrite, Queue, RunContext, RunEvent, RunEventKind, WhenFull,
+};
 use asperity::plan::Plan;
 use asperity::scene::{Scene, presets};
 use asperity::sim::{Frame, Simulation, Stage};
@@ -50,14 +52,20 @@ impl Run {
 
     fn block(&mut self) -> Duration {
         let began = Instant::now();
+        let (mut step, mut time_s) = (0, 0.0);
         for _ in 0..BLOCK {
             self.sim.step().unwrap();
             let frame = self.pool.fill(|frame| self.sim.fill(frame));
+            (step, time_s) = (frame.step, frame.time_s);
             if let Some(queue) = &mut self.queue {
                 queue.frame(&frame).unwrap();
             }
         }
-        if let Some(queue) = &self.queue {
+        if let Some(queue) = &mut self.queue {
+            // Frames may wait a little for others; an event is told at once, after them.
+            let kind = RunEventKind::Caption(String::new());
+            let event = RunEvent { step, time_s, kind };
+            queue.event(&event).unwrap();
             while queue.stats().done < queue.stats().frames {
                 std::thread::sleep(Duration::from_micros(200));
             }

@@ -10,7 +10,7 @@ use rerun::{Points2D, Radius};
 
 use super::colour::{GREEN, WHITE, faded};
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::slice::Rows;
 use super::stream::Stream;
 use crate::observe::ObserveError;
@@ -158,7 +158,7 @@ impl Block {
             .map(|value| value.log10().max(least))
             .collect();
         let image = self.rows.image(&powers, columns);
-        self.raster.log(stream, std::iter::once(image.as_slice()))?;
+        self.raster.log(stream, Field::TopDown(&image))?;
         self.log_pit(stream, damage)
     }
 

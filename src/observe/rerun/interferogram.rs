@@ -20,7 +20,7 @@ use crate::sim::Frame;
 
 pub(super) const INTERFEROGRAM: &str = "maps/film_interferogram";
 /// Pixels per node and direction.
-const FINER: usize = 3;
+const FINER: usize = 2;
 /// Most nodes per direction that are drawn so fine; larger windows get one pixel per node.
 const MOST_NODES: usize = 110;
 /// Thickness of one colour, um.

@@ -7,7 +7,7 @@ use super::colour::WHITE;
 use super::geometry::Geometry;
 use super::interferogram::Interferogram;
 use super::plot::{PlotBox, log_hertz, ticks_at};
-use super::raster::{Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use super::waiting::ClassImage;
 use crate::observe::ObserveError;
@@ -120,27 +120,27 @@ impl Maps {
     /// Logs one frame's pressure, film and contact spots.
     pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let g = self.geometry;
-        self.pressure.log(stream, top_down(g, &frame.pressure_pa))?;
-        self.film.log(stream, top_down(g, &frame.film_m))?;
+        let upright = |field| Field::BottomUp(field, g.nx);
+        self.pressure.log(stream, upright(&frame.pressure_pa))?;
+        self.film.log(stream, upright(&frame.film_m))?;
         let top = self.film_top_m() as f32;
+        let mut films = frame.film_m.chunks_exact(g.nx);
         stream.log_classes(self.contact, |classes| {
-            let films = top_down(g, &frame.film_m);
-            for (touches, film) in top_down(g, &frame.contact).zip(films) {
-                let from = classes.len();
-                classes.resize(from + g.nx, CLASS_FILM);
-                classify_row(touches, film, top, &mut classes[from..]);
-            }
+            Field::BottomUp(&frame.contact, g.nx).write_to(classes, |touches, classes| {
+                classify_row(touches, films.next().unwrap_or_default(), top, classes);
+            });
         })
     }
 
     /// Logs what stands beside them in a tab of its own: interferogram, shear, roughness.
     pub(super) fn log_beside(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let g = self.geometry;
-        self.traction.log(stream, top_down(g, &frame.traction_pa))?;
+        let upright = |field| Field::BottomUp(field, g.nx);
+        self.traction.log(stream, upright(&frame.traction_pa))?;
         let fields = [&frame.roughness_1_m, &frame.roughness_2_m];
         for (raster, field) in self.roughness.iter().zip(fields) {
             if let Some(raster) = raster {
-                raster.log(stream, top_down(g, field))?;
+                raster.log(stream, upright(field))?;
             }
         }
         self.interferogram.log(stream, frame)
@@ -154,11 +154,6 @@ dispatched! {
             *out = if touches == 0 { apart } else { CLASS_CONTACT };
         }
     }
-}
-
-/// A field's rows from the upper one (greatest y) down.
-fn top_down<T>(g: Geometry, field: &[T]) -> impl Iterator<Item = &[T]> {
-    field.chunks_exact(g.nx).rev()
 }
 
 fn pixels(g: Geometry) -> Pixels {

@@ -98,27 +98,59 @@ impl Scale {
         }
     }
 
-    /// Adds rows of SI values, quantised, little-endian as the viewer wants them. Values beyond the stored range
-    /// take its end.
-    fn quantise<'a>(&self, rows_si: impl Iterator<Item = &'a [f32]>, levels: &mut Vec<u16>) {
+    /// Adds SI values, quantised, little-endian as the viewer wants them. Values beyond the stored range take its
+    /// end.
+    fn quantise(&self, field: Field, levels: &mut Vec<u16>) {
         let factor = (self.per_si * self.levels()) as f32;
         let range = match self.sign {
             Sign::Positive => [0.0, f32::from(u16::MAX)],
             Sign::Both => [f32::from(i16::MIN), f32::from(i16::MAX)],
         };
-        for row in rows_si {
-            let from = levels.len();
-            levels.resize(from + row.len(), 0);
-            quantise_row(row, factor, range, &mut levels[from..]);
-        }
+        field.write_to(levels, |row, levels| {
+            quantise_row(row, factor, range, levels)
+        });
     }
 
     /// Same as bytes of their own.
     fn quantised(&self, values_si: &[f32]) -> ImageBuffer {
         let mut levels = Vec::with_capacity(values_si.len());
-        self.quantise(std::iter::once(values_si), &mut levels);
+        self.quantise(Field::TopDown(values_si), &mut levels);
         let bytes: Vec<u8> = levels.into_iter().flat_map(u16::to_ne_bytes).collect();
         ImageBuffer::from(bytes)
+    }
+}
+
+/// Values of a picture, row by row.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Field<'a, T = f32> {
+    /// As a picture has them.
+    TopDown(&'a [T]),
+    /// As a frame has them, so many a row: y points up.
+    BottomUp(&'a [T], usize),
+}
+
+impl<T> Field<'_, T> {
+    /// Adds a pixel for each value, through a function of rows. Rows are read as they lie: a frame comes from
+    /// another core, and reading it backwards takes three times as long.
+    pub(super) fn write_to<P: Copy + Default>(
+        self,
+        pixels: &mut Vec<P>,
+        mut write: impl FnMut(&[T], &mut [P]),
+    ) {
+        let from = pixels.len();
+        match self {
+            Self::TopDown(values) => {
+                pixels.resize(from + values.len(), P::default());
+                write(values, &mut pixels[from..]);
+            }
+            Self::BottomUp(values, columns) => {
+                pixels.resize(from + values.len(), P::default());
+                let rows = pixels[from..].chunks_exact_mut(columns).rev();
+                for (row, out) in values.chunks_exact(columns).zip(rows) {
+                    write(row, out);
+                }
+            }
+        }
     }
 }
 
@@ -207,13 +239,9 @@ impl Raster {
         })
     }
 
-    /// One frame's values in SI, row by row from the top.
-    pub(super) fn log<'a>(
-        &self,
-        stream: &Stream,
-        rows_si: impl Iterator<Item = &'a [f32]>,
-    ) -> Result<(), ObserveError> {
-        stream.log_levels(self.image, |levels| self.scale.quantise(rows_si, levels))
+    /// One frame's values in SI.
+    pub(super) fn log(&self, stream: &Stream, field: Field) -> Result<(), ObserveError> {
+        stream.log_levels(self.image, |levels| self.scale.quantise(field, levels))
     }
 
     /// The upper rows of a growing picture: as many as there are values for.
@@ -303,8 +331,20 @@ mod tests {
 
     fn levels(scale: &Scale, values: &[f32]) -> Vec<u16> {
         let mut levels = Vec::new();
-        scale.quantise(std::iter::once(values), &mut levels);
+        scale.quantise(Field::TopDown(values), &mut levels);
         levels.into_iter().map(u16::from_le).collect()
+    }
+
+    #[test]
+    fn a_frames_rows_are_turned_over() {
+        let mut pixels = vec![9];
+        Field::BottomUp(&[1, 2, 3, 4, 5, 6], 2).write_to(
+            &mut pixels,
+            |row: &[i32], out: &mut [i32]| {
+                out.copy_from_slice(row);
+            },
+        );
+        assert_eq!(pixels, [9, 5, 6, 3, 4, 1, 2]);
     }
 
     #[test]

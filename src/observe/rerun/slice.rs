@@ -11,7 +11,7 @@ use rerun::{LineStrips2D, Points2D, Radius};
 use super::colour::{GREEN, WHITE, faded};
 use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, Ranges, number, ticks};
@@ -208,8 +208,7 @@ impl Slice {
             return Ok(());
         };
         let effective = self.rows.image(&slice.effective_pa, nx);
-        self.effective
-            .log(stream, std::iter::once(effective.as_slice()))?;
+        self.effective.log(stream, Field::TopDown(&effective))?;
         log_peak(stream, frame)?;
         self.log_point(stream, frame)
     }
@@ -221,7 +220,7 @@ impl Slice {
             return Ok(());
         };
         let shear = self.rows.image(&slice.tau_xz_pa, nx);
-        self.tau_xz.log(stream, std::iter::once(shear.as_slice()))
+        self.tau_xz.log(stream, Field::TopDown(&shear))
     }
 
     /// The followed point and the depth on which it travels.
