@@ -26,6 +26,8 @@ pub(super) const DAMAGE: [&str; 2] = [
 pub(super) const DECADES: f64 = 3.0;
 const WIDTH: f64 = 2.0;
 const HEIGHT: f64 = 1.5;
+/// Depth that is shown, in a: twice that of the greatest shear stress. Below there is no damage to speak of.
+const DEPTH: f64 = 1.5;
 /// Rows of the picture.
 const ROWS: f64 = 96.0;
 const UM: f64 = 1e6;
@@ -42,6 +44,8 @@ struct Block {
     rows: Rows,
     columns: usize,
     length_m: f64,
+    /// Lower edge of the picture.
+    deepest_m: f64,
     /// What was logged last: a map changes when a material point has crossed.
     last: Vec<f32>,
 }
@@ -64,7 +68,7 @@ impl Damage {
             };
             let fits = |block: &Block| block.fits(damage);
             if !self.blocks[body].as_ref().is_some_and(fits) {
-                self.blocks[body] = Block::new(stream, DAMAGE[body], damage)?;
+                self.blocks[body] = Block::new(stream, DAMAGE[body], damage, frame.a_m)?;
             }
             if let Some(block) = &mut self.blocks[body] {
                 block.log(stream, damage)?;
@@ -80,12 +84,14 @@ impl Block {
         stream: &Stream,
         entity: &'static str,
         damage: &DamageBlock,
+        a_m: f64,
     ) -> Result<Option<Self>, ObserveError> {
         let depths = &damage.depths_m;
         let (Some(first), Some(last)) = (depths.first(), depths.last()) else {
             return Ok(None);
         };
-        let Some(rows) = Rows::new(depths, (last - first) * MM / ROWS, f64::INFINITY) else {
+        let last = last.min(DEPTH * a_m);
+        let Some(rows) = Rows::new(depths, (last - first) * MM / ROWS, last * MM) else {
             return Ok(None);
         };
         if damage.columns == 0 || damage.damage.len() != damage.columns * depths.len() {
@@ -134,6 +140,7 @@ impl Block {
             rows,
             columns: damage.columns,
             length_m: damage.length_m,
+            deepest_m: last,
             last: Vec::new(),
         }))
     }
@@ -164,9 +171,8 @@ impl Block {
 
     /// Where the pit starts by this map: the worst point.
     fn log_pit(&self, stream: &Stream, damage: &DamageBlock) -> Result<(), ObserveError> {
-        let deepest = damage.depths_m.last().copied().unwrap_or(1.0);
         let way = damage.pit_place_m.rem_euclid(self.length_m) / self.length_m;
-        let at = [WIDTH * way, HEIGHT * damage.pit_depth_m / deepest].map(|v| v as f32);
+        let at = [WIDTH * way, HEIGHT * damage.pit_depth_m / self.deepest_m].map(|v| v as f32);
         let label = format!(
             "worst: D = {:.3}, {:.1} µm deep",
             damage.pit_damage,

@@ -143,8 +143,8 @@ impl Interferogram {
         PlotBox {
             x,
             y,
-            x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
-            left_ticks: ticks_at(&ticks(-y[1], -y[0], 5), |y| -y),
+            x_ticks: ticks_at(&ticks(x[0], x[1], 4), |x| x),
+            left_ticks: ticks_at(&ticks(-y[1], -y[0], 4), |y| -y),
             x_title: "x, mm  (rolling direction →)".into(),
             titles: vec![
                 (0.1, "y, mm".into(), WHITE),

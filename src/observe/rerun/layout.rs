@@ -117,13 +117,7 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     ));
     lower_shares.push(1.0);
     let last = if shown.life {
-        let view = views.series(
-            "Relative life, log10 (grey: band)",
-            &["life/log10_relative"],
-        );
-        // The title says it, and the curves need the room.
-        views.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
-        view
+        life_series(views)
     } else {
         views.series("Pressure", &["series/pressure_GPa"])
     };
@@ -138,6 +132,16 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     .with_row_shares(vec![1.1, 1.0])
     .with_name("Contact")
     .into()
+}
+
+fn life_series(views: &mut Views) -> ContainerLike {
+    let view = views.series(
+        "Relative life, log10 (grey: band)",
+        &["life/log10_relative"],
+    );
+    // The title says it, and the curves need the room.
+    views.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+    view
 }
 
 fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
@@ -227,10 +231,7 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
 
 fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let left = Vertical::new([
-        views.series(
-            "Relative life, log10 (grey: band)",
-            &["life/log10_relative"],
-        ),
+        life_series(views),
         views.series("Its factors, log10 (they add up)", &["life/log10_factors"]),
     ]);
     let middle = Vertical::new([

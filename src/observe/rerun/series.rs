@@ -11,8 +11,8 @@ use super::stream::{Moment, Stream};
 use crate::observe::ObserveError;
 use crate::sim::{Frame, LifeEstimate};
 
-/// Smallest error that is drawn: errors are plotted as logarithms.
-const LEAST_ERROR: f64 = 1e-16;
+/// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
+const LEAST_ERROR: f64 = 1e-12;
 
 /// Series that share an entity: path, then name and colour of each.
 struct Group {

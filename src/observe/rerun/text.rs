@@ -158,17 +158,14 @@ fn now(frame: &Frame, caption: &str) -> String {
         let (stress, depth) = (stress * 1e-9, depth * 1e6);
         let _ = writeln!(text, "| σ_eff max | {stress:.3} GPa, {depth:.0} µm deep |");
     }
-    for (body, formula, counted) in [
-        (1, m.n_body_1, m.n_counted_body_1),
-        (2, m.n_body_2, m.n_counted_body_2),
-    ] {
-        if let Some(n) = formula {
-            let counted = counted.map_or("not yet".to_owned(), |n| format!("{n:.2}"));
-            let _ = writeln!(
-                text,
-                "| n body {body} | {n:.2} by formula, {counted} counted |"
-            );
-        }
+    let formula = [m.n_body_1, m.n_body_2];
+    if formula.iter().any(Option::is_some) {
+        let pair = |n: [Option<f64>; 2]| {
+            n.map(|n| n.map_or("-".to_owned(), |n| format!("{n:.2}")))
+                .join(", ")
+        };
+        let counted = pair([m.n_counted_body_1, m.n_counted_body_2]);
+        let _ = writeln!(text, "| n of 1, 2 | {}; counted {counted} |", pair(formula));
     }
     text
 }

@@ -137,7 +137,7 @@ impl Space {
     ) -> Result<(), ObserveError> {
         const ROWS: usize = 33;
         let a = self.geometry.a;
-        let (left, right) = (1.72 * a, 1.82 * a);
+        let (left, right) = (1.9 * a, 2.0 * a);
         let share = |row: usize| row as f64 / (ROWS - 1) as f64;
         let positions = (0..ROWS).flat_map(|row| {
             let z = low + (high - low) * share(row);
@@ -149,7 +149,8 @@ impl Space {
             .with_vertex_colors(colours);
         stream.log_static(format!("{SPACE}/legend/{name}"), &mesh)?;
         let top = top_pa * GPA.1;
-        let mut at = vec![[left, 0.0, high + 0.27 * a]];
+        // Over the numbers too, and clear of the slice's corner.
+        let mut at = vec![[right + 0.05 * a, 0.0, high + 0.27 * a]];
         let mut texts = vec![title.to_owned()];
         for value in [0.0, 0.5 * top, top] {
             at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
