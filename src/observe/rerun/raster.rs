@@ -107,7 +107,7 @@ impl Scale {
             Sign::Both => [f32::from(i16::MIN), f32::from(i16::MAX)],
         };
         field.write_to(levels, |row, levels| {
-            quantise_row(row, factor, range, levels)
+            quantise_row(row, factor, range, levels);
         });
     }
 
