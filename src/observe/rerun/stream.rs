@@ -29,9 +29,9 @@ const LIVE_TICK: Duration = Duration::from_millis(50);
 const LIVE_CLOSE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Longest wait for the last bytes on closing.
 const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
-/// What is logged reaches the file's writer at least this often: with the writing itself, `kill -9` loses less than
-/// a second.
-const TICK: Duration = Duration::from_millis(800);
+/// What is logged is written at least this often: with a frame that waits for others in the queue and the writing
+/// itself, on a machine that does other things too, `kill -9` loses less than a second.
+const TICK: Duration = Duration::from_millis(700);
 
 /// Timelines of every frame.
 pub(super) const STEP: &str = "step";
