@@ -84,6 +84,8 @@ pub(super) struct Stream {
     output: String,
     closed: bool,
     sent: Instant,
+    /// How long the sending took last: longer where other programs want the processors too.
+    sending: Duration,
     now: Cell<Moment>,
     timepoint: RefCell<TimePoint>,
     waiting: RefCell<Waiting>,
@@ -148,6 +150,7 @@ impl Stream {
             output,
             closed: false,
             sent: Instant::now(),
+            sending: Duration::ZERO,
             now: Cell::default(),
             timepoint: RefCell::default(),
             waiting: RefCell::default(),
@@ -324,16 +327,17 @@ impl Stream {
             // A viewer that takes nothing is seen by its queue.
             drop(self.recording.flush_async());
         }
+        self.sending = self.sent.elapsed();
         Ok(())
     }
 
-    /// Whether a tick has passed since.
+    /// Whether a tick has passed since, less the time that the sending takes: what it takes is not written yet.
     pub(super) fn is_due(&self) -> bool {
         let tick = match &self.to {
             Destination::File { .. } => TICK,
             Destination::Live(_) => LIVE_TICK,
         };
-        self.sent.elapsed() >= tick
+        self.sent.elapsed() >= tick.saturating_sub(2 * self.sending).max(tick / 2)
     }
 
     /// An error if the file has failed since.
