@@ -11,11 +11,14 @@
 #![cfg(feature = "rerun")]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use asperity::observe::rerun::Recorder;
-use asperity::observe::{Began, FramePool, Observer, Overwrite, Queue, RunContext, WhenFull};
+use asperity::observe::{
+    Began, FramePool, Observer, Overwrite, Queue, RunContext, RunEvent, RunEventKind, WhenFull,
+};
 use asperity::plan::Plan;
 use asperity::scene::{Scene, presets};
 use asperity::sim::{Frame, Simulation, Stage};
@@ -23,6 +26,10 @@ use asperity::sim::{Frame, Simulation, Stage};
 /// Steps of a block: an eighth of a passage.
 const BLOCK: usize = 16;
 const BLOCKS: usize = 24;
+/// Of the recorder alone.
+const ROUNDS: usize = 4;
+/// From frame to frame of the recorder alone, as long as a step takes.
+const PACE: Duration = Duration::from_millis(9);
 
 struct Run {
     sim: Simulation,
@@ -45,14 +52,20 @@ impl Run {
 
     fn block(&mut self) -> Duration {
         let began = Instant::now();
+        let (mut step, mut time_s) = (0, 0.0);
         for _ in 0..BLOCK {
             self.sim.step().unwrap();
             let frame = self.pool.fill(|frame| self.sim.fill(frame));
+            (step, time_s) = (frame.step, frame.time_s);
             if let Some(queue) = &mut self.queue {
                 queue.frame(&frame).unwrap();
             }
         }
-        if let Some(queue) = &self.queue {
+        if let Some(queue) = &mut self.queue {
+            // Frames may wait a little for others; an event is told at once, after them.
+            let kind = RunEventKind::Caption(String::new());
+            let event = RunEvent { step, time_s, kind };
+            queue.event(&event).unwrap();
             while queue.stats().done < queue.stats().frames {
                 std::thread::sleep(Duration::from_micros(200));
             }
@@ -60,6 +73,9 @@ impl Run {
         began.elapsed()
     }
 }
+
+/// Names of the threads that record, as the system cuts them.
+const RECORDING: [&str; 3] = ["record", "ChunkBatcher::c", "RecordingStream"];
 
 /// Processor seconds of the threads of those names, which the system cuts at 15 bytes.
 fn seconds_of(names: &[&str]) -> f64 {
@@ -76,11 +92,15 @@ fn seconds_of(names: &[&str]) -> f64 {
     tasks.flatten().filter_map(|task| of(task.path())).sum()
 }
 
-fn measure(threads: usize) {
+fn scene() -> Scene {
     let mut scene = Scene::load(presets::DEFAULT).unwrap();
     scene.time.passages = 2.0 + (BLOCKS * BLOCK) as f64 / 128.0;
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("cost.rrd");
+    scene
+}
+
+/// A queue with a recorder behind it that has begun.
+fn recorder(scene: &Scene, folder: &Path) -> Queue {
+    let path = folder.join("cost.rrd");
     let record = scene.record.clone().unwrap();
     let recorder = Recorder::create(&path, Overwrite::Refuse, &record).unwrap();
     let mut queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
@@ -92,9 +112,15 @@ fn measure(threads: usize) {
         began: Began::FromScene,
     };
     queue.begin(&context).unwrap();
+    queue
+}
+
+fn measure(threads: usize) {
+    let scene = scene();
+    let folder = tempfile::tempdir().unwrap();
+    let queue = recorder(&scene, folder.path());
     let mut plain = Run::new(&scene, threads, None);
     let mut recorded = Run::new(&scene, threads, Some(queue));
-    let threads_of_ours = ["record", "ChunkBatcher::c", "RecordingStream"];
     let (mut without, mut with) = (Vec::new(), Vec::new());
     for block in 0..BLOCKS {
         if block % 2 == 0 {
@@ -105,7 +131,7 @@ fn measure(threads: usize) {
             without.push(plain.block());
         }
     }
-    let used = seconds_of(&threads_of_ours);
+    let used = seconds_of(&RECORDING);
     let mut queue = recorded.queue.take().unwrap();
     let stats = queue.stats();
     let bytes = queue.finish().unwrap().bytes;
@@ -144,5 +170,39 @@ fn measure(threads: usize) {
 fn recording_costs_less_than_a_twentieth() {
     for threads in [1, 2] {
         measure(threads);
+    }
+}
+
+/// The recorder alone, at the pace of the solver: for profiles, in which the solver would hide it.
+#[test]
+#[ignore = "measures times: run it by hand on a machine at rest"]
+fn the_recorder_alone() {
+    let scene = scene();
+    let mut run = Run::new(&scene, 2, None);
+    let frames: Vec<Frame> = (0..BLOCKS * BLOCK)
+        .map(|_| {
+            run.sim.step().unwrap();
+            let mut frame = Frame::default();
+            run.sim.fill(&mut frame);
+            frame
+        })
+        .collect();
+    let mut pool = FramePool::new(6, &Frame::default());
+    for _ in 0..ROUNDS {
+        let folder = tempfile::tempdir().unwrap();
+        let mut queue = recorder(&scene, folder.path());
+        for frame in &frames {
+            // Into a frame that is in use already, as the solver does: its memory is not far away.
+            let frame = pool.fill(|filled| filled.clone_from(frame));
+            queue.frame(&frame).unwrap();
+            std::thread::sleep(PACE);
+        }
+        let used = RECORDING.map(|name| 1e3 * seconds_of(&[name]) / frames.len() as f64);
+        let bytes = queue.finish().unwrap().bytes;
+        println!(
+            "{:.3} ms of processor a frame ({used:.3?} in {RECORDING:?}); {:.1} MB",
+            used.iter().sum::<f64>(),
+            bytes as f64 * 1e-6
+        );
     }
 }

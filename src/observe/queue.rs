@@ -24,6 +24,11 @@ const EVENT_CAPACITY: usize = 1024;
 /// After so long without a message the observer is told that it is idle.
 const IDLE: Duration = Duration::from_secs(1);
 
+/// Frames that wait before the observer's thread is woken, and how long fewer of them wait at most. To be woken
+/// for every frame costs it, and the solver whose processor it takes, more than most frames do.
+const BATCH: usize = 4;
+const LINGER: Duration = Duration::from_millis(50);
+
 /// How long the end of a run waits for an observer that may stall.
 const LAST_WAIT: Duration = Duration::from_secs(5);
 
@@ -48,6 +53,8 @@ struct State {
     waiting: VecDeque<Message>,
     /// The observer's thread has nothing more to do and takes no more.
     closed: bool,
+    /// The observer's thread waits for a message, however long that takes.
+    asleep: bool,
     /// `begin` has been answered.
     begun: bool,
     error: Option<ObserveError>,
@@ -168,9 +175,14 @@ impl Queue {
             state.stats.frames += 1;
             state.stats.max_depth = state.stats.max_depth.max(state.waiting.len() + 1);
         }
+        let batch = BATCH.min(self.capacity.div_ceil(2));
+        let wakes = !matches!(message, Message::Frame(_));
         state.waiting.push_back(message);
+        let wakes = wakes || state.asleep || state.waiting.len() >= batch;
         drop(state);
-        self.shared.filled.notify_one();
+        if wakes {
+            self.shared.filled.notify_one();
+        }
         Ok(())
     }
 
@@ -282,18 +294,11 @@ impl Drop for Queue {
     }
 }
 
-/// Whether the observer knows that it is idle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Told {
-    NotYet,
-    Idle,
-}
-
 /// The observer's thread: works off messages until it finishes, fails or panics.
 fn serve(shared: &Shared, observer: &mut dyn Observer, name: &str) {
-    let mut told = Told::NotYet;
+    let mut patience = Some(IDLE);
     loop {
-        let message = next(shared, &mut told);
+        let message = next(shared, &mut patience);
         let last = matches!(message, Some(Message::Finish));
         let outcome = catch_unwind(AssertUnwindSafe(|| match message {
             Some(message) => deliver(shared, observer, message),
@@ -320,33 +325,33 @@ fn serve(shared: &Shared, observer: &mut dyn Observer, name: &str) {
     }
 }
 
-/// The next message, or `None` when none has come for a while. A long pause is told once.
-fn next(shared: &Shared, told: &mut Told) -> Option<Message> {
+/// The next message, or `None` when none has come for so long. A pause is told once: then there is no patience
+/// to lose until the next message.
+fn next(shared: &Shared, patience: &mut Option<Duration>) -> Option<Message> {
+    let began = Instant::now();
     let mut state = shared.lock();
     loop {
         if let Some(message) = state.waiting.pop_front() {
+            state.asleep = false;
             drop(state);
             shared.emptied.notify_all();
-            *told = Told::NotYet;
+            *patience = Some(IDLE);
             return Some(message);
         }
-        let nothing = |state: &mut State| state.waiting.is_empty();
-        state = match told {
-            Told::NotYet => {
-                let (state, wait) = shared
-                    .filled
-                    .wait_timeout_while(state, IDLE, nothing)
-                    .unwrap_or_else(PoisonError::into_inner);
-                if wait.timed_out() {
-                    *told = Told::Idle;
-                    return None;
-                }
-                state
+        state = match *patience {
+            Some(most) if began.elapsed() >= most => {
+                *patience = None;
+                return None;
             }
-            Told::Idle => shared
-                .filled
-                .wait_while(state, nothing)
-                .unwrap_or_else(PoisonError::into_inner),
+            Some(_) => {
+                let waited = shared.filled.wait_timeout(state, LINGER);
+                waited.unwrap_or_else(PoisonError::into_inner).0
+            }
+            None => {
+                state.asleep = true;
+                let waited = shared.filled.wait(state);
+                waited.unwrap_or_else(PoisonError::into_inner)
+            }
         };
     }
 }

@@ -104,21 +104,29 @@ fn waiting_keeps_every_frame_in_order() {
     );
 }
 
-/// Tells when it is idle.
-struct Idler(Sender<()>);
+/// What an observer is told.
+#[derive(Debug, PartialEq, Eq)]
+enum Call {
+    Frame(u64),
+    Idle,
+}
+
+/// Tells which calls come.
+struct Idler(Sender<Call>);
 
 impl Observer for Idler {
     fn begin(&mut self, _context: &RunContext) -> Result<(), ObserveError> {
         Ok(())
     }
-    fn frame(&mut self, _frame: &Arc<Frame>) -> Result<(), ObserveError> {
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+        let _ = self.0.send(Call::Frame(frame.step));
         Ok(())
     }
     fn event(&mut self, _event: &RunEvent) -> Result<(), ObserveError> {
         Ok(())
     }
     fn idle(&mut self) -> Result<(), ObserveError> {
-        let _ = self.0.send(());
+        let _ = self.0.send(Call::Idle);
         Ok(())
     }
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
@@ -126,14 +134,20 @@ impl Observer for Idler {
     }
 }
 
+/// A frame on its own is delivered although the thread is woken for several: while it waits for more, and when
+/// it sleeps after a pause.
 #[test]
-fn a_pause_is_told_to_the_observer() {
-    let (idle, told) = channel();
-    let queue = Queue::spawn("record", 2, WhenFull::Wait, Box::new(Idler(idle)));
+fn a_pause_is_told_once_and_frames_on_their_own_are_delivered() {
+    let (told, calls) = channel();
+    let queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(Idler(told)));
     let mut queue = queue.expect("thread starts");
-    assert_eq!(queue.frame(&frame(1)), Ok(()));
-    assert_eq!(told.recv(), Ok(()));
+    for step in 1..=2 {
+        assert_eq!(queue.frame(&frame(step)), Ok(()));
+        assert_eq!(calls.recv(), Ok(Call::Frame(step)));
+        assert_eq!(calls.recv(), Ok(Call::Idle));
+    }
     assert!(queue.finish().is_ok());
+    assert!(calls.try_recv().is_err());
 }
 
 #[test]

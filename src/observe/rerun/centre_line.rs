@@ -3,9 +3,11 @@
 use rerun::{LineStrips2D, Radius};
 
 use super::colour::{GREY, ORANGE, SKY, faded};
+use super::gathered::Pen;
 use super::geometry::Geometry;
 use super::plot::{PlotBox, points, ticks_at};
 use super::stream::Stream;
+use super::waiting::Curves;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, divisions, ticks};
 use crate::sim::Frame;
@@ -20,6 +22,8 @@ pub(super) struct CentreLine {
     pressure_top_pa: f64,
     film_top_m: f64,
     hertz: Option<[f64; 2]>,
+    pressure: Curves,
+    film: Curves,
 }
 
 impl CentreLine {
@@ -46,12 +50,19 @@ impl CentreLine {
             right_colour: Some(SKY),
         };
         plot.log(stream, &format!("{CENTRE_LINE}/axes"))?;
+        let curves = |name: &str, colour| {
+            let entity = format!("{CENTRE_LINE}/{name}");
+            stream.log_static(entity.as_str(), &line(colour, 1.5))?;
+            Ok(stream.curves(entity))
+        };
         Ok(Self {
             geometry,
             plot,
             pressure_top_pa,
             film_top_m,
             hertz: None,
+            pressure: curves("pressure_GPa", ORANGE)?,
+            film: curves("film_um", SKY)?,
         })
     }
 
@@ -64,13 +75,12 @@ impl CentreLine {
         let g = self.geometry;
         let row = g.centre_row() * g.nx..(g.centre_row() + 1) * g.nx;
         self.log_hertz(stream, frame)?;
-        let pressure = self.curves(&frame.pressure_pa[row.clone()], self.pressure_top_pa);
-        stream.log(
-            format!("{CENTRE_LINE}/pressure_GPa"),
-            &line(&pressure, ORANGE, 1.5),
-        )?;
-        let film = self.curves(&frame.film_m[row], self.film_top_m);
-        stream.log(format!("{CENTRE_LINE}/film_um"), &line(&film, SKY, 1.5))
+        let pressure = &frame.pressure_pa[row.clone()];
+        stream.log_curves(self.pressure, |pen| {
+            self.draw(pressure, self.pressure_top_pa, pen);
+        })?;
+        let film = &frame.film_m[row];
+        stream.log_curves(self.film, |pen| self.draw(film, self.film_top_m, pen))
     }
 
     /// Hertz's ellipse, logged when the load has changed.
@@ -86,32 +96,27 @@ impl CentreLine {
             .map(|t| [t * a, frame.p_hertz_pa * (1.0 - t * t).max(0.0).sqrt()])
             .map(|[x, p]| [x, self.plot.y[0] * p / self.pressure_top_pa])
             .collect();
-        let hertz = line(&[points(&strip)], GREY, 1.0);
-        stream.log(format!("{CENTRE_LINE}/hertz_pressure_GPa"), &hertz)
+        let hertz = line(GREY, 1.0).with_strips([points(&strip)]);
+        stream.log(&format!("{CENTRE_LINE}/hertz_pressure_GPa"), &hertz)
     }
 
     /// The parts of a curve that lie inside the axes; what is above them is left out, not bent.
-    fn curves(&self, values: &[f32], top: f64) -> Vec<Vec<[f32; 2]>> {
+    fn draw(&self, values: &[f32], top: f64, pen: &mut Pen) {
         let height = self.plot.y[0];
-        let mut parts = Vec::new();
-        let mut part: Vec<[f32; 2]> = Vec::new();
         for (i, &value) in values.iter().enumerate() {
             let share = f64::from(value) / top;
             if share <= 1.0 {
-                part.push([self.geometry.x(i) as f32, (height * share) as f32]);
-            } else if !part.is_empty() {
-                parts.push(std::mem::take(&mut part));
+                pen.to([self.geometry.x(i) as f32, (height * share) as f32]);
+            } else {
+                pen.lift();
             }
         }
-        parts.push(part);
-        parts.retain(|part| part.len() > 1);
-        parts
     }
 }
 
-/// Lines of one colour, so many points wide.
-pub(super) fn line(strips: &[Vec<[f32; 2]>], colour: [u8; 3], radius: f32) -> LineStrips2D {
-    LineStrips2D::new(strips.iter().cloned())
+/// How a curve looks: its colour and how many points wide it is.
+pub(super) fn line(colour: [u8; 3], radius: f32) -> LineStrips2D {
+    LineStrips2D::update_fields()
         .with_colors([faded(colour, 255)])
         .with_radii([Radius::new_ui_points(radius)])
         .with_draw_order(12.0)

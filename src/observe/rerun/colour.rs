@@ -19,6 +19,37 @@ pub(super) const GREY: [u8; 3] = [150, 155, 165];
 /// Background of spatial views: light enough for the dark end of the colour maps to show.
 pub(super) const BACKGROUND: [u8; 3] = [38, 42, 50];
 
+/// A colour map in so many steps that an eye sees none: looked up, which costs less than to interpolate.
+pub(super) struct Tints(Vec<[f32; 3]>);
+
+impl Tints {
+    /// Over the shares 0 to 1.
+    pub(super) fn new(colour: impl Fn(f32) -> [f32; 3]) -> Self {
+        const STEPS: u16 = 512;
+        let share = |step: u16| f32::from(step) / f32::from(STEPS - 1);
+        Self((0..STEPS).map(|step| colour(share(step))).collect())
+    }
+
+    /// Of one of the maps.
+    pub(super) fn of(ramp: Ramp) -> Self {
+        Self::new(|share| ramp.colour(share, 1.0).map(f32::from))
+    }
+
+    /// The colour at a share (clamped), times a shade, as meshes store it.
+    #[inline]
+    pub(super) fn colour(&self, share: f32, shade: f32) -> u32 {
+        let last = self.0.len() - 1;
+        let step = (share * last as f32 + 0.5) as usize;
+        packed(self.0[step.min(last)].map(|value| (value * shade + 0.5) as u8))
+    }
+}
+
+/// A colour as meshes store it.
+#[inline]
+pub(super) fn packed([r, g, b]: [u8; 3]) -> u32 {
+    u32::from_be_bytes([r, g, b, u8::MAX])
+}
+
 /// With an opacity.
 pub(super) fn faded(colour: [u8; 3], alpha: u8) -> Color {
     Color::from_unmultiplied_rgba(colour[0], colour[1], colour[2], alpha)
@@ -26,6 +57,7 @@ pub(super) fn faded(colour: [u8; 3], alpha: u8) -> Color {
 
 /// How bright a slope is lit from the inlet side and above, from the rise per length along x and y:
 /// 1 on the flat, at least 0.45.
+#[inline]
 pub(super) fn hillshade(slope_x: f32, slope_y: f32) -> f32 {
     let light = (1.0 - 0.9 * slope_x - 0.35 * slope_y)
         / (1.0 + slope_x * slope_x + slope_y * slope_y).sqrt();
@@ -51,6 +83,27 @@ pub(super) fn interference(h_um: f64) -> [u8; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tints_are_the_colours_of_their_map() {
+        let tints = Tints::of(Ramp::Inferno);
+        for k in 0..=1000_u16 {
+            let share = f32::from(k) / 1000.0;
+            let [r, g, b, alpha] = tints.colour(share, 1.0).to_be_bytes();
+            assert_eq!(alpha, u8::MAX);
+            let exact = Ramp::Inferno.colour(share, 1.0);
+            // Between two steps of the table colours differ by less than this.
+            assert!(
+                [r, g, b]
+                    .iter()
+                    .zip(exact)
+                    .all(|(one, two)| one.abs_diff(two) <= 2)
+            );
+        }
+        assert_eq!(tints.colour(7.0, 1.0), tints.colour(1.0, 1.0));
+        assert_eq!(tints.colour(f32::NAN, 1.0), tints.colour(-1.0, 1.0));
+        assert_eq!(tints.colour(1.0, 0.0), packed([0; 3]));
+    }
 
     #[test]
     fn contact_is_dark_and_the_first_green_fringe_is_at_a_quarter_wave() {

@@ -10,7 +10,7 @@ use rerun::{Points2D, Radius};
 
 use super::colour::{GREEN, WHITE, faded};
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::slice::Rows;
 use super::stream::Stream;
 use crate::observe::ObserveError;
@@ -26,6 +26,8 @@ pub(super) const DAMAGE: [&str; 2] = [
 pub(super) const DECADES: f64 = 3.0;
 const WIDTH: f64 = 2.0;
 const HEIGHT: f64 = 1.5;
+/// Depth that is shown, in a: twice that of the greatest shear stress. Below there is no damage to speak of.
+const DEPTH: f64 = 1.5;
 /// Rows of the picture.
 const ROWS: f64 = 96.0;
 const UM: f64 = 1e6;
@@ -42,6 +44,8 @@ struct Block {
     rows: Rows,
     columns: usize,
     length_m: f64,
+    /// Lower edge of the picture.
+    deepest_m: f64,
     /// What was logged last: a map changes when a material point has crossed.
     last: Vec<f32>,
 }
@@ -64,7 +68,7 @@ impl Damage {
             };
             let fits = |block: &Block| block.fits(damage);
             if !self.blocks[body].as_ref().is_some_and(fits) {
-                self.blocks[body] = Block::new(stream, DAMAGE[body], damage)?;
+                self.blocks[body] = Block::new(stream, DAMAGE[body], damage, frame.a_m)?;
             }
             if let Some(block) = &mut self.blocks[body] {
                 block.log(stream, damage)?;
@@ -80,12 +84,14 @@ impl Block {
         stream: &Stream,
         entity: &'static str,
         damage: &DamageBlock,
+        a_m: f64,
     ) -> Result<Option<Self>, ObserveError> {
         let depths = &damage.depths_m;
         let (Some(first), Some(last)) = (depths.first(), depths.last()) else {
             return Ok(None);
         };
-        let Some(rows) = Rows::new(depths, (last - first) * MM / ROWS, f64::INFINITY) else {
+        let last = last.min(DEPTH * a_m);
+        let Some(rows) = Rows::new(depths, (last - first) * MM / ROWS, last * MM) else {
             return Ok(None);
         };
         if damage.columns == 0 || damage.damage.len() != damage.columns * depths.len() {
@@ -115,6 +121,12 @@ impl Block {
             sign: Sign::Both,
             colours: Colormap::Magma,
         };
+        let style = Points2D::update_fields()
+            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
+            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
+            .with_show_labels(true)
+            .with_draw_order(26.0);
+        stream.log_static(worst_point(entity), &style)?;
         Ok(Some(Self {
             entity,
             raster: Raster::new(
@@ -128,6 +140,7 @@ impl Block {
             rows,
             columns: damage.columns,
             length_m: damage.length_m,
+            deepest_m: last,
             last: Vec::new(),
         }))
     }
@@ -152,15 +165,14 @@ impl Block {
             .map(|value| value.log10().max(least))
             .collect();
         let image = self.rows.image(&powers, columns);
-        self.raster.log(stream, std::iter::once(image.as_slice()))?;
+        self.raster.log(stream, Field::TopDown(&image))?;
         self.log_pit(stream, damage)
     }
 
     /// Where the pit starts by this map: the worst point.
     fn log_pit(&self, stream: &Stream, damage: &DamageBlock) -> Result<(), ObserveError> {
-        let deepest = damage.depths_m.last().copied().unwrap_or(1.0);
         let way = damage.pit_place_m.rem_euclid(self.length_m) / self.length_m;
-        let at = [WIDTH * way, HEIGHT * damage.pit_depth_m / deepest].map(|v| v as f32);
+        let at = [WIDTH * way, HEIGHT * damage.pit_depth_m / self.deepest_m].map(|v| v as f32);
         let label = format!(
             "worst: D = {:.3}, {:.1} µm deep",
             damage.pit_damage,
@@ -168,12 +180,13 @@ impl Block {
         );
         // In the middle below, where it hides little and is not cut off.
         let label_at = [0.5 * WIDTH, 0.86 * HEIGHT].map(|v| v as f32);
-        let pit = Points2D::new([at, label_at])
-            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
-            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
-            .with_labels([String::new(), label])
-            .with_show_labels(true)
-            .with_draw_order(26.0);
-        stream.log(format!("{}/worst_point", self.entity), &pit)
+        let pit = Points2D::update_fields()
+            .with_positions([at, label_at])
+            .with_labels([String::new(), label]);
+        stream.log(&worst_point(self.entity), &pit)
     }
+}
+
+fn worst_point(entity: &str) -> String {
+    format!("{entity}/worst_point")
 }

@@ -6,23 +6,21 @@
 //! the thickness.
 
 use rerun::components::{ImageBuffer, ImageFormat};
-use rerun::{
-    AnnotationContext, AnnotationInfo, ChannelDatatype, EntityPath, Rgba32, SegmentationImage,
-};
+use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
 
 use super::colour::{GREY, LIGHTS_NM, REFRACTIVE_INDEX, WHITE, interference};
 use super::geometry::Geometry;
-use super::maps::classes;
 use super::plot::{Labels, PlotBox, ticks_at};
-use super::raster::Pixels;
+use super::raster::{Pixels, log_styled};
 use super::stream::Stream;
+use super::waiting::ClassImage;
 use crate::observe::ObserveError;
 use crate::observe::scales::{number, ticks};
 use crate::sim::Frame;
 
 pub(super) const INTERFEROGRAM: &str = "maps/film_interferogram";
 /// Pixels per node and direction.
-const FINER: usize = 3;
+const FINER: usize = 2;
 /// Most nodes per direction that are drawn so fine; larger windows get one pixel per node.
 const MOST_NODES: usize = 110;
 /// Thickness of one colour, um.
@@ -38,7 +36,7 @@ pub(super) struct Interferogram {
     nodes: [usize; 2],
     finer: usize,
     plot: PlotBox,
-    image: EntityPath,
+    image: ClassImage,
 }
 
 impl Interferogram {
@@ -62,7 +60,7 @@ impl Interferogram {
             nodes: [nodes_x, nodes_y],
             finer,
             plot: PlotBox::default(),
-            image: EntityPath::from(format!("{INTERFEROGRAM}/image")),
+            image: stream.class_image(entity()),
         };
         picture.plot = picture.plot_box();
         picture.log_static(stream)?;
@@ -76,19 +74,25 @@ impl Interferogram {
     /// Logs one frame.
     pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let pixels = self.pixels();
-        let mut bytes = Vec::with_capacity(pixels.columns * pixels.rows);
         let mut nodes = Vec::with_capacity(self.nodes[0]);
-        for row in (0..pixels.rows).rev() {
-            self.nodes_of(&frame.film_m, row, &mut nodes);
-            bytes.extend(nodes.windows(2).flat_map(|pair| {
-                let [low, high] = [pair[0], pair[1]];
-                let step = (high - low) / self.finer as f32;
-                (0..self.finer).map(move |part| class(low + step * part as f32))
-            }));
-            // The last pixel lies on a node.
-            bytes.extend(nodes.last().map(|&last| class(last)));
-        }
-        stream.log(self.image.clone(), &classes(bytes))
+        let mut parts = vec![0; self.nodes[0] - 1];
+        stream.log_classes(self.image, |classes| {
+            classes.reserve(pixels.columns * pixels.rows);
+            for row in (0..pixels.rows).rev() {
+                self.nodes_of(&frame.film_m, row, &mut nodes);
+                let from = classes.len();
+                // The last pixel lies on a node.
+                classes.resize(
+                    from + pixels.columns,
+                    nodes.last().map_or(0, |&last| class(last)),
+                );
+                for part in 0..self.finer {
+                    classify(&nodes, part as f32 / self.finer as f32, &mut parts);
+                    let out = classes[from + part..].iter_mut().step_by(self.finer);
+                    out.zip(&parts).for_each(|(out, &class)| *out = class);
+                }
+            }
+        })
     }
 
     /// The film at the nodes' x on a row of pixels, m; rows count from the least y.
@@ -139,8 +143,8 @@ impl Interferogram {
         PlotBox {
             x,
             y,
-            x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
-            left_ticks: ticks_at(&ticks(-y[1], -y[0], 5), |y| -y),
+            x_ticks: ticks_at(&ticks(x[0], x[1], 4), |x| x),
+            left_ticks: ticks_at(&ticks(-y[1], -y[0], 4), |y| -y),
             x_title: "x, mm  (rolling direction →)".into(),
             titles: vec![
                 (0.1, "y, mm".into(), WHITE),
@@ -152,8 +156,7 @@ impl Interferogram {
 
     fn log_static(&self, stream: &Stream) -> Result<(), ObserveError> {
         let pixels = self.pixels();
-        stream.log_static(self.image.clone(), &styled(&pixels))?;
-        stream.log_static(self.image.clone(), &pixels.transform())?;
+        log_styled(stream, &entity(), &styled(&pixels), &pixels)?;
         let context = AnnotationContext::new((0..256_u16).map(|class| {
             let [r, g, b] = interference(thickness_um(class));
             AnnotationInfo {
@@ -181,8 +184,7 @@ impl Interferogram {
         let entity = format!("{INTERFEROGRAM}/legend/bar");
         let ramp: Vec<u8> = (1..=255).rev().collect();
         let image = styled(&bar).with_buffer(ImageBuffer::from(ramp));
-        stream.log_static(entity.as_str(), &image)?;
-        stream.log_static(entity.as_str(), &bar.transform())?;
+        log_styled(stream, &entity, &image, &bar)?;
         let mut labels = Labels::default();
         let top = 255.0 * STEP_UM;
         for value in ticks(0.0, top, 5) {
@@ -194,6 +196,10 @@ impl Interferogram {
     }
 }
 
+fn entity() -> String {
+    format!("{INTERFEROGRAM}/image")
+}
+
 fn styled(pixels: &Pixels) -> SegmentationImage {
     let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
     SegmentationImage::update_fields()
@@ -201,8 +207,18 @@ fn styled(pixels: &Pixels) -> SegmentationImage {
         .with_opacity(1.0)
 }
 
+dispatched! {
+    /// Classes of the film at that part of the way from each node to the next.
+    fn classify(nodes: &[f32], part: f32, out: &mut [u8]) {
+        for (out, (low, high)) in out.iter_mut().zip(nodes.iter().zip(&nodes[1..])) {
+            *out = class(low + (high - low) * part);
+        }
+    }
+}
+
 /// The colour of a film: class 1 is no film, 255 the thickest. Class 0 is left out because viewers
 /// may draw it transparent.
+#[inline]
 fn class(film_m: f32) -> u8 {
     (film_m * (1e6 / STEP_UM) as f32 + 1.0).clamp(1.0, 255.0) as u8
 }

@@ -117,13 +117,7 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     ));
     lower_shares.push(1.0);
     let last = if shown.life {
-        let view = views.series(
-            "Relative life, log10 (grey: band)",
-            &["life/log10_relative"],
-        );
-        // The title says it, and the curves need the room.
-        views.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
-        view
+        life_series(views)
     } else {
         views.series("Pressure", &["series/pressure_GPa"])
     };
@@ -138,6 +132,16 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     .with_row_shares(vec![1.1, 1.0])
     .with_name("Contact")
     .into()
+}
+
+fn life_series(views: &mut Views) -> ContainerLike {
+    let view = views.series(
+        "Relative life, log10 (grey: band)",
+        &["life/log10_relative"],
+    );
+    // The title says it, and the curves need the room.
+    views.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+    view
 }
 
 fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
@@ -227,10 +231,7 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
 
 fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let left = Vertical::new([
-        views.series(
-            "Relative life, log10 (grey: band)",
-            &["life/log10_relative"],
-        ),
+        life_series(views),
         views.series("Its factors, log10 (they add up)", &["life/log10_factors"]),
     ]);
     let middle = Vertical::new([
@@ -315,8 +316,10 @@ fn send_with(
     };
     blueprint.send(&draft, not_yet)?;
     draft.flush_blocking()?;
-    let mut messages: Vec<LogMsg> = storage
-        .take()
+    let messages = storage.take();
+    // Its sink holds it: it would live for ever, with its threads.
+    draft.disconnect();
+    let mut messages: Vec<LogMsg> = messages
         .into_iter()
         .filter(|message| message.store_id().is_blueprint())
         .filter(|message| !matches!(message, LogMsg::BlueprintActivationCommand(_)))
@@ -335,12 +338,10 @@ fn send_with(
         extra.log(path.as_str(), value.as_ref())?;
     }
     extra.flush_blocking()?;
-    messages.extend(
-        storage
-            .take()
-            .into_iter()
-            .filter(|message| matches!(message, LogMsg::ArrowMsg(..))),
-    );
+    let properties = storage.take();
+    extra.disconnect();
+    let properties = properties.into_iter();
+    messages.extend(properties.filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
     let activation = BlueprintActivationCommand {
         blueprint_id: id,
         make_active: true,

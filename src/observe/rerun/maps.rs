@@ -1,14 +1,15 @@
 //! Maps of the contact plane seen from above: x to the right (rolling direction), y up, mm.
 
-use rerun::components::{Colormap, ImageBuffer, ImageFormat};
-use rerun::{AnnotationContext, ChannelDatatype, Rgba32, SegmentationImage};
+use rerun::components::{Colormap, ImageFormat};
+use rerun::{AnnotationContext, AsComponents, ChannelDatatype, Rgba32, SegmentationImage};
 
 use super::colour::WHITE;
 use super::geometry::Geometry;
 use super::interferogram::Interferogram;
 use super::plot::{PlotBox, log_hertz, ticks_at};
-use super::raster::{Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
+use super::waiting::ClassImage;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MPA, Ranges, UM, ticks};
 use crate::sim::Frame;
@@ -37,6 +38,7 @@ pub(super) struct Maps {
     traction: Raster,
     roughness: [Option<Raster>; 2],
     interferogram: Interferogram,
+    contact: ClassImage,
     scales: Vec<(&'static str, Scale)>,
 }
 
@@ -83,6 +85,7 @@ impl Maps {
             traction: map(TRACTION, signed, "shear")?,
             roughness: [rough_map(0, ROUGHNESS_1)?, rough_map(1, ROUGHNESS_2)?],
             interferogram: Interferogram::new(stream, geometry)?,
+            contact: stream.class_image(CONTACT),
             scales,
         };
         log_contact_style(stream, geometry)?;
@@ -117,43 +120,40 @@ impl Maps {
     /// Logs one frame's pressure, film and contact spots.
     pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let g = self.geometry;
-        self.pressure.log(stream, top_down(g, &frame.pressure_pa))?;
-        self.film.log(stream, top_down(g, &frame.film_m))?;
+        let upright = |field| Field::BottomUp(field, g.nx);
+        self.pressure.log(stream, upright(&frame.pressure_pa))?;
+        self.film.log(stream, upright(&frame.film_m))?;
         let top = self.film_top_m() as f32;
-        let mut spots = Vec::with_capacity(g.nx * g.ny);
-        let films = top_down(g, &frame.film_m);
-        for (touches, film) in top_down(g, &frame.contact).zip(films) {
-            let pairs = touches.iter().zip(film);
-            spots.extend(pairs.map(|(&touches, &film)| match (touches, film > top) {
-                (0, false) => CLASS_FILM,
-                (0, true) => CLASS_THICK,
-                _ => CLASS_CONTACT,
-            }));
-        }
-        stream.log(CONTACT, &classes(spots))
+        let mut films = frame.film_m.chunks_exact(g.nx);
+        stream.log_classes(self.contact, |classes| {
+            Field::BottomUp(&frame.contact, g.nx).write_to(classes, |touches, classes| {
+                classify_row(touches, films.next().unwrap_or_default(), top, classes);
+            });
+        })
     }
 
     /// Logs what stands beside them in a tab of its own: interferogram, shear, roughness.
     pub(super) fn log_beside(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let g = self.geometry;
-        self.traction.log(stream, top_down(g, &frame.traction_pa))?;
+        let upright = |field| Field::BottomUp(field, g.nx);
+        self.traction.log(stream, upright(&frame.traction_pa))?;
         let fields = [&frame.roughness_1_m, &frame.roughness_2_m];
         for (raster, field) in self.roughness.iter().zip(fields) {
             if let Some(raster) = raster {
-                raster.log(stream, top_down(g, field))?;
+                raster.log(stream, upright(field))?;
             }
         }
         self.interferogram.log(stream, frame)
     }
 }
 
-pub(super) fn classes(bytes: Vec<u8>) -> SegmentationImage {
-    SegmentationImage::update_fields().with_buffer(ImageBuffer::from(bytes))
-}
-
-/// A field's rows from the upper one (greatest y) down.
-fn top_down<T>(g: Geometry, field: &[T]) -> impl Iterator<Item = &[T]> {
-    field.chunks_exact(g.nx).rev()
+dispatched! {
+    fn classify_row(touches: &[u8], film: &[f32], top: f32, classes: &mut [u8]) {
+        for ((out, &touches), &film) in classes.iter_mut().zip(touches).zip(film) {
+            let apart = if film > top { CLASS_THICK } else { CLASS_FILM };
+            *out = if touches == 0 { apart } else { CLASS_CONTACT };
+        }
+    }
 }
 
 fn pixels(g: Geometry) -> Pixels {
@@ -187,8 +187,6 @@ fn log_contact_style(stream: &Stream, g: Geometry) -> Result<(), ObserveError> {
         .with_format(format)
         .with_opacity(1.0)
         .with_draw_order(5.0);
-    stream.log_static(CONTACT, &image)?;
-    stream.log_static(CONTACT, &pixels.transform())?;
     let context = AnnotationContext::new([
         (
             CLASS_FILM.into(),
@@ -207,5 +205,8 @@ fn log_contact_style(stream: &Stream, g: Geometry) -> Result<(), ObserveError> {
             Rgba32::from_rgb(30, 33, 40),
         ),
     ]);
-    stream.log_static(CONTACT, &context)
+    stream.log_static(
+        CONTACT,
+        &[&image as &dyn AsComponents, &pixels.transform(), &context],
+    )
 }

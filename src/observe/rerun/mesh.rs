@@ -1,11 +1,5 @@
 //! Sheets of triangles over a window of the frame's grid: the parts of the 3-D view.
 
-use std::sync::Arc;
-
-use rerun::external::arrow::array::{FixedSizeListArray, Float32Array, UInt32Array};
-use rerun::external::arrow::datatypes::{DataType, Field};
-use rerun::{Mesh3D, SerializedComponentBatch};
-
 use super::colour::hillshade;
 use super::geometry::Geometry;
 
@@ -76,58 +70,43 @@ impl Window {
     }
 
     /// How bright each node of a sheet with these heights is lit.
-    pub(super) fn shades(&self, heights: &[f32]) -> Vec<f32> {
-        let slope = |low: usize, high: usize, nodes: usize, spacing: f32| {
-            (heights[high] - heights[low]) / (spacing * nodes.max(1) as f32)
-        };
-        (0..heights.len())
-            .map(|at| {
-                let (i, j) = (at % self.columns, at / self.columns);
-                let left = at - usize::from(i > 0);
-                let right = at + usize::from(i + 1 < self.columns);
-                let front = at - self.columns * usize::from(j > 0);
-                let back = at + self.columns * usize::from(j + 1 < self.rows);
-                hillshade(
-                    slope(left, right, right - left, self.spacing[0]),
-                    slope(front, back, (back - front) / self.columns, self.spacing[1]),
-                )
-            })
-            .collect()
+    pub(super) fn shades(&self, heights: &[f32], shades: &mut Vec<f32>) {
+        shades.clear();
+        shades.resize(heights.len(), 0.0);
+        let row = |j: usize| &heights[j * self.columns..(j + 1) * self.columns];
+        for (j, out) in shades.chunks_exact_mut(self.columns).enumerate() {
+            let (front, back) = (j.saturating_sub(1), (j + 1).min(self.rows - 1));
+            let per = [
+                1.0 / self.spacing[0],
+                1.0 / (self.spacing[1] * (back - front) as f32),
+            ];
+            shade_row(row(j), [row(front), row(back)], per, out);
+        }
     }
 
-    /// Positions and colours of a sheet with these heights.
-    pub(super) fn sheet(&self, heights: &[f32], colours: &[[u8; 3]]) -> Mesh3D {
-        let positions = self.xy.iter().zip(heights).map(|(&[x, y], &z)| [x, y, z]);
-        Mesh3D {
-            vertex_positions: Some(positions_of(positions)),
-            ..coloured(colours.iter().copied())
+    /// Adds x, y and z of a sheet with these heights.
+    pub(super) fn place(&self, heights: &[f32], positions: &mut Vec<f32>) {
+        let from = positions.len();
+        positions.resize(from + 3 * self.xy.len(), 0.0);
+        let places = self.xy.iter().zip(heights);
+        for (out, (&[x, y], &z)) in positions[from..].chunks_exact_mut(3).zip(places) {
+            out.copy_from_slice(&[x, y, z]);
         }
     }
 }
 
-/// Positions as the library stores them. Its own way there takes every number through an optional value and three
-/// vectors: half of what recording a sheet would cost.
-fn positions_of(positions: impl Iterator<Item = [f32; 3]>) -> SerializedComponentBatch {
-    let numbers: Vec<f32> = positions.flatten().collect();
-    let item = Arc::new(Field::new("item", DataType::Float32, false));
-    let numbers = Arc::new(Float32Array::from(numbers));
-    SerializedComponentBatch {
-        descriptor: Mesh3D::descriptor_vertex_positions(),
-        array: Arc::new(FixedSizeListArray::new(item, 3, numbers, None)),
-    }
-}
-
-/// An update of a mesh's colours alone, stored in the same way.
-pub(super) fn coloured(colours: impl Iterator<Item = [u8; 3]>) -> Mesh3D {
-    let numbers: Vec<u32> = colours
-        .map(|[r, g, b]| u32::from_be_bytes([r, g, b, u8::MAX]))
-        .collect();
-    Mesh3D {
-        vertex_colors: Some(SerializedComponentBatch {
-            descriptor: Mesh3D::descriptor_vertex_colors(),
-            array: Arc::new(UInt32Array::from(numbers)),
-        }),
-        ..Mesh3D::update_fields()
+dispatched! {
+    /// Of a row between two others: slopes are differences over two cells, at the ends over one.
+    fn shade_row(row: &[f32], [front, back]: [&[f32]; 2], [per_x, per_y]: [f32; 2], shades: &mut [f32]) {
+        let last = row.len() - 1;
+        let rise = |i: usize| (back[i] - front[i]) * per_y;
+        shades[0] = hillshade((row[1] - row[0]) * per_x, rise(0));
+        shades[last] = hillshade((row[last] - row[last - 1]) * per_x, rise(last));
+        let inner = shades[1..last].iter_mut().zip(row.windows(3));
+        let inner = inner.zip(front[1..last].iter().zip(&back[1..last]));
+        for ((out, x), (front, back)) in inner {
+            *out = hillshade((x[2] - x[0]) * (0.5 * per_x), (back - front) * per_y);
+        }
     }
 }
 
@@ -148,20 +127,6 @@ pub(super) fn triangles(columns: usize, rows: usize) -> Vec<[u32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn arrays_are_those_that_the_library_would_make() {
-        let points = [[0.0, -1.5, 2.25], [3.0, 4.0, f32::MIN_POSITIVE]];
-        let colours = [[1, 2, 3], [250, 128, 0]];
-        let theirs = Mesh3D::update_fields()
-            .with_vertex_positions(points)
-            .with_vertex_colors(colours);
-        let ours = Mesh3D {
-            vertex_positions: Some(positions_of(points.into_iter())),
-            ..coloured(colours.into_iter())
-        };
-        assert_eq!(ours, theirs);
-    }
 
     #[test]
     fn the_front_half_is_cut_away_and_sheets_stay_small() {
@@ -191,9 +156,24 @@ mod tests {
             let most = window.triangles().into_iter().flatten().max();
             assert_eq!(most, Some((window.nodes().len() - 1) as u32));
             // A plane that rises with x is lit evenly, and less than the flat.
-            let flat = window.shades(&vec![0.0; window.nodes().len()]);
+            let shades = |heights: &[f32]| {
+                let mut shades = Vec::new();
+                window.shades(heights, &mut shades);
+                shades
+            };
+            let flat = shades(&vec![0.0; window.nodes().len()]);
             let plane: Vec<f32> = window.xy().iter().map(|[x, _]| 0.5 * x).collect();
-            let lit = window.shades(&plane);
+            let mut positions = Vec::new();
+            window.place(&plane, &mut positions);
+            assert_eq!(positions.len(), 3 * plane.len());
+            assert!(
+                positions
+                    .chunks(3)
+                    .zip(window.xy())
+                    .all(|(at, xy)| at[..2] == *xy)
+            );
+            assert!(positions.chunks(3).all(|at| at[2] == 0.5 * at[0]));
+            let lit = shades(&plane);
             assert!(
                 lit.iter()
                     .all(|shade| (shade - lit[0]).abs() < 1e-4 && *shade < flat[0])

@@ -13,6 +13,7 @@ mod centre_line;
 mod colour;
 mod damage;
 mod file;
+mod gathered;
 mod geometry;
 mod interferogram;
 mod kymograph;

@@ -6,11 +6,12 @@
 //! scripts get the value back in the unit of the entity's name.
 
 use rerun::components::{Colormap, ImageBuffer, ImageFormat, MagnificationFilter};
-use rerun::{ChannelDatatype, DepthImage, EntityPath, Transform3D};
+use rerun::{AsComponents, ChannelDatatype, DepthImage, Transform3D};
 
 use super::colour::WHITE;
 use super::plot::{Labels, PlotBox};
 use super::stream::Stream;
+use super::waiting::LevelImage;
 use crate::observe::ObserveError;
 use crate::observe::scales::{divisions, nice_up, number};
 
@@ -97,28 +98,71 @@ impl Scale {
         }
     }
 
-    /// Quantises rows of SI values, little-endian as the viewer wants them. Values beyond the stored range take
-    /// its end.
-    fn quantise<'a>(&self, rows_si: impl Iterator<Item = &'a [f32]>, n: usize) -> Vec<u8> {
+    /// Adds SI values, quantised, little-endian as the viewer wants them. Values beyond the stored range take its
+    /// end.
+    fn quantise(&self, field: Field, levels: &mut Vec<u16>) {
         let factor = (self.per_si * self.levels()) as f32;
-        let [low, high] = match self.sign {
+        let range = match self.sign {
             Sign::Positive => [0.0, f32::from(u16::MAX)],
             Sign::Both => [f32::from(i16::MIN), f32::from(i16::MAX)],
         };
-        let mut bytes = vec![0; 2 * n];
-        let mut rest = bytes.as_mut_slice();
-        for row in rows_si {
-            let (out, after) = rest.split_at_mut(2 * row.len());
-            for (pair, value) in out.chunks_exact_mut(2).zip(row) {
-                // Half away from zero, without a call of the library's `round`; both signs have the same low
-                // sixteen bits.
-                let level = value * factor;
-                let level = (level + 0.5_f32.copysign(level)).clamp(low, high);
-                pair.copy_from_slice(&(level as i32 as u16).to_le_bytes());
+        field.write_to(levels, |row, levels| {
+            quantise_row(row, factor, range, levels);
+        });
+    }
+
+    /// Same as bytes of their own.
+    fn quantised(&self, values_si: &[f32]) -> ImageBuffer {
+        let mut levels = Vec::with_capacity(values_si.len());
+        self.quantise(Field::TopDown(values_si), &mut levels);
+        let bytes: Vec<u8> = levels.into_iter().flat_map(u16::to_ne_bytes).collect();
+        ImageBuffer::from(bytes)
+    }
+}
+
+/// Values of a picture, row by row.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Field<'a, T = f32> {
+    /// As a picture has them.
+    TopDown(&'a [T]),
+    /// As a frame has them, so many a row: y points up.
+    BottomUp(&'a [T], usize),
+}
+
+impl<T> Field<'_, T> {
+    /// Adds a pixel for each value, through a function of rows. Rows are read as they lie: a frame comes from
+    /// another core, and reading it backwards takes three times as long.
+    pub(super) fn write_to<P: Copy + Default>(
+        self,
+        pixels: &mut Vec<P>,
+        mut write: impl FnMut(&[T], &mut [P]),
+    ) {
+        let from = pixels.len();
+        match self {
+            Self::TopDown(values) => {
+                pixels.resize(from + values.len(), P::default());
+                write(values, &mut pixels[from..]);
             }
-            rest = after;
+            Self::BottomUp(values, columns) => {
+                pixels.resize(from + values.len(), P::default());
+                let rows = pixels[from..].chunks_exact_mut(columns).rev();
+                for (row, out) in values.chunks_exact(columns).zip(rows) {
+                    write(row, out);
+                }
+            }
         }
-        bytes
+    }
+}
+
+dispatched! {
+    fn quantise_row(row: &[f32], factor: f32, [low, high]: [f32; 2], levels: &mut [u16]) {
+        for (out, value) in levels.iter_mut().zip(row) {
+            // Half away from zero, without a call of the library's `round`; both signs have the same low sixteen
+            // bits.
+            let level = value * factor;
+            let level = (level + 0.5_f32.copysign(level)).clamp(low, high);
+            *out = (level as i32 as u16).to_le();
+        }
     }
 }
 
@@ -161,10 +205,10 @@ pub(super) enum Height {
 /// An image of a field that changes.
 #[derive(Debug, Clone)]
 pub(super) struct Raster {
-    image: EntityPath,
+    entity: String,
+    image: LevelImage,
     scale: Scale,
     columns: usize,
-    rows: usize,
 }
 
 impl Raster {
@@ -177,48 +221,48 @@ impl Raster {
         plot: &PlotBox,
         (title, height): (&str, Height),
     ) -> Result<Self, ObserveError> {
-        let image = EntityPath::from(format!("{entity}/image"));
+        let place = format!("{entity}/image");
         let format = ImageFormat::depth(pixels.resolution(), scale.datatype());
         // What is logged once holds for ever, so the size of a growing picture may not be.
         let fixed = match height {
             Height::Fixed => styled(&scale).with_format(format),
             Height::Growing => styled(&scale),
         };
-        stream.log_static(image.clone(), &fixed)?;
-        stream.log_static(image.clone(), &pixels.transform())?;
+        log_styled(stream, &place, &fixed, &pixels)?;
         plot.log(stream, &format!("{entity}/axes"))?;
         log_legend(stream, &format!("{entity}/legend"), &scale, plot, title)?;
         Ok(Self {
-            image,
+            image: stream.level_image(place.as_str()),
+            entity: place,
             scale,
             columns: pixels.columns,
-            rows: pixels.rows,
         })
     }
 
-    /// One frame's values in SI, row by row from the top.
-    pub(super) fn log<'a>(
-        &self,
-        stream: &Stream,
-        rows_si: impl Iterator<Item = &'a [f32]>,
-    ) -> Result<(), ObserveError> {
-        let bytes = self.scale.quantise(rows_si, self.columns * self.rows);
-        let data = DepthImage::update_fields().with_buffer(ImageBuffer::from(bytes));
-        stream.log(self.image.clone(), &data)
+    /// One frame's values in SI.
+    pub(super) fn log(&self, stream: &Stream, field: Field) -> Result<(), ObserveError> {
+        stream.log_levels(self.image, |levels| self.scale.quantise(field, levels))
     }
 
     /// The upper rows of a growing picture: as many as there are values for.
     pub(super) fn log_upper(&self, stream: &Stream, values_si: &[f32]) -> Result<(), ObserveError> {
         let rows = values_si.len() / self.columns.max(1);
         let resolution = [self.columns as u32, rows as u32];
-        let bytes = self
-            .scale
-            .quantise(std::iter::once(values_si), values_si.len());
         let data = DepthImage::update_fields()
-            .with_buffer(ImageBuffer::from(bytes))
+            .with_buffer(self.scale.quantised(values_si))
             .with_format(ImageFormat::depth(resolution, self.scale.datatype()));
-        stream.log(self.image.clone(), &data)
+        stream.log(&self.entity, &data)
     }
+}
+
+/// Logs how an image looks and where it is.
+pub(super) fn log_styled(
+    stream: &Stream,
+    entity: &str,
+    style: &dyn AsComponents,
+    pixels: &Pixels,
+) -> Result<(), ObserveError> {
+    stream.log_static(entity, &[style, &pixels.transform()])
 }
 
 fn styled(scale: &Scale) -> DepthImage {
@@ -256,11 +300,8 @@ fn log_legend(
     let bar = format!("{entity}/bar");
     let image = styled(scale)
         .with_format(ImageFormat::depth(pixels.resolution(), scale.datatype()))
-        .with_buffer(ImageBuffer::from(
-            scale.quantise(std::iter::once(ramp.as_slice()), ROWS),
-        ));
-    stream.log_static(bar.as_str(), &image)?;
-    stream.log_static(bar.as_str(), &pixels.transform())?;
+        .with_buffer(scale.quantised(&ramp));
+    log_styled(stream, &bar, &image, &pixels)?;
 
     let mut labels = Labels::default();
     let values = match scale.sign {
@@ -288,14 +329,33 @@ mod tests {
         Scale::up_to(1.9e9, ("GPa", 1e-9), sign, Colormap::Inferno, 8.0)
     }
 
+    fn levels(scale: &Scale, values: &[f32]) -> Vec<u16> {
+        let mut levels = Vec::new();
+        scale.quantise(Field::TopDown(values), &mut levels);
+        levels.into_iter().map(u16::from_le).collect()
+    }
+
+    #[test]
+    fn a_frames_rows_are_turned_over() {
+        let mut pixels = vec![9];
+        Field::BottomUp(&[1, 2, 3, 4, 5, 6], 2).write_to(
+            &mut pixels,
+            |row: &[i32], out: &mut [i32]| {
+                out.copy_from_slice(row);
+            },
+        );
+        assert_eq!(pixels, [9, 5, 6, 3, 4, 1, 2]);
+    }
+
     #[test]
     fn values_come_back_within_half_a_level() {
         let scale = scale(Sign::Positive);
         assert!((scale.top - 2.0).abs() < 1e-12);
         let values = [0.0, 1.234_567e9, 1.9e9, 15.9e9];
-        let bytes = scale.quantise(std::iter::once(values.as_slice()), 4);
-        for (pair, value) in bytes.chunks_exact(2).zip(values) {
-            let stored = f64::from(u16::from_le_bytes([pair[0], pair[1]]));
+        let levels = levels(&scale, &values);
+        assert_eq!(levels.len(), values.len());
+        for (stored, value) in levels.into_iter().zip(values) {
+            let stored = f64::from(stored);
             let back = stored / scale.levels();
             let error = (back - f64::from(value) * 1e-9).abs();
             // Half a level, and the rounding of a single-precision product.
@@ -306,17 +366,17 @@ mod tests {
 
     #[test]
     fn the_ends_saturate_and_signs_are_kept() {
-        let two = |sign, values: [f32; 2]| {
-            let row = values.as_slice();
-            scale(sign).quantise(std::iter::once(row), 2)
+        let of = |sign, values: [f32; 2]| levels(&scale(sign), &values);
+        assert_eq!(of(Sign::Positive, [1e12, -1.0]), [u16::MAX, 0]);
+        assert_eq!(of(Sign::Positive, [f32::NAN, 0.0]), [0, 0]);
+        let signed = |values| -> Vec<i16> {
+            let levels = of(Sign::Both, values).into_iter();
+            levels.map(u16::cast_signed).collect()
         };
-        assert_eq!(two(Sign::Positive, [1e12, -1.0]), [255, 255, 0, 0]);
-        assert_eq!(two(Sign::Positive, [f32::NAN, 0.0]), [0; 4]);
-        let ends = two(Sign::Both, [-1e12, 1e12]);
-        assert_eq!(ends, [0x00, 0x80, 0xff, 0x7f]);
-        let bytes = two(Sign::Both, [-1.0e9, 1.0e9]);
-        let low = i16::from_le_bytes([bytes[0], bytes[1]]);
-        let high = i16::from_le_bytes([bytes[2], bytes[3]]);
+        assert_eq!(signed([-1e12, 1e12]), [i16::MIN, i16::MAX]);
+        let [low, high] = signed([-1.0e9, 1.0e9])[..] else {
+            panic!("two values");
+        };
         assert_eq!(low, -high);
         assert!(high > 2000);
     }

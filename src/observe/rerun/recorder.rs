@@ -26,8 +26,8 @@ use crate::observe::{
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
 
-/// The maps of the second tab are recorded in every so-many-th picture: they cost as much as all the
-/// others, and for looking at textures half the pace does.
+/// The maps of the second tab and of damage are recorded in every so-many-th picture: they cost as much as all
+/// the others, and for looking at textures and at what collects slowly half the pace does.
 const BESIDE_EVERY: u64 = 2;
 
 /// Writes a recording.
@@ -237,23 +237,26 @@ impl Views {
     fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         self.maps.log(stream, frame)?;
         self.centre_line.log(stream, frame)?;
-        if let Some(slice) = &self.slice {
+        if let Some(slice) = &mut self.slice {
             slice.log(stream, frame)?;
         }
-        if self.pictures.is_multiple_of(BESIDE_EVERY) {
-            self.maps.log_beside(stream, frame)?;
-            if let Some(slice) = &self.slice {
-                slice.log_shear(stream, frame)?;
-            }
-        }
-        self.pictures += 1;
         if let Some(space) = &mut self.space {
             space.log(stream, frame)?;
         }
         if let Some(trace) = &mut self.trace {
             trace.log(stream, frame)?;
         }
-        self.damage.log(stream, frame)?;
+        if self.pictures.is_multiple_of(BESIDE_EVERY) {
+            self.maps.log_beside(stream, frame)?;
+            if let Some(slice) = &self.slice {
+                slice.log_shear(stream, frame)?;
+            }
+            if let Some(space) = &mut self.space {
+                space.log_damage(stream, frame)?;
+            }
+            self.damage.log(stream, frame)?;
+        }
+        self.pictures += 1;
         for kymograph in &mut self.kymographs {
             kymograph.log_if_due(stream)?;
         }

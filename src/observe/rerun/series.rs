@@ -1,35 +1,28 @@
 //! Scalars against time, each with its unit in the name.
 //!
-//! Values that are known in every step share an entity (45 bytes in place of 223); values that may
-//! be unknown have their own and are left out while they are. Steps are collected and sent as columns once a
-//! second: row by row they would cost more than all the pictures.
+//! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second);
+//! what is not known yet is left out. Steps are collected and sent as columns once a second: row by row they
+//! would cost more than all the pictures.
 
 use rerun::{Color, EntityPath, SeriesLines};
 
 use super::colour::{BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE, YELLOW};
 use super::stream::{Moment, Stream};
 use crate::observe::ObserveError;
-use crate::sim::{Frame, Metrics};
+use crate::sim::{Frame, LifeEstimate};
 
-/// Smallest error that is drawn: errors are plotted as logarithms.
-const LEAST_ERROR: f64 = 1e-16;
+/// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
+const LEAST_ERROR: f64 = 1e-12;
 
 /// Series that share an entity: path, then name and colour of each.
 struct Group {
     entity: &'static str,
     lines: &'static [(&'static str, [u8; 3])],
+    /// Adds a value for each line, or none while they are not known.
     values: fn(&Frame, &mut Vec<f64>),
 }
 
-/// A series of its own, present when known.
-struct Single {
-    entity: &'static str,
-    name: &'static str,
-    colour: [u8; 3],
-    value: fn(&Frame) -> Option<f64>,
-}
-
-const GROUPS: [Group; 8] = [
+const GROUPS: [Group; 21] = [
     Group {
         entity: "series/pressure_GPa",
         lines: &[("p_max, GPa", ORANGE), ("p_Hertz, GPa", GREY)],
@@ -103,134 +96,117 @@ const GROUPS: [Group; 8] = [
             out.push(f64::from(u8::from(m.converged)));
         },
     },
-];
-
-const SINGLES: [Single; 20] = [
-    single(
-        "series/stress_GPa/effective_max",
-        "σ_eff max, GPa",
-        PURPLE,
-        |f| f.metrics.sigma_eff_max_pa.map(|stress| stress * 1e-9),
-    ),
-    single("series/lambda_ratio", "λ ratio", SKY, |f| {
-        f.metrics.lambda_ratio
-    }),
-    single("life/log10_relative/low", "log10 life, low", GREY, |f| {
-        log_life(&f.metrics, |life| life.life_relative_low)
-    }),
-    single(
-        "life/log10_relative/value",
-        "log10 relative life",
-        WHITE,
-        |f| log_life(&f.metrics, |life| life.life_relative),
-    ),
-    single("life/log10_relative/high", "log10 life, high", GREY, |f| {
-        log_life(&f.metrics, |life| life.life_relative_high)
-    }),
-    single(
-        "life/log10_factors/cycles",
-        "log10 cycle factor",
-        SKY,
-        |f| log_life(&f.metrics, |life| life.cycle_factor),
-    ),
-    single(
-        "life/log10_factors/peaks",
-        "log10 peak factor",
-        ORANGE,
-        |f| log_life(&f.metrics, |life| life.peak_factor),
-    ),
-    single(
-        "life/log10_factors/traction",
-        "log10 traction factor",
-        GREEN,
-        |f| log_life(&f.metrics, |life| life.traction_factor),
-    ),
-    single("life/relative", "relative life", WHITE, |f| {
-        f.metrics.life.map(|life| life.life_relative)
-    }),
-    single(
-        "life/contacts_per_cycle/n_1_formula",
-        "n body 1, formula",
-        SKY,
-        |f| f.metrics.n_body_1,
-    ),
-    single(
-        "life/contacts_per_cycle/n_1_counted",
-        "n body 1, counted",
-        BLUE,
-        |f| f.metrics.n_counted_body_1,
-    ),
-    single(
-        "life/contacts_per_cycle/n_2_formula",
-        "n body 2, formula",
-        ORANGE,
-        |f| f.metrics.n_body_2,
-    ),
-    single(
-        "life/contacts_per_cycle/n_2_counted",
-        "n body 2, counted",
-        VERMILION,
-        |f| f.metrics.n_counted_body_2,
-    ),
-    single(
-        "material_point/stress_GPa/pressure",
-        "pressure above the point, GPa",
-        ORANGE,
-        |f| f.material_point.map(|point| point.pressure_pa * 1e-9),
-    ),
-    single(
-        "material_point/stress_GPa/effective",
-        "effective stress, GPa",
-        PURPLE,
-        |f| f.material_point.map(|point| point.effective_pa * 1e-9),
-    ),
-    single("material_point/stress_GPa/tau_xz", "τxz, GPa", SKY, |f| {
-        f.material_point.map(|point| point.tau_xz_pa * 1e-9)
-    }),
-    single(
-        "material_point/cycles/counted",
-        "cycles counted in this crossing",
-        WHITE,
-        |f| f.material_point.map(|point| point.cycles_counted),
-    ),
-    single(
-        "material_point/cycles/formula",
-        "contacts by formula, n",
-        GREY,
-        |f| {
-            let point = f.material_point?;
-            if point.body == 1 {
-                f.metrics.n_body_1
-            } else {
-                f.metrics.n_body_2
+    Group {
+        entity: "series/stress_GPa",
+        lines: &[("σ_eff max, GPa", PURPLE)],
+        values: |frame, out| out.extend(frame.metrics.sigma_eff_max_pa.map(|stress| stress * 1e-9)),
+    },
+    Group {
+        entity: "series/lambda_ratio",
+        lines: &[("λ ratio", SKY)],
+        values: |frame, out| out.extend(frame.metrics.lambda_ratio),
+    },
+    Group {
+        entity: "life/log10_relative",
+        lines: &[
+            ("log10 life, low", GREY),
+            ("log10 relative life", WHITE),
+            ("log10 life, high", GREY),
+        ],
+        values: |frame, out| {
+            log_life(frame, out, |life| {
+                [
+                    life.life_relative_low,
+                    life.life_relative,
+                    life.life_relative_high,
+                ]
+            });
+        },
+    },
+    Group {
+        entity: "life/log10_factors",
+        lines: &[
+            ("log10 cycle factor", SKY),
+            ("log10 peak factor", ORANGE),
+            ("log10 traction factor", GREEN),
+        ],
+        values: |frame, out| {
+            log_life(frame, out, |life| {
+                [life.cycle_factor, life.peak_factor, life.traction_factor]
+            });
+        },
+    },
+    Group {
+        entity: "life/relative",
+        lines: &[("relative life", WHITE)],
+        values: |frame, out| out.extend(frame.metrics.life.map(|life| life.life_relative)),
+    },
+    Group {
+        entity: "life/contacts_per_cycle/n_1_formula",
+        lines: &[("n body 1, formula", SKY)],
+        values: |frame, out| out.extend(frame.metrics.n_body_1),
+    },
+    Group {
+        entity: "life/contacts_per_cycle/n_1_counted",
+        lines: &[("n body 1, counted", BLUE)],
+        values: |frame, out| out.extend(frame.metrics.n_counted_body_1),
+    },
+    Group {
+        entity: "life/contacts_per_cycle/n_2_formula",
+        lines: &[("n body 2, formula", ORANGE)],
+        values: |frame, out| out.extend(frame.metrics.n_body_2),
+    },
+    Group {
+        entity: "life/contacts_per_cycle/n_2_counted",
+        lines: &[("n body 2, counted", VERMILION)],
+        values: |frame, out| out.extend(frame.metrics.n_counted_body_2),
+    },
+    Group {
+        entity: "material_point/stress_GPa",
+        lines: &[
+            ("pressure above the point, GPa", ORANGE),
+            ("effective stress, GPa", PURPLE),
+            ("τxz, GPa", SKY),
+        ],
+        values: |frame, out| {
+            if let Some(point) = &frame.material_point {
+                let stresses = [point.pressure_pa, point.effective_pa, point.tau_xz_pa];
+                out.extend(stresses.map(|stress| stress * 1e-9));
             }
         },
-    ),
-    single("material_point/position_mm/x", "x, mm", GREEN, |f| {
-        f.material_point.map(|point| point.x_m * 1e3)
-    }),
-    single("material_point/position_mm/depth", "depth, mm", GREY, |f| {
-        f.material_point.map(|point| point.depth_m * 1e3)
-    }),
+    },
+    Group {
+        entity: "material_point/cycles/counted",
+        lines: &[("cycles counted in this crossing", WHITE)],
+        values: |frame, out| out.extend(frame.material_point.map(|point| point.cycles_counted)),
+    },
+    Group {
+        entity: "material_point/cycles/formula",
+        lines: &[("contacts by formula, n", GREY)],
+        values: |frame, out| {
+            out.extend(frame.material_point.and_then(|point| match point.body {
+                1 => frame.metrics.n_body_1,
+                _ => frame.metrics.n_body_2,
+            }));
+        },
+    },
+    Group {
+        entity: "material_point/position_mm",
+        lines: &[("x, mm", GREEN), ("depth, mm", GREY)],
+        values: |frame, out| {
+            if let Some(point) = &frame.material_point {
+                out.extend([point.x_m, point.depth_m].map(|place| place * 1e3));
+            }
+        },
+    },
 ];
 
-const fn single(
-    entity: &'static str,
-    name: &'static str,
-    colour: [u8; 3],
-    value: fn(&Frame) -> Option<f64>,
-) -> Single {
-    Single {
-        entity,
-        name,
-        colour,
-        value,
+/// Logarithms of parts of the life, where it has one.
+fn log_life(frame: &Frame, out: &mut Vec<f64>, parts: fn(&LifeEstimate) -> [f64; 3]) {
+    let parts = frame.metrics.life.as_ref().map(parts);
+    if let Some(parts) = parts.filter(|parts| parts.iter().all(|&part| part > 0.0)) {
+        out.extend(parts.map(f64::log10));
     }
-}
-
-fn log_life(metrics: &Metrics, part: fn(&crate::sim::LifeEstimate) -> f64) -> Option<f64> {
-    let value = metrics.life.as_ref().map(part)?;
-    (value > 0.0).then(|| value.log10())
 }
 
 /// Names and colours, once for the whole recording.
@@ -240,19 +216,6 @@ fn log_styles(stream: &Stream) -> Result<(), ObserveError> {
             .with_names(lines.iter().map(|(name, _)| *name))
             .with_colors(lines.iter().map(|(_, colour)| Color::from(*colour)))
             .with_widths(lines.iter().map(|_| 1.8));
-        stream.log_static(*entity, &style)?;
-    }
-    for Single {
-        entity,
-        name,
-        colour,
-        ..
-    } in &SINGLES
-    {
-        let style = SeriesLines::new()
-            .with_names([*name])
-            .with_colors([Color::from(*colour)])
-            .with_widths([1.8]);
         stream.log_static(*entity, &style)?;
     }
     Ok(())
@@ -265,56 +228,32 @@ const MOST_WAITING: usize = 1024;
 pub(super) struct Series {
     columns: Vec<Column>,
     waiting: usize,
-    scratch: Vec<f64>,
 }
 
+#[derive(Default)]
 struct Column {
-    entity: EntityPath,
-    width: usize,
     moments: Vec<Moment>,
     values: Vec<f64>,
-}
-
-impl Column {
-    fn new(entity: &str, width: usize) -> Self {
-        Self {
-            entity: EntityPath::from(entity),
-            width,
-            moments: Vec::new(),
-            values: Vec::new(),
-        }
-    }
 }
 
 impl Series {
     /// Logs names and colours and collects from there on.
     pub(super) fn new(stream: &Stream) -> Result<Self, ObserveError> {
         log_styles(stream)?;
-        let groups = GROUPS
-            .iter()
-            .map(|group| Column::new(group.entity, group.lines.len()));
-        let singles = SINGLES.iter().map(|single| Column::new(single.entity, 1));
         Ok(Self {
-            columns: groups.chain(singles).collect(),
+            columns: GROUPS.iter().map(|_| Column::default()).collect(),
             waiting: 0,
-            scratch: Vec::new(),
         })
     }
 
     /// Takes up a step's scalars.
     pub(super) fn follow(&mut self, frame: &Frame) {
         let now = Moment::new(frame.step, frame.time_s, frame.passages);
-        let (groups, singles) = self.columns.split_at_mut(GROUPS.len());
-        for (group, column) in GROUPS.iter().zip(groups) {
-            self.scratch.clear();
-            (group.values)(frame, &mut self.scratch);
-            column.moments.push(now);
-            column.values.extend_from_slice(&self.scratch);
-        }
-        for (single, column) in SINGLES.iter().zip(singles) {
-            if let Some(value) = (single.value)(frame) {
+        for (group, column) in GROUPS.iter().zip(&mut self.columns) {
+            let before = column.values.len();
+            (group.values)(frame, &mut column.values);
+            if column.values.len() > before {
                 column.moments.push(now);
-                column.values.push(value);
             }
         }
         self.waiting += 1;
@@ -328,12 +267,12 @@ impl Series {
     /// Sends what waits.
     pub(super) fn send(&mut self, stream: &Stream) -> Result<(), ObserveError> {
         self.waiting = 0;
-        for column in &mut self.columns {
+        for (group, column) in GROUPS.iter().zip(&mut self.columns) {
             if column.moments.is_empty() {
                 continue;
             }
-            let entity = column.entity.clone();
-            stream.log_columns(entity, &column.moments, &column.values, column.width)?;
+            let entity = EntityPath::from(group.entity);
+            stream.log_columns(entity, &column.moments, &column.values, group.lines.len())?;
             column.moments.clear();
             column.values.clear();
         }

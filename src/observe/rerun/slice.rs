@@ -11,7 +11,7 @@ use rerun::{LineStrips2D, Points2D, Radius};
 use super::colour::{GREEN, WHITE, faded};
 use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, Ranges, number, ticks};
@@ -21,6 +21,7 @@ pub(super) const EFFECTIVE: &str = "slice_y0/effective_stress_GPa";
 pub(super) const TAU_XZ: &str = "slice_y0/tau_xz_GPa";
 /// The followed material point.
 pub(super) const POINT: &str = "slice_y0/material_point";
+const POINT_NOW: &str = "slice_y0/material_point/now";
 /// Where the stress is greatest.
 pub(super) const PEAK: &str = "slice_y0/greatest_stress";
 
@@ -131,6 +132,8 @@ pub(super) struct Slice {
     tau_xz: Raster,
     plot: PlotBox,
     scales: [(&'static str, Scale); 2],
+    /// Depth of the path that was logged last.
+    path_m: Option<f64>,
 }
 
 impl Slice {
@@ -169,6 +172,7 @@ impl Slice {
             size: [geometry.dx, rows.height_mm],
         };
         let plot = plot_box(geometry, &rows);
+        log_dots(stream)?;
         let image = |entity, scale, title| {
             Raster::new(stream, entity, scale, pixels, &plot, (title, Height::Fixed))
         };
@@ -179,6 +183,7 @@ impl Slice {
             rows,
             plot,
             scales,
+            path_m: None,
         }))
     }
 
@@ -197,14 +202,13 @@ impl Slice {
     }
 
     /// Logs one frame's slice. A frame without a slice changes nothing.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let nx = self.geometry.nx;
         let Some(slice) = frame.slice.as_ref().filter(|s| self.rows.hold(s, nx)) else {
             return Ok(());
         };
         let effective = self.rows.image(&slice.effective_pa, nx);
-        self.effective
-            .log(stream, std::iter::once(effective.as_slice()))?;
+        self.effective.log(stream, Field::TopDown(&effective))?;
         log_peak(stream, frame)?;
         self.log_point(stream, frame)
     }
@@ -216,31 +220,40 @@ impl Slice {
             return Ok(());
         };
         let shear = self.rows.image(&slice.tau_xz_pa, nx);
-        self.tau_xz.log(stream, std::iter::once(shear.as_slice()))
+        self.tau_xz.log(stream, Field::TopDown(&shear))
     }
 
     /// The followed point and the depth on which it travels.
-    fn log_point(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    fn log_point(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let Some(point) = frame.material_point.filter(|point| point.body == 1) else {
             return Ok(());
         };
         let (x, z) = ((point.x_m * MM) as f32, (point.depth_m * MM) as f32);
         let [left, right] = self.plot.x.map(|x| x as f32);
-        let path = LineStrips2D::new([[[left, z], [right, z]]])
-            .with_colors([faded(GREEN, 130)])
-            .with_radii([Radius::new_ui_points(0.5)])
-            .with_draw_order(18.0);
-        stream.log(format!("{POINT}/path"), &path)?;
-        if !(left..=right).contains(&x) {
-            let nothing = Points2D::new(std::iter::empty::<[f32; 2]>());
-            return stream.log(format!("{POINT}/now"), &nothing);
+        if self.path_m != Some(point.depth_m) {
+            self.path_m = Some(point.depth_m);
+            let path = LineStrips2D::new([[[left, z], [right, z]]])
+                .with_colors([faded(GREEN, 130)])
+                .with_radii([Radius::new_ui_points(0.5)])
+                .with_draw_order(18.0);
+            stream.log(&format!("{POINT}/path"), &path)?;
         }
-        let now = Points2D::new([[x, z]])
-            .with_radii([Radius::new_ui_points(5.0)])
-            .with_colors([faded(GREEN, 255)])
-            .with_draw_order(26.0);
-        stream.log(format!("{POINT}/now"), &now)
+        // Outside of the picture there is none.
+        let here = (left..=right).contains(&x).then_some([x, z]);
+        stream.log(POINT_NOW, &Points2D::update_fields().with_positions(here))
     }
+}
+
+/// How the dots look: the followed point and the greatest stress.
+fn log_dots(stream: &Stream) -> Result<(), ObserveError> {
+    let dot = |colour, radius, order| {
+        Points2D::update_fields()
+            .with_radii([Radius::new_ui_points(radius)])
+            .with_colors([faded(colour, 255)])
+            .with_draw_order(order)
+    };
+    stream.log_static(POINT_NOW, &dot(GREEN, 5.0, 26.0))?;
+    stream.log_static(PEAK, &dot([255, 255, 255], 3.5, 25.0))
 }
 
 /// A dot where the effective stress is greatest.
@@ -250,11 +263,7 @@ fn log_peak(stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         return Ok(());
     };
     let at = [(x * MM) as f32, (depth * MM) as f32];
-    let ring = Points2D::new([at])
-        .with_radii([Radius::new_ui_points(3.5)])
-        .with_colors([faded([255, 255, 255], 255)])
-        .with_draw_order(25.0);
-    stream.log(PEAK, &ring)
+    stream.log(PEAK, &Points2D::update_fields().with_positions([at]))
 }
 
 fn plot_box(g: Geometry, rows: &Rows) -> PlotBox {

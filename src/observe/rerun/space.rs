@@ -8,18 +8,26 @@
 mod fixed;
 mod hung;
 
-use rerun::{Arrows3D, Color, Points3D, Radius};
+use rerun::{Arrows3D, Color, Points3D};
 
-use super::colour::{GREEN, ORANGE, Ramp, SKY};
+use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, packed};
 use super::geometry::Geometry;
-use super::mesh::{COARSE, FINE, Window, coloured};
+use super::mesh::{COARSE, FINE, Window};
 use super::slice::Rows;
 use super::stream::Stream;
+use super::waiting::Sheet;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, number};
 use crate::sim::{Frame, Metrics};
 
 pub(super) const SPACE: &str = "contact_3d";
+/// The sheets below it.
+const FILM: &str = "film_coloured_by_pressure";
+const BODIES: [&str; 2] = ["body_1_surface", "body_2_surface"];
+const SLICE: &str = "effective_stress_slice";
+/// What stands in it.
+const SPOTS: &str = "contact_3d/contact_spots";
+const POINT: &str = "contact_3d/material_point";
 /// Depth of the stress that is shown, in a.
 const SLICE_DEPTH: f64 = 1.1;
 
@@ -43,9 +51,30 @@ pub(super) struct Space {
     levels: Levels,
     speeds: Option<[f64; 3]>,
     hung: hung::Hung,
-    /// Scratch: heights, shades and colours of a sheet.
+    sheets: Sheets,
+    pressure: Tints,
+    stress: Tints,
+    /// Scratch: heights and shades of a sheet.
     heights: Vec<f32>,
-    colours: Vec<[u8; 3]>,
+    shades: Vec<f32>,
+}
+
+/// What changes with every picture.
+struct Sheets {
+    film: Sheet,
+    bodies: [Sheet; 2],
+    slice: Sheet,
+}
+
+impl Sheets {
+    fn new(stream: &Stream) -> Self {
+        let sheet = |name: &str| stream.sheet(format!("{SPACE}/{name}"));
+        Self {
+            film: sheet(FILM),
+            bodies: BODIES.map(sheet),
+            slice: sheet(SLICE),
+        }
+    }
 }
 
 /// Where the sheets' zero heights are drawn, mm.
@@ -99,9 +128,12 @@ impl Space {
             exaggeration: exaggeration(geometry, first),
             levels,
             speeds: None,
-            hung: hung::Hung::default(),
+            hung: hung::Hung::new(stream),
+            sheets: Sheets::new(stream),
+            pressure: Tints::new(pressure_colour),
+            stress: Tints::of(Ramp::Magma),
             heights: Vec::new(),
-            colours: Vec::new(),
+            shades: Vec::new(),
         };
         space.log_static(stream)?;
         Ok(Some(space))
@@ -129,29 +161,16 @@ impl Space {
     pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         self.log_film(stream, frame)?;
         let bodies = [
-            (
-                0,
-                "body_1_surface",
-                self.levels.body_1,
-                1.0,
-                &frame.roughness_1_m,
-            ),
-            (
-                1,
-                "body_2_surface",
-                self.levels.body_2,
-                -1.0,
-                &frame.roughness_2_m,
-            ),
+            (self.levels.body_1, 1.0, &frame.roughness_1_m),
+            (self.levels.body_2, -1.0, &frame.roughness_2_m),
         ];
-        for (body, name, level, side, field) in bodies {
+        for (body, (level, side, field)) in bodies.into_iter().enumerate() {
             // A smooth body's sheet is flat and was logged once.
             if self.tops.rough[body] {
-                self.log_body(stream, name, level, side * self.exaggeration, field)?;
+                self.log_body(stream, body, level, side * self.exaggeration, field)?;
             }
         }
         self.log_slice(stream, frame)?;
-        self.log_damage(stream, frame)?;
         self.log_spots(stream, frame)?;
         self.log_point(stream, frame)?;
         self.log_speeds(stream, &frame.metrics)
@@ -164,36 +183,37 @@ impl Space {
         self.heights.clear();
         self.heights
             .extend(nodes.iter().map(|&at| (frame.film_m[at] * factor).min(cap)));
-        let shades = self.film.shades(&self.heights);
-        let top = self.tops.pressure_pa as f32;
-        self.colours.clear();
-        self.colours
-            .extend(nodes.iter().zip(shades).map(|(&at, shade)| {
+        self.film.shades(&self.heights, &mut self.shades);
+        let per_top = 1.0 / self.tops.pressure_pa as f32;
+        stream.log_sheet(self.sheets.film, |positions, colours| {
+            self.film.place(&self.heights, positions);
+            let lit = nodes.iter().zip(&self.shades);
+            colours.extend(lit.map(|(&at, shade)| {
                 // Only half of the shading, so that colours can still be read.
-                pressure_colour(frame.pressure_pa[at] / top, (0.5 + 0.5 * shade).min(1.0))
+                let shade = (0.5 + 0.5 * shade).min(1.0);
+                self.pressure.colour(frame.pressure_pa[at] * per_top, shade)
             }));
-        let sheet = self.film.sheet(&self.heights, &self.colours);
-        stream.log(format!("{SPACE}/film_coloured_by_pressure"), &sheet)
+        })
     }
 
     fn log_body(
         &mut self,
         stream: &Stream,
-        name: &str,
+        body: usize,
         level: f64,
         factor: f64,
         field: &[f32],
     ) -> Result<(), ObserveError> {
-        let factor = (MM * factor) as f32;
+        let (level, factor) = (level as f32, (MM * factor) as f32);
         self.heights.clear();
         let nodes = self.bodies.nodes();
         self.heights
-            .extend(nodes.iter().map(|&at| level as f32 + field[at] * factor));
-        let shades = self.bodies.shades(&self.heights);
-        self.colours.clear();
-        self.colours.extend(shades.into_iter().map(steel));
-        let sheet = self.bodies.sheet(&self.heights, &self.colours);
-        stream.log(format!("{SPACE}/{name}"), &sheet)
+            .extend(nodes.iter().map(|&at| level + field[at] * factor));
+        self.bodies.shades(&self.heights, &mut self.shades);
+        stream.log_sheet(self.sheets.bodies[body], |positions, colours| {
+            self.bodies.place(&self.heights, positions);
+            colours.extend(self.shades.iter().map(|&shade| packed(steel(shade))));
+        })
     }
 
     fn log_slice(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
@@ -206,15 +226,15 @@ impl Space {
         if !sheet.rows.hold(slice, nx) {
             return Ok(());
         }
-        let value = |row, &i: &usize| sheet.rows.value(&slice.effective_pa, nx, row, i);
-        let colours = (0..sheet.rows.len()).flat_map(|row| {
-            let stress = sheet.columns.iter().map(move |i| value(row, i));
-            stress.map(|stress| Ramp::Magma.colour(stress / top as f32, 1.0))
-        });
-        stream.log(
-            format!("{SPACE}/effective_stress_slice"),
-            &coloured(colours),
-        )
+        let per_top = 1.0 / top as f32;
+        stream.log_sheet(self.sheets.slice, |_, colours| {
+            for row in 0..sheet.rows.len() {
+                colours.extend(sheet.columns.iter().map(|&i| {
+                    let stress = sheet.rows.value(&slice.effective_pa, nx, row, i);
+                    self.stress.colour(stress * per_top, 1.0)
+                }));
+            }
+        })
     }
 
     /// Where the bodies touch, on the film's sheet.
@@ -224,10 +244,7 @@ impl Space {
         let spots = spots
             .filter(|(at, _)| frame.contact[**at] > 0)
             .map(|(&at, &[x, y])| [x, y, (f64::from(frame.film_m[at]) * factor) as f32]);
-        let points = Points3D::new(spots)
-            .with_radii([Radius::new_scene_units((0.55 * self.geometry.dx) as f32)])
-            .with_colors([Color::from([90, 255, 250])]);
-        stream.log(format!("{SPACE}/contact_spots"), &points)
+        stream.log(SPOTS, &Points3D::update_fields().with_positions(spots))
     }
 
     /// The followed point of body 1, coloured by its stress.
@@ -235,25 +252,24 @@ impl Space {
         let (Some(point), Some(top)) = (frame.material_point, self.tops.effective_pa) else {
             return Ok(());
         };
-        let entity = format!("{SPACE}/material_point");
         let x = point.x_m * MM;
-        if point.body != 1 || x.abs() > 1.45 * self.geometry.a {
-            return stream.log(
-                entity.as_str(),
-                &Points3D::new(std::iter::empty::<[f32; 3]>()),
-            );
+        let (mut places, mut colours, mut labels) = (Vec::new(), Vec::new(), Vec::new());
+        if point.body == 1 && x.abs() <= 1.45 * self.geometry.a {
+            let z = self.levels.slice - point.depth_m * MM;
+            // A little in front of the cut, or the slice would hide half of it.
+            places = vec![[x as f32, (-0.03 * self.geometry.a) as f32, z as f32]; 2];
+            let stress = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
+            colours = vec![Color::from(GREEN), Color::from(stress)];
+            labels = vec![
+                format!("{:.2} GPa", point.effective_pa * GPA.1),
+                String::new(),
+            ];
         }
-        let z = self.levels.slice - point.depth_m * MM;
-        let colour = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
-        let label = format!("{:.2} GPa", point.effective_pa * GPA.1);
-        // A little in front of the cut, or the slice would hide half of it.
-        let at = [x as f32, (-0.03 * self.geometry.a) as f32, z as f32];
-        let dot = Points3D::new([at, at])
-            .with_radii([0.075, 0.055].map(|r| (r * self.geometry.a) as f32))
-            .with_colors([Color::from(GREEN), Color::from(colour)])
-            .with_labels([label.as_str(), ""])
-            .with_show_labels(true);
-        stream.log(entity.as_str(), &dot)
+        let dot = Points3D::update_fields()
+            .with_positions(places)
+            .with_colors(colours)
+            .with_labels(labels);
+        stream.log(POINT, &dot)
     }
 
     /// Arrows as long as the surfaces are fast, logged when a speed has changed.
@@ -282,7 +298,7 @@ impl Space {
             format!("U2 = {:.2} m/s", speeds[1]),
         ])
         .with_show_labels(true);
-        stream.log(format!("{SPACE}/surface_speeds"), &arrows)
+        stream.log(&format!("{SPACE}/surface_speeds"), &arrows)
     }
 }
 
@@ -304,11 +320,11 @@ impl SliceSheet {
 
 /// The pressure's colour; where there is hardly any, the grey-blue of oil, because the dark end of
 /// the map would hide the sheet's shape.
-fn pressure_colour(share: f32, shade: f32) -> [u8; 3] {
+fn pressure_colour(share: f32) -> [f32; 3] {
     const OIL: [f32; 3] = [88.0, 104.0, 128.0];
     let weight = (share / 0.06).clamp(0.0, 1.0);
-    let map = Ramp::Inferno.colour(share, shade);
-    std::array::from_fn(|c| (weight * f32::from(map[c]) + (1.0 - weight) * OIL[c] * shade) as u8)
+    let map = Ramp::Inferno.colour(share, 1.0);
+    std::array::from_fn(|c| weight * f32::from(map[c]) + (1.0 - weight) * OIL[c])
 }
 
 /// Steel under a light.

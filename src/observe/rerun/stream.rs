@@ -1,10 +1,12 @@
 //! The stream that is recorded to: opening, logging, closing, and the errors of each.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use rerun::log::ChunkBatcherConfig;
+use re_log_types::{LogMsg, StoreId};
+use rerun::log::{Chunk, ChunkBatcherConfig, PendingRow};
+use rerun::sink::LogSink as _;
 use rerun::time::TimePoint;
 use rerun::{
     AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars, TimeCell,
@@ -12,13 +14,14 @@ use rerun::{
 };
 
 use super::file::RecordingFile;
+use super::gathered::{Pen, chunk_of};
 use super::live::{self, Link, Live};
-use super::waiting::Waiting;
+use super::waiting::{ClassImage, Curves, LevelImage, Sheet, Waiting};
 use crate::observe::{ObserveError, Overwrite};
 
 /// Name under which viewers group recordings and remember layouts.
 pub(super) const APPLICATION: &str = "asperity";
-/// Most bytes that wait for the disk; logging waits when there are more.
+/// Most bytes that wait for a viewer; logging waits when there are more.
 const WAITING_BYTES: u64 = 32 * 1024 * 1024;
 /// How often a live stream sends what waits.
 const LIVE_TICK: Duration = Duration::from_millis(50);
@@ -26,9 +29,9 @@ const LIVE_TICK: Duration = Duration::from_millis(50);
 const LIVE_CLOSE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Longest wait for the last bytes on closing.
 const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
-/// What is logged reaches the file's writer at least this often: with the writing itself, `kill -9` loses less than
-/// a second.
-const TICK: Duration = Duration::from_millis(800);
+/// What is logged is written at least this often: with a frame that waits for others in the queue and the writing
+/// itself, on a machine that does other things too, `kill -9` loses less than a second.
+const TICK: Duration = Duration::from_millis(700);
 
 /// Timelines of every frame.
 pub(super) const STEP: &str = "step";
@@ -38,7 +41,7 @@ pub(super) const SIMULATED_TIME: &str = "simulated_time";
 pub(super) const PASSAGE: &str = "passage_x1000";
 
 /// A place on all three timelines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Moment {
     step: i64,
     nanos: i64,
@@ -56,6 +59,16 @@ impl Moment {
     }
 }
 
+/// The three timelines of so many rows.
+pub(super) fn time_columns(moments: &[Moment]) -> [TimeColumn; 3] {
+    let of = |part: fn(&Moment) -> i64| moments.iter().map(part);
+    [
+        TimeColumn::new_sequence(STEP, of(|at| at.step)),
+        TimeColumn::new_duration_nanos(SIMULATED_TIME, of(|at| at.nanos)),
+        TimeColumn::new_sequence(PASSAGE, of(|at| at.passage)),
+    ]
+}
+
 /// `enabled` is set because the variable RERUN=off would make a silent no-op of a recording that the user
 /// asked for.
 fn builder(batching: ChunkBatcherConfig) -> RecordingStreamBuilder {
@@ -71,12 +84,20 @@ pub(super) struct Stream {
     output: String,
     closed: bool,
     sent: Instant,
-    now: RefCell<TimePoint>,
+    /// How long the sending took last: longer where other programs want the processors too.
+    sending: Duration,
+    now: Cell<Moment>,
+    timepoint: RefCell<TimePoint>,
     waiting: RefCell<Waiting>,
 }
 
 enum Destination {
-    File(RecordingFile),
+    /// Chunks are encoded and written where they are made: the library would take them over two more threads,
+    /// to each of which they are cold. Only the layout goes its way.
+    File {
+        file: RecordingFile,
+        store: StoreId,
+    },
     Live(Link),
 }
 
@@ -88,18 +109,20 @@ impl Stream {
             ObserveError::new(path.display().to_string(), reason)
         };
         let file = RecordingFile::start(overwrite.create(path)?).map_err(failed)?;
-        let batching = ChunkBatcherConfig {
-            flush_tick: TICK,
-            flush_num_bytes: 4 * 1024 * 1024,
-            max_bytes_in_flight: WAITING_BYTES,
-            ..ChunkBatcherConfig::DEFAULT
-        };
-        let recording = builder(batching)
+        let recording = builder(ChunkBatcherConfig::NEVER)
             .buffered()
             .map_err(|error| failed(error.to_string()))?;
         recording.set_sink(Box::new(file.clone()));
+        // What the file is comes before what is in it.
+        let begun = recording.flush_with_timeout(CLOSE_TIMEOUT);
+        begun.map_err(|error| failed(error.to_string()))?;
+        let store = recording
+            .store_info()
+            .map(|info| info.store_id)
+            .ok_or_else(|| failed("it has no name".to_owned()))?;
         let output = path.display().to_string();
-        Ok(Self::over(recording, Destination::File(file), output))
+        let to = Destination::File { file, store };
+        Ok(Self::over(recording, to, output))
     }
 
     /// Opens a connection to a viewer, or for viewers.
@@ -127,7 +150,9 @@ impl Stream {
             output,
             closed: false,
             sent: Instant::now(),
-            now: RefCell::default(),
+            sending: Duration::ZERO,
+            now: Cell::default(),
+            timepoint: RefCell::default(),
             waiting: RefCell::default(),
         }
     }
@@ -140,7 +165,7 @@ impl Stream {
     /// Whether a viewer has been closed: nobody reads any more.
     pub(super) fn is_gone(&self) -> bool {
         match &self.to {
-            Destination::File(_) => false,
+            Destination::File { .. } => false,
             Destination::Live(link) => link.is_gone(),
         }
     }
@@ -153,23 +178,107 @@ impl Stream {
     /// Logs at the time that was set last.
     pub(super) fn log(
         &self,
-        entity: impl Into<EntityPath>,
+        entity: &str,
         data: &(impl AsComponents + ?Sized),
     ) -> Result<(), ObserveError> {
-        let now = self.now.borrow().clone();
-        let mut waiting = self.waiting.borrow_mut();
-        waiting.push(entity.into(), now, data);
-        if waiting.is_full() {
-            drop(waiting);
+        let now = self.timepoint.borrow().clone();
+        self.waiting.borrow_mut().push(entity, now, data);
+        self.send_if_full()
+    }
+
+    /// An image of classes that will be logged.
+    pub(super) fn class_image(&self, entity: impl Into<EntityPath>) -> ClassImage {
+        self.waiting.borrow_mut().class_image(entity.into())
+    }
+
+    /// An image of levels that will be logged.
+    pub(super) fn level_image(&self, entity: impl Into<EntityPath>) -> LevelImage {
+        self.waiting.borrow_mut().level_image(entity.into())
+    }
+
+    /// A mesh whose colours will be logged and, in all updates or in none, its positions.
+    pub(super) fn sheet(&self, entity: impl Into<EntityPath>) -> Sheet {
+        self.waiting.borrow_mut().sheet(entity.into())
+    }
+
+    /// Curves that will be logged.
+    pub(super) fn curves(&self, entity: impl Into<EntityPath>) -> Curves {
+        self.waiting.borrow_mut().curves(entity.into())
+    }
+
+    /// Logs curves: `fill` draws them.
+    pub(super) fn log_curves(
+        &self,
+        curves: Curves,
+        fill: impl FnOnce(&mut Pen),
+    ) -> Result<(), ObserveError> {
+        let now = self.now.get();
+        self.waiting.borrow_mut().push_curves(curves, now, fill);
+        self.send_if_full()
+    }
+
+    /// Logs an image: `fill` adds its pixels.
+    pub(super) fn log_classes(
+        &self,
+        image: ClassImage,
+        fill: impl FnOnce(&mut Vec<u8>),
+    ) -> Result<(), ObserveError> {
+        let now = self.now.get();
+        self.waiting.borrow_mut().push_classes(image, now, fill);
+        self.send_if_full()
+    }
+
+    /// Logs an image: `fill` adds its pixels, little-endian.
+    pub(super) fn log_levels(
+        &self,
+        image: LevelImage,
+        fill: impl FnOnce(&mut Vec<u16>),
+    ) -> Result<(), ObserveError> {
+        let now = self.now.get();
+        self.waiting.borrow_mut().push_levels(image, now, fill);
+        self.send_if_full()
+    }
+
+    /// Logs an update of a mesh: `fill` adds x, y and z of its vertices and their colours.
+    pub(super) fn log_sheet(
+        &self,
+        sheet: Sheet,
+        fill: impl FnOnce(&mut Vec<f32>, &mut Vec<u32>),
+    ) -> Result<(), ObserveError> {
+        let now = self.now.get();
+        self.waiting.borrow_mut().push_sheet(sheet, now, fill);
+        self.send_if_full()
+    }
+
+    fn send_if_full(&self) -> Result<(), ObserveError> {
+        if self.waiting.borrow().is_full() {
             self.send_rows()?;
         }
         Ok(())
     }
 
     fn send_rows(&self) -> Result<(), ObserveError> {
-        let chunks = self.waiting.borrow_mut().take();
-        for chunk in chunks.map_err(|error| self.failed(&error.to_string()))? {
-            self.recording.send_chunk(chunk);
+        let mut outcome = Ok(());
+        self.waiting.borrow_mut().take(|chunk| {
+            let sent = chunk
+                .map_err(|error| self.failed(&error.to_string()))
+                .and_then(|chunk| self.send(chunk));
+            if outcome.is_ok() {
+                outcome = sent;
+            }
+        });
+        outcome
+    }
+
+    fn send(&self, chunk: Chunk) -> Result<(), ObserveError> {
+        match &self.to {
+            Destination::File { file, store } => {
+                let message = chunk.to_arrow_msg();
+                let message = message.map_err(|error| self.failed(&error.to_string()))?;
+                // Errors of the file are kept in it, for `check`.
+                file.send(LogMsg::ArrowMsg(store.clone(), message));
+            }
+            Destination::Live(_) => self.recording.send_chunk(chunk),
         }
         Ok(())
     }
@@ -180,14 +289,15 @@ impl Stream {
         entity: impl Into<EntityPath>,
         data: &(impl AsComponents + ?Sized),
     ) -> Result<(), ObserveError> {
-        self.recording
-            .log_static(entity, data)
-            .map_err(|error| self.failed(&error.to_string()))
+        let row = PendingRow::from_iter(TimePoint::default(), data.as_serialized_batches());
+        let chunk = row.into_chunk(entity.into());
+        self.send(chunk.map_err(|error| self.failed(&error.to_string()))?)
     }
 
     /// Sets the time of what is logged next.
     pub(super) fn set_time(&self, now: Moment) {
-        *self.now.borrow_mut() = TimePoint::default()
+        self.now.set(now);
+        *self.timepoint.borrow_mut() = TimePoint::default()
             .with_index(STEP, TimeCell::from_sequence(now.step))
             .with_index(SIMULATED_TIME, TimeCell::from_duration_nanos(now.nanos))
             .with_index(PASSAGE, TimeCell::from_sequence(now.passage));
@@ -201,43 +311,38 @@ impl Stream {
         values: &[f64],
         width: usize,
     ) -> Result<(), ObserveError> {
-        let of = |part: fn(&Moment) -> i64| moments.iter().map(part);
-        let times = [
-            TimeColumn::new_sequence(STEP, of(|at| at.step)),
-            TimeColumn::new_duration_nanos(SIMULATED_TIME, of(|at| at.nanos)),
-            TimeColumn::new_sequence(PASSAGE, of(|at| at.passage)),
-        ];
         let lengths = std::iter::repeat_n(width, moments.len());
         let columns = Scalars::new(values.iter().copied())
             .columns(lengths)
             .map_err(|error| self.failed(&error.to_string()))?;
-        self.recording
-            .send_columns(entity, times, columns)
-            .map_err(|error| self.failed(&error.to_string()))
+        let chunk = chunk_of(entity, moments, columns);
+        self.send(chunk.map_err(|error| self.failed(&error.to_string()))?)
     }
 
     /// Sends what waits on to the file now.
     pub(super) fn send_on(&mut self) -> Result<(), ObserveError> {
         self.sent = Instant::now();
         self.send_rows()?;
-        // Errors of the file are kept in it, for `check`.
-        drop(self.recording.flush_async());
+        if let Destination::Live(_) = &self.to {
+            // A viewer that takes nothing is seen by its queue.
+            drop(self.recording.flush_async());
+        }
+        self.sending = self.sent.elapsed();
         Ok(())
     }
 
-    /// Whether a tick has passed since. The library's own tick is left out whenever some entity has filled a
-    /// batch, so that in a fast run the rest would wait for as long as images keep coming.
+    /// Whether a tick has passed since, less the time that the sending takes: what it takes is not written yet.
     pub(super) fn is_due(&self) -> bool {
         let tick = match &self.to {
-            Destination::File(_) => TICK,
+            Destination::File { .. } => TICK,
             Destination::Live(_) => LIVE_TICK,
         };
-        self.sent.elapsed() >= tick
+        self.sent.elapsed() >= tick.saturating_sub(2 * self.sending).max(tick / 2)
     }
 
     /// An error if the file has failed since.
     pub(super) fn check(&self) -> Result<(), ObserveError> {
-        let Destination::File(file) = &self.to else {
+        let Destination::File { file, .. } = &self.to else {
             return Ok(());
         };
         file.error()
@@ -247,7 +352,7 @@ impl Stream {
     /// Bytes in the file by now; a viewer has its own limit and forgets the oldest, so nothing is counted.
     pub(super) fn bytes(&self) -> u64 {
         match &self.to {
-            Destination::File(file) => file.bytes(),
+            Destination::File { file, .. } => file.bytes(),
             Destination::Live(_) => 0,
         }
     }
@@ -259,7 +364,7 @@ impl Stream {
         }
         self.closed = true;
         let sent = self.send_rows();
-        let Destination::File(file) = &self.to else {
+        let Destination::File { file, .. } = &self.to else {
             // What a viewer does not take in time it does not get: nobody waits for it.
             drop(self.recording.flush_with_timeout(LIVE_CLOSE_TIMEOUT));
             return Ok(());

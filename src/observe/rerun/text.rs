@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use rerun::components::MediaType;
 use rerun::{TextDocument, TextLog, TextLogLevel};
 
 use super::raster::Scale;
@@ -69,7 +70,7 @@ pub(super) fn log_notes<'a>(
 ) -> Result<(), ObserveError> {
     let mut notes = format!(
         "# Notes on the data\n\n{cadence} Interferogram, traction, \
-         roughness and shear stress take every second of them.\n\n{exaggeration}\n\nMaps are stored in 16 bits: value = \
+         roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in 16 bits: value = \
          stored number / `meter`, in the unit of the entity's name. Colours have the same range in \
          every frame; values above it take the top colour.\n\n| entity | colours up to | stored \
          range | smallest difference |\n|---|---|---|---|\n"
@@ -87,13 +88,15 @@ pub(super) fn log_notes<'a>(
             scale.resolution(),
         );
     }
-    stream.log_static(NOTES, &TextDocument::from_markdown(notes))
+    stream.log_static(NOTES, &TextDocument::from_markdown(notes))?;
+    let markdown = TextDocument::update_fields().with_media_type(MediaType::markdown());
+    stream.log_static(NOW, &markdown)
 }
 
 /// The caption that holds and the numbers of a frame.
 pub(super) fn log_now(stream: &Stream, frame: &Frame, caption: &str) -> Result<(), ObserveError> {
-    let text = now(frame, caption);
-    stream.log(NOW, &TextDocument::from_markdown(text))
+    let text = TextDocument::update_fields().with_text(now(frame, caption));
+    stream.log(NOW, &text)
 }
 
 fn now(frame: &Frame, caption: &str) -> String {
@@ -155,17 +158,14 @@ fn now(frame: &Frame, caption: &str) -> String {
         let (stress, depth) = (stress * 1e-9, depth * 1e6);
         let _ = writeln!(text, "| σ_eff max | {stress:.3} GPa, {depth:.0} µm deep |");
     }
-    for (body, formula, counted) in [
-        (1, m.n_body_1, m.n_counted_body_1),
-        (2, m.n_body_2, m.n_counted_body_2),
-    ] {
-        if let Some(n) = formula {
-            let counted = counted.map_or("not yet".to_owned(), |n| format!("{n:.2}"));
-            let _ = writeln!(
-                text,
-                "| n body {body} | {n:.2} by formula, {counted} counted |"
-            );
-        }
+    let formula = [m.n_body_1, m.n_body_2];
+    if formula.iter().any(Option::is_some) {
+        let pair = |n: [Option<f64>; 2]| {
+            n.map(|n| n.map_or("-".to_owned(), |n| format!("{n:.2}")))
+                .join(", ")
+        };
+        let counted = pair([m.n_counted_body_1, m.n_counted_body_2]);
+        let _ = writeln!(text, "| n of 1, 2 | {}; counted {counted} |", pair(formula));
     }
     text
 }

@@ -8,11 +8,14 @@ use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, faded};
 use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
 use super::stream::Stream;
+use super::waiting::Curves;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, divisions, ticks};
 use crate::sim::{Frame, MaterialPoint};
 
 pub(super) const TRACE: &str = "material_point/trace";
+/// Where the point is.
+const NOW: &str = "material_point/trace/now";
 /// Points kept of a crossing; when there are more every other one is dropped.
 const MOST_POINTS: usize = 1024;
 
@@ -27,6 +30,29 @@ pub(super) struct Trace {
     before: Vec<[f32; 2]>,
     /// Whether `before` has been logged.
     shown: Shown,
+    curves: TraceCurves,
+}
+
+/// The curves in the plot.
+struct TraceCurves {
+    pressure: Curves,
+    effective: Curves,
+    before: Curves,
+}
+
+impl TraceCurves {
+    fn new(stream: &Stream) -> Result<Self, ObserveError> {
+        let curves = |name: &str, colour, radius| {
+            let entity = format!("{TRACE}/{name}");
+            stream.log_static(entity.as_str(), &line(colour, radius))?;
+            Ok(stream.curves(entity))
+        };
+        Ok(Self {
+            pressure: curves("pressure_GPa", ORANGE, 1.5)?,
+            effective: curves("effective_stress_GPa", PURPLE, 1.5)?,
+            before: curves("crossing_before", GREY, 0.75)?,
+        })
+    }
 }
 
 /// What is known of a curve that stays.
@@ -61,6 +87,12 @@ impl Trace {
             ..PlotBox::default()
         };
         plot.log(stream, &format!("{TRACE}/axes"))?;
+        let style = Points2D::update_fields()
+            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
+            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
+            .with_show_labels(true)
+            .with_draw_order(30.0);
+        stream.log_static(NOW, &style)?;
         Ok(Self {
             plot,
             pressure_top_pa,
@@ -70,6 +102,7 @@ impl Trace {
             effective: Vec::new(),
             before: Vec::new(),
             shown: Shown::NotYet,
+            curves: TraceCurves::new(stream)?,
         })
     }
 
@@ -116,17 +149,12 @@ impl Trace {
         let Some(point) = &frame.material_point else {
             return Ok(());
         };
-        let curve = |name: &str, trace: &Vec<[f32; 2]>, colour, radius| {
-            let strips: &[Vec<[f32; 2]>] = std::slice::from_ref(trace);
-            let strips = if trace.len() > 1 { strips } else { &[] };
-            stream.log(format!("{TRACE}/{name}"), &line(strips, colour, radius))
-        };
         if self.shown == Shown::NotYet {
-            curve("crossing_before", &self.before, GREY, 0.75)?;
+            stream.log_curves(self.curves.before, |pen| pen.draw(&self.before))?;
             self.shown = Shown::AsItIs;
         }
-        curve("pressure_GPa", &self.pressure, ORANGE, 1.5)?;
-        curve("effective_stress_GPa", &self.effective, PURPLE, 1.5)?;
+        stream.log_curves(self.curves.pressure, |pen| pen.draw(&self.pressure))?;
+        stream.log_curves(self.curves.effective, |pen| pen.draw(&self.effective))?;
         let formula = match point.body {
             1 => frame.metrics.n_body_1,
             _ => frame.metrics.n_body_2,
@@ -144,12 +172,9 @@ impl Trace {
             (0.5 * (left + right)) as f32,
             (0.97 * self.plot.y[0]) as f32,
         ];
-        let now = Points2D::new([self.place(point, point.pressure_pa), label_at])
-            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
-            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
-            .with_labels([String::new(), label])
-            .with_show_labels(true)
-            .with_draw_order(30.0);
-        stream.log(format!("{TRACE}/now"), &now)
+        let now = Points2D::update_fields()
+            .with_positions([self.place(point, point.pressure_pa), label_at])
+            .with_labels([String::new(), label]);
+        stream.log(NOW, &now)
     }
 }

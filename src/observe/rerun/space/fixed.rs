@@ -5,7 +5,7 @@ use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32}
 use super::super::colour::{GREY, Ramp, WHITE, faded};
 use super::super::mesh::{Window, triangles};
 use super::super::stream::Stream;
-use super::{SPACE, Space, steel};
+use super::{BODIES, FILM, POINT, SLICE, SPACE, SPOTS, Space, steel};
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, number, ticks};
 
@@ -20,32 +20,40 @@ impl Space {
                 .with_albedo_factor(albedo);
             stream.log_static(format!("{SPACE}/{name}"), &mesh)
         };
-        sheet(
-            "film_coloured_by_pressure",
-            &self.film,
-            [255, 255, 255, 255],
-        )?;
-        sheet("body_1_surface", &self.bodies, [200, 222, 245, 255])?;
-        sheet("body_2_surface", &self.bodies, [250, 222, 190, 150])?;
+        sheet(FILM, &self.film, [255, 255, 255, 255])?;
+        sheet(BODIES[0], &self.bodies, [200, 222, 245, 255])?;
+        sheet(BODIES[1], &self.bodies, [250, 222, 190, 150])?;
         self.log_smooth_bodies(stream)?;
+        self.log_dots(stream)?;
         self.log_cut(stream)?;
         self.log_legends(stream)?;
         self.log_labels(stream)
     }
 
+    /// How contact spots and the followed point look.
+    fn log_dots(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let spots = Points3D::update_fields()
+            .with_radii([Radius::new_scene_units((0.55 * self.geometry.dx) as f32)])
+            .with_colors([Color::from([90, 255, 250])]);
+        stream.log_static(SPOTS, &spots)?;
+        let point = Points3D::update_fields()
+            .with_radii([0.075, 0.055].map(|r| (r * self.geometry.a) as f32))
+            .with_show_labels(true);
+        stream.log_static(POINT, &point)
+    }
+
     /// The sheets of smooth bodies never change.
     fn log_smooth_bodies(&self, stream: &Stream) -> Result<(), ObserveError> {
-        let bodies = [
-            (0, "body_1_surface", self.levels.body_1),
-            (1, "body_2_surface", self.levels.body_2),
-        ];
-        for (body, name, level) in bodies {
+        for (body, level) in [self.levels.body_1, self.levels.body_2]
+            .into_iter()
+            .enumerate()
+        {
             if !self.tops.rough[body] {
-                let n = self.bodies.nodes().len();
-                let sheet = self
-                    .bodies
-                    .sheet(&vec![level as f32; n], &vec![steel(1.0); n]);
-                stream.log_static(format!("{SPACE}/{name}"), &sheet)?;
+                let places = self.bodies.xy().iter();
+                let sheet = Mesh3D::update_fields()
+                    .with_vertex_positions(places.map(|&[x, y]| [x, y, level as f32]))
+                    .with_vertex_colors(vec![steel(1.0); self.bodies.nodes().len()]);
+                stream.log_static(format!("{SPACE}/{}", BODIES[body]), &sheet)?;
             }
         }
         Ok(())
@@ -65,7 +73,7 @@ impl Space {
         });
         let mesh = Mesh3D::new(positions)
             .with_triangle_indices(triangles(sheet.columns.len(), sheet.rows.len()));
-        let entity = format!("{SPACE}/effective_stress_slice");
+        let entity = format!("{SPACE}/{SLICE}");
         stream.log_static(
             entity.as_str(),
             // Colours come with every frame: static ones would hide them.
@@ -129,7 +137,7 @@ impl Space {
     ) -> Result<(), ObserveError> {
         const ROWS: usize = 33;
         let a = self.geometry.a;
-        let (left, right) = (1.72 * a, 1.82 * a);
+        let (left, right) = (1.9 * a, 2.0 * a);
         let share = |row: usize| row as f64 / (ROWS - 1) as f64;
         let positions = (0..ROWS).flat_map(|row| {
             let z = low + (high - low) * share(row);
@@ -141,7 +149,8 @@ impl Space {
             .with_vertex_colors(colours);
         stream.log_static(format!("{SPACE}/legend/{name}"), &mesh)?;
         let top = top_pa * GPA.1;
-        let mut at = vec![[left, 0.0, high + 0.27 * a]];
+        // Over the numbers too, and clear of the slice's corner.
+        let mut at = vec![[right + 0.05 * a, 0.0, high + 0.27 * a]];
         let mut texts = vec![title.to_owned()];
         for value in [0.0, 0.5 * top, top] {
             at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);

@@ -3,11 +3,12 @@
 
 use rerun::{Color, Mesh3D, Points3D, Radius};
 
-use super::super::colour::{GREY, Ramp};
+use super::super::colour::{GREY, Ramp, Tints};
 use super::super::damage::DECADES;
-use super::super::mesh::{coloured, triangles};
+use super::super::mesh::triangles;
 use super::super::slice::Rows;
 use super::super::stream::Stream;
+use super::super::waiting;
 use super::{SPACE, Space};
 use crate::observe::ObserveError;
 use crate::observe::scales::MM;
@@ -21,11 +22,23 @@ const DAMAGE: &str = "contact_3d/damage_body_1";
 const COLUMNS: usize = 161;
 
 /// What is drawn.
-#[derive(Default)]
 pub(super) struct Hung {
+    mesh: waiting::Sheet,
+    tints: Tints,
     sheet: Option<Sheet>,
     /// The map of the last picture: it changes when a material point has crossed.
     last: Vec<f32>,
+}
+
+impl Hung {
+    pub(super) fn new(stream: &Stream) -> Self {
+        Self {
+            mesh: stream.sheet(DAMAGE),
+            tints: Tints::of(Ramp::Magma),
+            sheet: None,
+            last: Vec::new(),
+        }
+    }
 }
 
 /// The sheet's rows, and what of the block each of its columns shows.
@@ -54,17 +67,17 @@ impl Sheet {
     }
 
     /// Row by row; every column of the block is coloured once.
-    fn colours(&self, block: &DamageBlock) -> Vec<[u8; 3]> {
+    fn colour(&self, block: &DamageBlock, tints: &Tints, colours: &mut Vec<u32>) {
         let powers = powers(block);
-        let mut colours = Vec::with_capacity(self.rows.len() * COLUMNS);
+        let mut wave = Vec::with_capacity(block.columns);
         for row in 0..self.rows.len() {
-            let wave: Vec<[u8; 3]> = (0..block.columns)
-                .map(|column| self.rows.value(&powers, block.columns, row, column))
-                .map(|power| Ramp::Magma.colour(0.5 + 0.5 * power / DECADES as f32, 1.0))
-                .collect();
+            wave.clear();
+            wave.extend((0..block.columns).map(|column| {
+                let power = self.rows.value(&powers, block.columns, row, column);
+                tints.colour(0.5 + 0.5 * power / DECADES as f32, 1.0)
+            }));
             colours.extend(self.columns.iter().map(|&column| wave[column]));
         }
-        colours
     }
 }
 
@@ -75,7 +88,7 @@ fn x(i: usize, a: f64) -> f64 {
 
 impl Space {
     /// Logs body 1's map where it has changed.
-    pub(super) fn log_damage(
+    pub(in super::super) fn log_damage(
         &mut self,
         stream: &Stream,
         frame: &Frame,
@@ -94,11 +107,13 @@ impl Space {
             self.hung.sheet = Sheet::new(block, self.geometry.a);
             self.log_sheet(stream)?;
         }
-        let Some(sheet) = &self.hung.sheet else {
+        let Hung {
+            mesh, tints, sheet, ..
+        } = &self.hung;
+        let Some(sheet) = sheet else {
             return Ok(());
         };
-        let colours = sheet.colours(block);
-        stream.log(DAMAGE, &coloured(colours.into_iter()))
+        stream.log_sheet(*mesh, |_, colours| sheet.colour(block, tints, colours))
     }
 
     /// The sheet's shape and its title, which stay until the block is another.
@@ -128,7 +143,7 @@ impl Space {
                 "damage of body 1, log10 D from -{DECADES} to {DECADES}; one wave, repeated"
             )])
             .with_show_labels(true);
-        stream.log(format!("{SPACE}/damage_title"), &title)
+        stream.log(&format!("{SPACE}/damage_title"), &title)
     }
 }
 
