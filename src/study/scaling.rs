@@ -82,8 +82,8 @@ fn cases(extent: Extent) -> Vec<Case> {
     let mut cases = Vec::new();
     let sizes: &[(usize, usize)] = match extent {
         Extent::Quick => &[(65, 32), (129, 32)],
-        Extent::Usual => &[(65, 64), (129, 64), (257, 24)],
-        Extent::Full => &[(65, 64), (129, 64), (257, 24), (LARGEST, 8)],
+        Extent::Usual => &[(65, 64), (129, 64), (257, 48)],
+        Extent::Full => &[(65, 64), (129, 64), (257, 48), (LARGEST, 16)],
     };
     let mut push = |name, nodes, threads, steps, keys| {
         cases.push(Case {
