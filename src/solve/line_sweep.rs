@@ -211,8 +211,8 @@ fn eliminate(factors: &mut [Factor]) {
         }
         upper = f.upper;
         inverse = f.inverse;
-        for k in 0..LANES {
-            f.upper[k] *= inverse[k];
+        for (upper, inverse) in f.upper.iter_mut().zip(&inverse) {
+            *upper *= inverse;
         }
     }
 }
