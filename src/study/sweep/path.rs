@@ -310,50 +310,55 @@ fn cam(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
         ));
     }
     let [near, far] = [near, far].map(f64::to_radians);
-    let mut stops = Vec::new();
-    for k in 0..n {
-        let angle = far - (far - near) * (k as f64 + 0.5) / n as f64;
-        let at = cam.at(angle);
-        if at.radius_m <= 0.0 || at.load_n_per_m <= 0.0 {
-            return Err(SceneError::value(
-                "cam.lift_m",
-                cam.lift_m,
-                format!(
-                    "a cam that touches all along its flank; at {:.1} degrees from the nose R = {:.3e} m, load {:.3e} N/m",
-                    angle.to_degrees(),
-                    at.radius_m,
-                    at.load_n_per_m
-                ),
-            ));
-        }
-        let [follower, nose] = at.speeds_m_s;
-        let entrainment = 0.5 * (follower + nose);
-        if follower < 0.0 {
-            return Err(SceneError::value(
-                "cam.angles_deg",
-                format!("{:.1}", angle.to_degrees()),
-                format!(
-                    "angles of the flank, {:.1} to {end:.1} degrees from the nose: nearer to it the surfaces move \
-                     against each other (here S = {:.1}), and motion.slide_roll goes from -2 to 2",
-                    0.5 * end,
-                    (nose - follower) / entrainment
-                ),
-            ));
-        }
-        stops.push(Stop {
-            values: vec![
-                ("path_deg", angle.to_degrees()),
-                ("lift_m", at.lift_m),
-                ("u_1_m_s", follower),
-                ("u_2_m_s", nose),
-            ],
-            keys: vec![
-                ("contact.rx_m", at.radius_m),
-                ("load.force_n_per_m", at.load_n_per_m),
-                ("motion.entrainment_m_s", entrainment),
-                ("motion.slide_roll", (nose - follower) / entrainment),
-            ],
-        });
+    (0..n)
+        .map(|k| far - (far - near) * (k as f64 + 0.5) / n as f64)
+        .map(|angle| cam_stop(&cam, angle))
+        .collect()
+}
+
+/// The contact at `angle` (radians from the nose); refused where the cam does not touch or the surfaces move against
+/// each other.
+fn cam_stop(cam: &FlatFollower, angle: f64) -> Result<Stop, SceneError> {
+    let at = cam.at(angle);
+    if at.radius_m <= 0.0 || at.load_n_per_m <= 0.0 {
+        return Err(SceneError::value(
+            "cam.lift_m",
+            cam.lift_m,
+            format!(
+                "a cam that touches all along its flank; at {:.1} degrees from the nose R = {:.3e} m, load {:.3e} N/m",
+                angle.to_degrees(),
+                at.radius_m,
+                at.load_n_per_m
+            ),
+        ));
     }
-    Ok(stops)
+    let [follower, nose] = at.speeds_m_s;
+    let entrainment = 0.5 * (follower + nose);
+    if follower < 0.0 {
+        let end = cam.half_angle_rad.to_degrees();
+        return Err(SceneError::value(
+            "cam.angles_deg",
+            format!("{:.1}", angle.to_degrees()),
+            format!(
+                "angles of the flank, {:.1} to {end:.1} degrees from the nose: nearer to it the surfaces move \
+                 against each other (here S = {:.1}), and motion.slide_roll goes from -2 to 2",
+                0.5 * end,
+                (nose - follower) / entrainment
+            ),
+        ));
+    }
+    Ok(Stop {
+        values: vec![
+            ("path_deg", angle.to_degrees()),
+            ("lift_m", at.lift_m),
+            ("u_1_m_s", follower),
+            ("u_2_m_s", nose),
+        ],
+        keys: vec![
+            ("contact.rx_m", at.radius_m),
+            ("load.force_n_per_m", at.load_n_per_m),
+            ("motion.entrainment_m_s", entrainment),
+            ("motion.slide_roll", (nose - follower) / entrainment),
+        ],
+    })
 }
