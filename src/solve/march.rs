@@ -63,8 +63,8 @@ pub struct March {
     pub gap: Vec<f64>,
     /// Solver.
     pub newton: Newton,
-    /// Solver of dry contacts; `None`: there is a film.
-    pub dry: Option<Dry>,
+    /// Solver of dry contacts: a knob may take the film away.
+    pub dry: Dry,
     c_star: Vec<f64>,
     s: Vec<f64>,
     mass: Vec<f64>,
@@ -172,7 +172,7 @@ impl March {
         let mut macroscopic = vec![0.0; n];
         macroscopic_gap(&grid, shape.curvature_y, &mut macroscopic);
         let zero = vec![0.0; n];
-        let dry = Some(Dry::new(&grid, &newton.elastic));
+        let dry = Dry::new(&grid, &newton.elastic);
         Self {
             dry,
             state: State {

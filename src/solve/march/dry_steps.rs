@@ -11,10 +11,7 @@ impl March {
         /// Solutions at most; each gains a factor of about βμ ≤ 0.1.
         const PASSES: usize = 12;
         let mut whole = NewtonReport::nothing();
-        let Some(dry) = &mut self.dry else {
-            return whole;
-        };
-        let newton = &mut self.newton;
+        let (dry, newton) = (&mut self.dry, &mut self.newton);
         // Without a film nothing is convected: C* is free to hold the gap.
         let gap = &mut self.c_star;
         for pass in 0..PASSES {
