@@ -108,6 +108,25 @@ fn plain_terminals_are_served_and_dumb_ones_told() {
     assert!(text.contains("asperity run"), "{text}");
 }
 
+/// A key pressed in the moment in which the window changes its size is heard: an edge-triggered wait, told of both,
+/// answers with the size and leaves the key unread until the next one.
+#[test]
+fn a_key_beside_a_new_size_is_heard() {
+    let mut terminal = open(&[]);
+    terminal.explore(&run(SMALL));
+    terminal.see("S slide-to-roll");
+    for turn in 0..200_u16 {
+        terminal.resize(80 + turn % 2, 24);
+        terminal.press("?");
+        let help = turn % 2 == 0;
+        terminal.wait("help turned", |screen| {
+            screen.contents().contains("choose a knob") == help
+        });
+    }
+    terminal.press("q");
+    terminal.is_given_back("code=0");
+}
+
 /// A slow line, 100 kB/s: frames are skipped, not queued, so that what is pressed is seen soon, and the end comes.
 #[test]
 fn a_slow_line_is_no_hang() {
