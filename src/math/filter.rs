@@ -26,6 +26,8 @@ pub use weights::Weights;
 use self::moves::{accumulate, copy_row, gather, multiply, scatter};
 use super::even_transform::EvenTransform;
 use super::grid::{Grid, Symmetry};
+use super::kernel_symbol::{AlongY, even_kernel_symbol, odd_kernel_symbol};
+use super::quarter_wave::QuarterWave;
 
 /// Rows of one task: eight single-precision complex numbers of a column fill a cache line.
 const ROWS: usize = 8;
@@ -40,6 +42,9 @@ pub enum Padding {
     Doubled,
     /// The domain itself, periodic.
     Periodic,
+    /// As [`Padding::Periodic`], but a mirrored field goes on with the other sign beyond the end in y, where it is
+    /// zero: as good where the transform is an approximation, and faster.
+    Pinned,
 }
 
 /// Parity of the symbols in kx.
@@ -76,6 +81,8 @@ enum Columns<T: FftNum> {
     },
     /// Of columns that are even in y.
     Even(EvenTransform<T>),
+    /// Of columns that are even in y and zero at its end, where they may go on with the other sign.
+    QuarterWave(QuarterWave<T>),
 }
 
 /// A planned filter with `n_symbols` symbols.
@@ -107,7 +114,7 @@ impl<T: FftNum> Filter<T> {
     pub fn new(grid: &Grid, padding: Padding, n_symbols: usize) -> Self {
         let factor = match padding {
             Padding::Doubled => 2,
-            Padding::Periodic => 1,
+            Padding::Periodic | Padding::Pinned => 1,
         };
         // A line has one row and its transform along y is the identity.
         let (lx, ly) = (
@@ -116,7 +123,7 @@ impl<T: FftNum> Filter<T> {
         );
         let n_kx = lx / 2 + 1;
         let mut real_planner = RealFftPlanner::<T>::new();
-        let (columns, column_len, column_scratch) = Columns::plan(grid.symmetry, ly);
+        let (columns, column_len, column_scratch) = Columns::plan(grid.symmetry, padding, ly);
         let row_forward = real_planner.plan_fft_forward(lx);
         let row_inverse = real_planner.plan_fft_inverse(lx);
         let zero = Complex::new(T::zero(), T::zero());
@@ -175,15 +182,37 @@ impl<T: FftNum> Filter<T> {
         self.ly
     }
 
-    /// Sets symbol `b` from `f(kx index, ky index)`, 0 <= kx <= lx/2, 0 <= ky <= ly/2.
+    /// Sets symbol `b` to the transform of a kernel sampled at node offsets (i, j) along x and y.
+    pub fn set_kernel(&mut self, b: usize, kernel: impl Fn(usize, usize) -> f64) {
+        let along_y = match self.columns {
+            Columns::Whole { .. } | Columns::Even(_) => AlongY::Whole,
+            Columns::QuarterWave(_) => AlongY::Halfway,
+        };
+        let symbol = match self.parity {
+            Parity::Even => even_kernel_symbol(self.lx, self.ly, along_y, kernel),
+            Parity::OddInX => odd_kernel_symbol(self.lx, self.ly, along_y, kernel),
+        };
+        let n = along_y.len(self.ly);
+        self.set_symbol(b, |kx, ky| symbol[kx / 2 * n + ky / 2]);
+    }
+
+    /// Sets symbol `b` from `f(2 kx, 2 ky)`, twice the wavenumber indices, 0 <= kx <= lx/2, 0 <= ky <= ly/2.
     pub fn set_symbol(&mut self, b: usize, f: impl Fn(usize, usize) -> f64) {
         let (ly, len) = (self.ly, self.column_len);
+        let is_halfway = matches!(self.columns, Columns::QuarterWave(_));
+        let twice = |place: usize| {
+            if is_halfway {
+                QuarterWave::<T>::twice_frequency(len, place)
+            } else {
+                2 * place.min(ly - place)
+            }
+        };
         let scale = 1.0 / (self.lx * ly) as f64;
         let start = b * self.n_kx * len;
         let table = &mut self.symbols[start..start + self.n_kx * len];
         for (kx, line) in table.chunks_exact_mut(len).enumerate() {
             for (ky, s) in line.iter_mut().enumerate() {
-                *s = T::from_f64(f(kx, ky.min(ly - ky)) * scale).unwrap_or_else(T::zero);
+                *s = T::from_f64(f(2 * kx, twice(ky)) * scale).unwrap_or_else(T::zero);
             }
         }
     }
@@ -236,7 +265,7 @@ impl<T: FftNum> Filter<T> {
                 gather(rows, n_kx, k0, width, ny, len, &mut work.line);
                 for c in 0..width {
                     let line = &mut work.line[c * stride..c * stride + len];
-                    plan.forward(line, &mut work.work, &mut work.scratch);
+                    plan.forward(line, ny, &mut work.work, &mut work.scratch);
                     for b in (0..n_symbols).filter(|&b| is_used(b)) {
                         let start = (b * n_kx + k0 + c) * len;
                         multiply(line, &symbols[start..start + len], &mut work.image);
@@ -245,13 +274,9 @@ impl<T: FftNum> Filter<T> {
                                 *v = Complex::new(-v.im, v.re);
                             }
                         }
-                        plan.inverse(&mut work.image, &mut work.work, &mut work.scratch);
                         let at = (c * n_symbols + b) * ny;
-                        let n = ny.min(len);
-                        out[at..at + n].copy_from_slice(&work.image[..n]);
-                        if ny > len {
-                            out[at + len] = work.image[0];
-                        }
+                        let out = &mut out[at..at + ny];
+                        plan.inverse(&mut work.image, out, &mut work.work, &mut work.scratch);
                     }
                 }
             });
@@ -301,8 +326,13 @@ impl<T: FftNum> Filter<T> {
 
 impl<T: FftNum> Columns<T> {
     /// The transforms for length `ly`, the values of a column, the scratch.
-    fn plan(symmetry: Symmetry, ly: usize) -> (Self, usize, usize) {
+    fn plan(symmetry: Symmetry, padding: Padding, ly: usize) -> (Self, usize, usize) {
         match symmetry {
+            Symmetry::MirrorY if padding != Padding::Periodic => {
+                let quarter = QuarterWave::new(ly / 2);
+                let scratch = quarter.scratch_len();
+                (Self::QuarterWave(quarter), ly / 2, scratch)
+            }
             Symmetry::MirrorY => {
                 let even = EvenTransform::new(ly / 2);
                 let scratch = even.scratch_len();
@@ -320,27 +350,39 @@ impl<T: FftNum> Columns<T> {
         }
     }
 
+    /// Of a column whose first `filled` values are not zero.
     fn forward(
         &self,
         line: &mut [Complex<T>],
+        filled: usize,
         work: &mut [Complex<T>],
         scratch: &mut [Complex<T>],
     ) {
         match self {
             Self::Whole { forward, .. } => forward.process_with_scratch(line, scratch),
             Self::Even(even) => even.process(line, work, scratch),
+            Self::QuarterWave(quarter) => quarter.forward(line, filled, scratch),
         }
     }
 
+    /// Back to the rows `out` of a column; `line` is overwritten.
     fn inverse(
         &self,
         line: &mut [Complex<T>],
+        out: &mut [Complex<T>],
         work: &mut [Complex<T>],
         scratch: &mut [Complex<T>],
     ) {
         match self {
             Self::Whole { inverse, .. } => inverse.process_with_scratch(line, scratch),
             Self::Even(even) => even.process(line, work, scratch),
+            Self::QuarterWave(quarter) => return quarter.inverse(line, out, scratch),
+        }
+        let n = out.len().min(line.len());
+        out[..n].copy_from_slice(&line[..n]);
+        // A periodic column's last row is its first.
+        if let Some(last) = out.get_mut(n) {
+            *last = line[0];
         }
     }
 }

@@ -2,18 +2,50 @@
 //!
 //! Tested there: a filter with such a symbol is the direct sum.
 
+use std::cmp::Ordering;
+use std::f64::consts::PI;
+
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
+/// At which frequencies along y.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AlongY {
+    /// ky = 0 .. ly/2.
+    Whole,
+    /// ky = ½ .. ly/2 − ½: the period's end counts with the other sign.
+    Halfway,
+}
+
+impl AlongY {
+    /// Frequencies for length `ly`.
+    pub fn len(self, ly: usize) -> usize {
+        match self {
+            Self::Whole => ly / 2 + 1,
+            Self::Halfway => ly / 2,
+        }
+    }
+}
+
 /// The transform of a kernel `k(x, y)` that is even in both, sampled at node offsets, on the padded
 /// grid: `[kx][ky]`, both to half the length, real.
-pub fn even_kernel_symbol(lx: usize, ly: usize, kernel: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+pub fn even_kernel_symbol(
+    lx: usize,
+    ly: usize,
+    along_y: AlongY,
+    kernel: impl Fn(usize, usize) -> f64,
+) -> Vec<f64> {
     let sample = |i: usize, j: usize| kernel(i.min(lx - i), j);
-    symbol(lx, ly, sample, |v| v.re)
+    symbol(lx, ly, along_y, sample, |v| v.re)
 }
 
 /// The imaginary part of the transform of a kernel that is odd in x and even in y: `[kx][ky]`.
-pub fn odd_kernel_symbol(lx: usize, ly: usize, kernel: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+pub fn odd_kernel_symbol(
+    lx: usize,
+    ly: usize,
+    along_y: AlongY,
+    kernel: impl Fn(usize, usize) -> f64,
+) -> Vec<f64> {
     let sample = |i: usize, j: usize| {
         // Zero where the period makes +L and −L the same offset.
         if i == 0 || 2 * i == lx {
@@ -24,7 +56,7 @@ pub fn odd_kernel_symbol(lx: usize, ly: usize, kernel: impl Fn(usize, usize) -> 
             -kernel(lx - i, j)
         }
     };
-    symbol(lx, ly, sample, |v| v.im)
+    symbol(lx, ly, along_y, sample, |v| v.im)
 }
 
 /// Transforms of `sample(i, j)`, i over the whole period in x, j over half of it in y (even): of the x
@@ -32,6 +64,7 @@ pub fn odd_kernel_symbol(lx: usize, ly: usize, kernel: impl Fn(usize, usize) -> 
 fn symbol(
     lx: usize,
     ly: usize,
+    along_y: AlongY,
     sample: impl Fn(usize, usize) -> f64,
     part: fn(&Complex<f64>) -> f64,
 ) -> Vec<f64> {
@@ -49,16 +82,32 @@ fn symbol(
             *o = part(v);
         }
     }
-    let mut out = vec![0.0; nkx * nky];
+    let turns: Vec<Complex<f64>> = (0..ly).map(|j| turn(along_y, j, ly)).collect();
     let mut column = vec![Complex::new(0.0, 0.0); ly];
-    for kx in 0..nkx {
-        for (j, v) in column.iter_mut().enumerate() {
-            *v = Complex::new(table[j.min(ly - j) * nkx + kx], 0.0);
+    let n_out = along_y.len(ly);
+    let mut out = vec![0.0; nkx * n_out];
+    for (kx, line) in out.chunks_exact_mut(n_out).enumerate() {
+        for (j, (v, turn)) in column.iter_mut().zip(&turns).enumerate() {
+            *v = table[j.min(ly - j) * nkx + kx] * turn;
         }
         fy.process(&mut column);
-        for (o, v) in out[kx * nky..(kx + 1) * nky].iter_mut().zip(&column) {
+        for (o, v) in line.iter_mut().zip(&column) {
             *o = v.re;
         }
     }
     out
+}
+
+/// What a sample at offset `j` is multiplied with: e^{−iπj/ly} shifts the frequencies by half, and beyond half the
+/// length, where offsets are j − ly, the sign turns.
+fn turn(along_y: AlongY, j: usize, ly: usize) -> Complex<f64> {
+    let sign = match (2 * j).cmp(&ly) {
+        Ordering::Less => 1.0,
+        Ordering::Equal => 0.0,
+        Ordering::Greater => -1.0,
+    };
+    match along_y {
+        AlongY::Whole => Complex::new(1.0, 0.0),
+        AlongY::Halfway => Complex::from_polar(sign, -PI * j as f64 / ly as f64),
+    }
 }

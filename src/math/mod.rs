@@ -7,5 +7,6 @@ pub mod filter;
 pub mod grid;
 pub mod kernel_symbol;
 pub mod ln_sum;
+mod quarter_wave;
 pub mod root;
 pub mod spectrum;

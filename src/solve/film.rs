@@ -19,7 +19,7 @@
 
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
-use crate::math::kernel_symbol::even_kernel_symbol;
+use crate::math::kernel_symbol::{AlongY, even_kernel_symbol};
 
 /// What lies on the outer boundary of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,10 +85,14 @@ impl Elastic {
                     }
                 }
         };
-        let symbol = even_kernel_symbol(double.lx(), double.ly(), influence);
-        let nky = double.ly() / 2 + 1;
-        double.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
-        single.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
+        let rows = double.ly() / 2 + 1;
+        let table: Vec<f64> = (0..grid.nx * rows)
+            .map(|n| influence(n / rows, n % rows))
+            .collect();
+        let kernel = |i: usize, j: usize| table[i * rows + j];
+        double.set_kernel(0, kernel);
+        single.set_kernel(0, kernel);
+        let symbol = even_kernel_symbol(double.lx(), double.ly(), AlongY::Whole, kernel);
         Self {
             double,
             single,
@@ -112,8 +116,8 @@ impl Elastic {
                 if k > 0.0 { TAU * kappa / k } else { 0.0 }
             })
             .collect();
-        double.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
-        single.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
+        double.set_symbol(0, |kx, ky| symbol[kx / 2 * nky + ky / 2]);
+        single.set_symbol(0, |kx, ky| symbol[kx / 2 * nky + ky / 2]);
         Self {
             double,
             single,
@@ -128,11 +132,11 @@ impl Elastic {
         self.edge
     }
 
-    /// The symbol of K at wavenumber indices of the domain without padding.
+    /// The symbol of K at twice the wavenumber indices of the domain without padding.
     pub fn symbol_on_domain(&self, kx: usize, ky: usize) -> f64 {
         match self.edge {
-            Edge::Free => self.symbol(2 * kx, 2 * ky),
-            Edge::Periodic => self.symbol(kx, ky),
+            Edge::Free => self.symbol(kx, ky),
+            Edge::Periodic => self.symbol(kx / 2, ky / 2),
         }
     }
 

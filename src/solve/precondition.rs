@@ -50,7 +50,7 @@ impl Preconditioner {
     pub fn new(grid: &Grid, elastic: &Elastic, kappa: f64, s: f64) -> Self {
         let (n, bins) = (grid.len(), bins(grid));
         let mut this = Self {
-            filter: Filter::new(grid, Padding::Periodic, bins),
+            filter: Filter::new(grid, Padding::Pinned, bins),
             bins: vec![0.0; bins],
             weights: Weights::new(grid, bins),
             extra: vec![0.0; n],
@@ -75,9 +75,9 @@ impl Preconditioner {
             };
             self.bins[b] = epsilon;
             self.filter.set_symbol(b, |kx, ky| {
-                let cx = (2.0 - 2.0 * (TAU * kx as f64 / lx).cos()) / (grid.dx * grid.dx);
-                let cy = (2.0 - 2.0 * (TAU * ky as f64 / ly).cos()) / (grid.dy * grid.dy);
-                1.0 / (elastic.symbol(2 * kx, 2 * ky) + epsilon * s * (cx + cy))
+                let cx = (2.0 - 2.0 * (PI * kx as f64 / lx).cos()) / (grid.dx * grid.dx);
+                let cy = (2.0 - 2.0 * (PI * ky as f64 / ly).cos()) / (grid.dy * grid.dy);
+                1.0 / (elastic.symbol(kx, ky) + epsilon * s * (cx + cy))
             });
         }
     }

@@ -16,7 +16,6 @@
 
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
-use crate::math::kernel_symbol::odd_kernel_symbol;
 use crate::solve::traction::TractionLaw;
 
 /// The filter q → u^s.
@@ -41,7 +40,7 @@ impl Tangential {
     pub fn new(grid: &Grid, kappa_s: f64) -> Self {
         let mut filter = Filter::new(grid, Padding::Doubled, 1).odd_in_x();
         let (dx, dy) = (grid.dx, grid.dy);
-        let symbol = odd_kernel_symbol(filter.lx(), filter.ly(), |i, j| {
+        filter.set_kernel(0, |i, j| {
             kappa_s
                 * match grid.symmetry {
                     Symmetry::Line => std::f64::consts::PI * dx,
@@ -50,8 +49,6 @@ impl Tangential {
                     }
                 }
         });
-        let nky = filter.ly() / 2 + 1;
-        filter.set_symbol(0, |kx, ky| symbol[kx * nky + ky]);
         Self { filter }
     }
 

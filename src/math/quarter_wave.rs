@@ -1,0 +1,225 @@
+//! Fourier transform of an even sequence at the frequencies half-way between the usual ones.
+//!
+//! ```text
+//! X_k = x_0 + 2 Σ_{j=1}^{N−1} x_j cos(πj(k + ½)/N),   k = 0..N−1                (type-III cosine transform)
+//! V_j = w_j (x_j + i x_{N−j}),  V_{N−j} = w̄_j (x_j − i x_{N−j}),  w_j = e^{−iπj/2N},   v = FFT_N(V)
+//! v_n = X_2n (2n < N),  v_n = X_{2N−1−2n} (2n ≥ N)
+//!
+//! back:  V = FFT_N(v),  2N x_j = w_j V_j + w̄_j V_{N−j},  2N x_{N−j} = i (w_j V_j − w̄_j V_{N−j})
+//! ```
+//! It is the transform of length 2N of a sequence that is even in j and odd about j = N, by one complex transform of
+//! length N; complex data are two real sequences at once, because every step is linear. A convolution with room enough
+//! for the kernel does not see how the sequence goes on: there these frequencies serve as well as the usual ones, whose
+//! even transform (type I) needs running sums. N is even; x_N is zero.
+//! Source: Makhoul, IEEE Trans. Acoust. Speech Signal Process. 28 (1980).
+
+use std::f64::consts::{PI, SQRT_2};
+use std::sync::Arc;
+
+use realfft::num_complex::Complex;
+use rustfft::{Fft, FftNum, FftPlanner};
+
+/// A planned transform of `N` values.
+pub(super) struct QuarterWave<T: FftNum> {
+    n: usize,
+    fft: Arc<dyn Fft<T>>,
+    /// cos(πj/2N) and sin(πj/2N), j < N/2.
+    cosine: Vec<T>,
+    sine: Vec<T>,
+    /// w + w̄ at j = N/2.
+    middle: T,
+}
+
+fn number<T: FftNum>(value: f64) -> T {
+    T::from_f64(value).unwrap_or_else(T::zero)
+}
+
+impl<T: FftNum> QuarterWave<T> {
+    /// Plans for `n` values (even).
+    pub(super) fn new(n: usize) -> Self {
+        let angle = |j: usize| 0.5 * PI * j as f64 / n as f64;
+        Self {
+            n,
+            fft: FftPlanner::new().plan_fft_forward(n),
+            cosine: (0..n / 2).map(|j| number(angle(j).cos())).collect(),
+            sine: (0..n / 2).map(|j| number(angle(j).sin())).collect(),
+            middle: number(SQRT_2),
+        }
+    }
+
+    /// Length of the scratch.
+    pub(super) fn scratch_len(&self) -> usize {
+        self.fft.get_inplace_scratch_len()
+    }
+
+    /// Twice the frequency index k + ½ of the value at place `place`.
+    pub(super) fn twice_frequency(n: usize, place: usize) -> usize {
+        if 2 * place < n {
+            4 * place + 1
+        } else {
+            4 * (n - place) - 1
+        }
+    }
+
+    /// Transforms `x` (`N` values) in place; beyond `filled` values it is zero, whatever is stored there.
+    pub(super) fn forward(&self, x: &mut [Complex<T>], filled: usize, scratch: &mut [Complex<T>]) {
+        let x = &mut x[..self.n];
+        let middle = x[self.n / 2] * self.middle;
+        let (low, high) = x.split_at_mut(self.n / 2);
+        if filled <= self.n / 2 + 1 {
+            fold_half(low, high, &self.cosine, &self.sine);
+        } else {
+            fold(low, high, &self.cosine, &self.sine);
+        }
+        high[0] = middle;
+        self.fft.process_with_scratch(x, scratch);
+    }
+
+    /// Transforms `v` back (it is overwritten); `x` takes the first values, at most `N + 1`.
+    pub(super) fn inverse(
+        &self,
+        v: &mut [Complex<T>],
+        x: &mut [Complex<T>],
+        scratch: &mut [Complex<T>],
+    ) {
+        let v = &mut v[..self.n];
+        self.fft.process_with_scratch(v, scratch);
+        let half = self.n / 2;
+        let (low, high) = v.split_at(half);
+        unfold_low(low, high, &self.cosine, &self.sine, &mut x[..half]);
+        x[0] = v[0] + v[0];
+        if let Some(x) = x.get_mut(half) {
+            *x = v[half] * self.middle;
+        }
+        if x.len() > half + 1 {
+            let last = x.len().min(self.n);
+            unfold_high(low, high, &self.cosine, &self.sine, &mut x[half..last]);
+        }
+        if let Some(x) = x.get_mut(self.n) {
+            *x = Complex::new(T::zero(), T::zero());
+        }
+    }
+}
+
+/// −i z s.
+#[inline(always)]
+fn turned<T: FftNum>(z: Complex<T>, s: T) -> Complex<T> {
+    Complex::new(z.im * s, -(z.re * s))
+}
+
+dispatched! {
+/// V from x, whose high half is zero. Halves: `low[j]` is of j, `high[N/2 − j]` of N − j.
+fn fold_half<T: FftNum>(
+    low: &mut [Complex<T>],
+    high: &mut [Complex<T>],
+    cosine: &[T],
+    sine: &[T],
+) {
+    let n = low.len();
+    let (cosine, sine) = (&cosine[1..n], &sine[1..n]);
+    let pairs = low[1..].iter_mut().zip(high[1..].iter_mut().rev());
+    for ((a, b), (&c, &s)) in pairs.zip(cosine.iter().zip(sine)) {
+        let (straight, turned) = (*a * c, turned(*a, s));
+        *a = straight + turned;
+        *b = straight - turned;
+    }
+}
+}
+
+dispatched! {
+/// V from x.
+fn fold<T: FftNum>(low: &mut [Complex<T>], high: &mut [Complex<T>], cosine: &[T], sine: &[T]) {
+    let n = low.len();
+    let (cosine, sine) = (&cosine[1..n], &sine[1..n]);
+    let pairs = low[1..].iter_mut().zip(high[1..].iter_mut().rev());
+    for ((a, b), (&c, &s)) in pairs.zip(cosine.iter().zip(sine)) {
+        // w(a + ib) and w̄(a − ib).
+        let up = Complex::new(a.re - b.im, a.im + b.re);
+        let down = Complex::new(a.re + b.im, a.im - b.re);
+        *a = up * c + turned(up, s);
+        *b = down * c - turned(down, s);
+    }
+}
+}
+
+dispatched! {
+/// 2N x_j from V, j = 1..N/2.
+fn unfold_low<T: FftNum>(
+    low: &[Complex<T>],
+    high: &[Complex<T>],
+    cosine: &[T],
+    sine: &[T],
+    x: &mut [Complex<T>],
+) {
+    let n = low.len();
+    let (cosine, sine) = (&cosine[1..n], &sine[1..n]);
+    let pairs = low[1..].iter().zip(high[1..].iter().rev());
+    for (((a, b), (&c, &s)), x) in pairs.zip(cosine.iter().zip(sine)).zip(&mut x[1..]) {
+        *x = (*a + *b) * c + turned(*a - *b, s);
+    }
+}
+}
+
+dispatched! {
+/// 2N x_{N−j} from V, of j = N/2 − 1 downwards: `x[0]`, of N/2, is left.
+fn unfold_high<T: FftNum>(
+    low: &[Complex<T>],
+    high: &[Complex<T>],
+    cosine: &[T],
+    sine: &[T],
+    x: &mut [Complex<T>],
+) {
+    let n = low.len();
+    let (cosine, sine) = (&cosine[1..n], &sine[1..n]);
+    let pairs = low[1..].iter().rev().zip(&high[1..]);
+    let tables = cosine.iter().rev().zip(sine.iter().rev());
+    for (((a, b), (&c, &s)), x) in pairs.zip(tables).zip(&mut x[1..]) {
+        *x = (*a + *b) * s - turned(*a - *b, c);
+    }
+}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_the_cosine_sum_and_comes_back() {
+        for n in [2, 4, 16, 64, 90] {
+            for filled in [n / 2 + 1, n] {
+                check(n, filled);
+            }
+        }
+    }
+
+    fn check(n: usize, filled: usize) {
+        let zero = Complex::new(0.0, 0.0);
+        let x: Vec<Complex<f64>> = (0..n)
+            .map(|j| Complex::new((0.7 * j as f64).sin() + 0.2, (1.3 * j as f64).cos()))
+            .enumerate()
+            .map(|(j, v)| if j < filled { v } else { zero })
+            .collect();
+        let transform = QuarterWave::<f64>::new(n);
+        let mut v = x.clone();
+        // What lies beyond the filled values is not read.
+        v[filled..].fill(Complex::new(f64::NAN, 0.0));
+        let mut scratch = vec![zero; transform.scratch_len()];
+        transform.forward(&mut v, filled, &mut scratch);
+        for (place, &got) in v.iter().enumerate() {
+            let frequency = QuarterWave::<f64>::twice_frequency(n, place) as f64 / 2.0;
+            let mut sum = x[0];
+            for (j, &x) in x.iter().enumerate().skip(1) {
+                sum += 2.0 * x * (PI * j as f64 * frequency / n as f64).cos();
+            }
+            assert!((got - sum).norm() < 1e-11, "{n} {place}: {got} {sum}");
+        }
+        let mut back = vec![Complex::new(f64::NAN, 0.0); n + 1];
+        let mut few = vec![zero; n / 2 + 1];
+        transform.inverse(&mut v.clone(), &mut few, &mut scratch);
+        transform.inverse(&mut v, &mut back, &mut scratch);
+        for (j, &x) in x.iter().enumerate() {
+            assert!((back[j] / (2 * n) as f64 - x).norm() < 1e-13, "{n} {j}");
+        }
+        assert!(back[n] == zero && few[..] == back[..=n / 2]);
+    }
+}
