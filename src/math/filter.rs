@@ -9,25 +9,24 @@
 //! All buffers are made in [`Filter::new`]; work is split in fixed blocks, so that the result does
 //! not depend on the number of threads.
 
+mod columns;
 mod moves;
+mod rows;
 #[cfg(test)]
 mod tests;
 mod weights;
 
-use std::sync::Arc;
-
 use rayon::prelude::*;
 use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftNum, FftPlanner};
+use rustfft::FftNum;
 
 pub use weights::Weights;
 
-use self::moves::{accumulate, copy_row, gather, multiply, scatter};
-use super::even_transform::EvenTransform;
-use super::grid::{Grid, Symmetry};
-use super::kernel_symbol::{AlongY, even_kernel_symbol, odd_kernel_symbol};
-use super::quarter_wave::QuarterWave;
+use self::columns::Columns;
+use self::moves::{accumulate, gather, multiply, scatter};
+use self::rows::Rows;
+use super::grid::Grid;
+use super::kernel_symbol::{At, even_kernel_symbol, odd_kernel_symbol};
 
 /// Rows of one task: eight single-precision complex numbers of a column fill a cache line.
 const ROWS: usize = 8;
@@ -59,6 +58,7 @@ pub enum Parity {
 /// Buffers of one block of rows.
 struct RowWork<T> {
     real: Vec<T>,
+    row: Vec<T>,
     /// Of [`ROWS`] rows.
     spectra: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
@@ -72,19 +72,6 @@ struct ColumnWork<T> {
     scratch: Vec<Complex<T>>,
 }
 
-/// Transforms along y.
-enum Columns<T: FftNum> {
-    /// Of whole columns.
-    Whole {
-        forward: Arc<dyn Fft<T>>,
-        inverse: Arc<dyn Fft<T>>,
-    },
-    /// Of columns that are even in y.
-    Even(EvenTransform<T>),
-    /// Of columns that are even in y and zero at its end, where they may go on with the other sign.
-    QuarterWave(QuarterWave<T>),
-}
-
 /// A planned filter with `n_symbols` symbols.
 pub struct Filter<T: FftNum> {
     nx: usize,
@@ -94,8 +81,7 @@ pub struct Filter<T: FftNum> {
     parity: Parity,
     n_symbols: usize,
     n_kx: usize,
-    row_forward: Arc<dyn RealToComplex<T>>,
-    row_inverse: Arc<dyn ComplexToReal<T>>,
+    rows: Rows<T>,
     columns: Columns<T>,
     /// Values of a column: the transform length, or half of it and one where fields are mirrored.
     column_len: usize,
@@ -121,18 +107,15 @@ impl<T: FftNum> Filter<T> {
             factor * (grid.nx - 1),
             (factor * (grid.ny_full() - 1)).max(1),
         );
-        let n_kx = lx / 2 + 1;
-        let mut real_planner = RealFftPlanner::<T>::new();
+        let rows = Rows::plan(padding, lx);
+        let n_kx = rows.spectrum_len();
         let (columns, column_len, column_scratch) = Columns::plan(grid.symmetry, padding, ly);
-        let row_forward = real_planner.plan_fft_forward(lx);
-        let row_inverse = real_planner.plan_fft_inverse(lx);
         let zero = Complex::new(T::zero(), T::zero());
-        let row_scratch = row_forward
-            .get_scratch_len()
-            .max(row_inverse.get_scratch_len());
+        let row_scratch = rows.scratch_len();
         let row_work = (0..grid.ny.div_ceil(ROWS))
             .map(|_| RowWork {
                 real: vec![T::zero(); lx],
+                row: vec![T::zero(); grid.nx],
                 spectra: vec![zero; ROWS * n_kx],
                 scratch: vec![zero; row_scratch],
             })
@@ -153,8 +136,7 @@ impl<T: FftNum> Filter<T> {
             parity: Parity::Even,
             n_symbols,
             n_kx,
-            row_forward,
-            row_inverse,
+            rows,
             columns,
             column_len,
             symbols: vec![T::zero(); n_symbols * n_kx * column_len],
@@ -184,13 +166,18 @@ impl<T: FftNum> Filter<T> {
 
     /// Sets symbol `b` to the transform of a kernel sampled at node offsets (i, j) along x and y.
     pub fn set_kernel(&mut self, b: usize, kernel: impl Fn(usize, usize) -> f64) {
-        let along_y = match self.columns {
-            Columns::Whole { .. } | Columns::Even(_) => AlongY::Whole,
-            Columns::QuarterWave(_) => AlongY::Halfway,
+        let along_x = match self.rows {
+            Rows::Usual { .. } => At::Whole,
+            Rows::Halfway { .. } => At::Halfway,
         };
+        let along_y = match self.columns {
+            Columns::Whole { .. } | Columns::Even(_) => At::Whole,
+            Columns::QuarterWave(_) => At::Halfway,
+        };
+        let (lengths, at) = ((self.lx, self.ly), (along_x, along_y));
         let symbol = match self.parity {
-            Parity::Even => even_kernel_symbol(self.lx, self.ly, along_y, kernel),
-            Parity::OddInX => odd_kernel_symbol(self.lx, self.ly, along_y, kernel),
+            Parity::Even => even_kernel_symbol(lengths, at, kernel),
+            Parity::OddInX => odd_kernel_symbol(lengths, at, kernel),
         };
         let n = along_y.len(self.ly);
         self.set_symbol(b, |kx, ky| symbol[kx / 2 * n + ky / 2]);
@@ -199,20 +186,19 @@ impl<T: FftNum> Filter<T> {
     /// Sets symbol `b` from `f(2 kx, 2 ky)`, twice the wavenumber indices, 0 <= kx <= lx/2, 0 <= ky <= ly/2.
     pub fn set_symbol(&mut self, b: usize, f: impl Fn(usize, usize) -> f64) {
         let (ly, len) = (self.ly, self.column_len);
-        let is_halfway = matches!(self.columns, Columns::QuarterWave(_));
-        let twice = |place: usize| {
-            if is_halfway {
-                QuarterWave::<T>::twice_frequency(len, place)
-            } else {
-                2 * place.min(ly - place)
-            }
-        };
-        let scale = 1.0 / (self.lx * ly) as f64;
+        let columns = &self.columns;
+        let scale = 1.0 / (self.rows.gain() * ly as f64);
         let start = b * self.n_kx * len;
         let table = &mut self.symbols[start..start + self.n_kx * len];
-        for (kx, line) in table.chunks_exact_mut(len).enumerate() {
-            for (ky, s) in line.iter_mut().enumerate() {
-                *s = T::from_f64(f(2 * kx, twice(ky)) * scale).unwrap_or_else(T::zero);
+        for (place, line) in table.chunks_exact_mut(len).enumerate() {
+            let (kx, is_negative) = self.rows.twice_frequency(place);
+            let scale = match self.parity {
+                Parity::OddInX if is_negative => -scale,
+                Parity::OddInX | Parity::Even => scale,
+            };
+            for (place, s) in line.iter_mut().enumerate() {
+                *s = T::from_f64(f(kx, columns.twice_frequency(place, ly)) * scale)
+                    .unwrap_or_else(T::zero);
             }
         }
     }
@@ -232,19 +218,15 @@ impl<T: FftNum> Filter<T> {
     }
 
     fn forward(&mut self, input: &[T]) {
-        let (nx, lx, n_kx) = (self.nx, self.lx, self.n_kx);
-        let plan = &self.row_forward;
+        let (nx, n_kx) = (self.nx, self.n_kx);
+        let plan = &self.rows;
         self.rows_spectrum
             .par_chunks_mut(ROWS * n_kx)
             .zip(input.par_chunks(ROWS * nx))
             .zip(self.row_work.par_iter_mut())
             .for_each(|((spectra, rows), work)| {
                 for (spectrum, row) in spectra.chunks_exact_mut(n_kx).zip(rows.chunks_exact(nx)) {
-                    let n = nx.min(lx);
-                    work.real[..n].copy_from_slice(&row[..n]);
-                    work.real[n..].fill(T::zero());
-                    plan.process_with_scratch(&mut work.real, spectrum, &mut work.scratch)
-                        .expect("buffer lengths were made for this plan");
+                    plan.forward(row, spectrum, &mut work.real, &mut work.scratch);
                 }
             });
     }
@@ -283,8 +265,8 @@ impl<T: FftNum> Filter<T> {
     }
 
     fn inverse(&mut self, weights: Option<&Weights<T>>, out: &mut [T]) {
-        let (nx, ny, lx, n_kx, n_symbols) = (self.nx, self.ny, self.lx, self.n_kx, self.n_symbols);
-        let plan = &self.row_inverse;
+        let (nx, ny, n_kx, n_symbols) = (self.nx, self.ny, self.n_kx, self.n_symbols);
+        let plan = &self.rows;
         let columns = &self.columns_out;
         out.par_chunks_mut(ROWS * nx)
             .zip(self.row_work.par_iter_mut())
@@ -310,79 +292,15 @@ impl<T: FftNum> Filter<T> {
                             continue;
                         }
                         let spectrum = &mut work.spectra[r * n_kx..(r + 1) * n_kx];
-                        spectrum[0].im = T::zero();
-                        spectrum[n_kx - 1].im = T::zero();
-                        plan.process_with_scratch(spectrum, &mut work.real, &mut work.scratch)
-                            .expect("buffer lengths were made for this plan");
-                        match weight.flatten() {
-                            Some(weight) => accumulate(&work.real, weight, row),
-                            None => copy_row(&work.real, lx, row),
-                        }
+                        let (real, scratch) = (&mut work.real, &mut work.scratch);
+                        let Some(weight) = weight.flatten() else {
+                            plan.inverse(spectrum, row, real, scratch);
+                            continue;
+                        };
+                        plan.inverse(spectrum, &mut work.row, real, scratch);
+                        accumulate(&work.row, weight, row);
                     }
                 }
             });
-    }
-}
-
-impl<T: FftNum> Columns<T> {
-    /// The transforms for length `ly`, the values of a column, the scratch.
-    fn plan(symmetry: Symmetry, padding: Padding, ly: usize) -> (Self, usize, usize) {
-        match symmetry {
-            Symmetry::MirrorY if padding != Padding::Periodic => {
-                let quarter = QuarterWave::new(ly / 2);
-                let scratch = quarter.scratch_len();
-                (Self::QuarterWave(quarter), ly / 2, scratch)
-            }
-            Symmetry::MirrorY => {
-                let even = EvenTransform::new(ly / 2);
-                let scratch = even.scratch_len();
-                (Self::Even(even), ly / 2 + 1, scratch)
-            }
-            Symmetry::General | Symmetry::Line => {
-                let mut planner = FftPlanner::<T>::new();
-                let forward = planner.plan_fft_forward(ly);
-                let inverse = planner.plan_fft_inverse(ly);
-                let scratch = forward
-                    .get_inplace_scratch_len()
-                    .max(inverse.get_inplace_scratch_len());
-                (Self::Whole { forward, inverse }, ly, scratch)
-            }
-        }
-    }
-
-    /// Of a column whose first `filled` values are not zero.
-    fn forward(
-        &self,
-        line: &mut [Complex<T>],
-        filled: usize,
-        work: &mut [Complex<T>],
-        scratch: &mut [Complex<T>],
-    ) {
-        match self {
-            Self::Whole { forward, .. } => forward.process_with_scratch(line, scratch),
-            Self::Even(even) => even.process(line, work, scratch),
-            Self::QuarterWave(quarter) => quarter.forward(line, filled, scratch),
-        }
-    }
-
-    /// Back to the rows `out` of a column; `line` is overwritten.
-    fn inverse(
-        &self,
-        line: &mut [Complex<T>],
-        out: &mut [Complex<T>],
-        work: &mut [Complex<T>],
-        scratch: &mut [Complex<T>],
-    ) {
-        match self {
-            Self::Whole { inverse, .. } => inverse.process_with_scratch(line, scratch),
-            Self::Even(even) => even.process(line, work, scratch),
-            Self::QuarterWave(quarter) => return quarter.inverse(line, out, scratch),
-        }
-        let n = out.len().min(line.len());
-        out[..n].copy_from_slice(&line[..n]);
-        // A periodic column's last row is its first.
-        if let Some(last) = out.get_mut(n) {
-            *last = line[0];
-        }
     }
 }

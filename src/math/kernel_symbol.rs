@@ -8,21 +8,21 @@ use std::f64::consts::PI;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-/// At which frequencies along y.
+/// At which frequencies along an axis of length `l`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AlongY {
-    /// ky = 0 .. ly/2.
+pub enum At {
+    /// k = 0 .. l/2.
     Whole,
-    /// ky = ½ .. ly/2 − ½: the period's end counts with the other sign.
+    /// k = ½, 3/2 .. below l/2: what lies beyond half the length counts with the other sign.
     Halfway,
 }
 
-impl AlongY {
-    /// Frequencies for length `ly`.
-    pub fn len(self, ly: usize) -> usize {
+impl At {
+    /// Frequencies for length `l`.
+    pub fn len(self, l: usize) -> usize {
         match self {
-            Self::Whole => ly / 2 + 1,
-            Self::Halfway => ly / 2,
+            Self::Whole => l / 2 + 1,
+            Self::Halfway => l / 2,
         }
     }
 }
@@ -30,20 +30,18 @@ impl AlongY {
 /// The transform of a kernel `k(x, y)` that is even in both, sampled at node offsets, on the padded
 /// grid: `[kx][ky]`, both to half the length, real.
 pub fn even_kernel_symbol(
-    lx: usize,
-    ly: usize,
-    along_y: AlongY,
+    (lx, ly): (usize, usize),
+    at: (At, At),
     kernel: impl Fn(usize, usize) -> f64,
 ) -> Vec<f64> {
     let sample = |i: usize, j: usize| kernel(i.min(lx - i), j);
-    symbol(lx, ly, along_y, sample, |v| v.re)
+    symbol((lx, ly), at, sample, |v| v.re)
 }
 
 /// The imaginary part of the transform of a kernel that is odd in x and even in y: `[kx][ky]`.
 pub fn odd_kernel_symbol(
-    lx: usize,
-    ly: usize,
-    along_y: AlongY,
+    (lx, ly): (usize, usize),
+    at: (At, At),
     kernel: impl Fn(usize, usize) -> f64,
 ) -> Vec<f64> {
     let sample = |i: usize, j: usize| {
@@ -56,26 +54,26 @@ pub fn odd_kernel_symbol(
             -kernel(lx - i, j)
         }
     };
-    symbol(lx, ly, along_y, sample, |v| v.im)
+    symbol((lx, ly), at, sample, |v| v.im)
 }
 
 /// Transforms of `sample(i, j)`, i over the whole period in x, j over half of it in y (even): of the x
 /// transform the part that is not zero, of the y transform the real one.
 fn symbol(
-    lx: usize,
-    ly: usize,
-    along_y: AlongY,
+    (lx, ly): (usize, usize),
+    (along_x, along_y): (At, At),
     sample: impl Fn(usize, usize) -> f64,
     part: fn(&Complex<f64>) -> f64,
 ) -> Vec<f64> {
-    let (nkx, nky) = (lx / 2 + 1, ly / 2 + 1);
+    // Of the rows half the offsets along y are needed.
+    let (nkx, nky) = (along_x.len(lx), ly / 2 + 1);
     let mut planner = FftPlanner::<f64>::new();
     let (fx, fy) = (planner.plan_fft_forward(lx), planner.plan_fft_forward(ly));
     let mut table = vec![0.0; nky * nkx];
     let mut line = vec![Complex::new(0.0, 0.0); lx];
     for (j, row) in table.chunks_exact_mut(nkx).enumerate() {
         for (i, v) in line.iter_mut().enumerate() {
-            *v = Complex::new(sample(i, j), 0.0);
+            *v = sample(i, j) * turn(along_x, i, lx);
         }
         fx.process(&mut line);
         for (o, v) in row.iter_mut().zip(&line) {
@@ -98,16 +96,16 @@ fn symbol(
     out
 }
 
-/// What a sample at offset `j` is multiplied with: e^{−iπj/ly} shifts the frequencies by half, and beyond half the
-/// length, where offsets are j − ly, the sign turns.
-fn turn(along_y: AlongY, j: usize, ly: usize) -> Complex<f64> {
-    let sign = match (2 * j).cmp(&ly) {
+/// What a sample at offset `j` is multiplied with: e^{−iπj/l} shifts the frequencies by half, and beyond half the
+/// length, where offsets are j − l, the sign turns.
+fn turn(at: At, j: usize, l: usize) -> Complex<f64> {
+    let sign = match (2 * j).cmp(&l) {
         Ordering::Less => 1.0,
         Ordering::Equal => 0.0,
         Ordering::Greater => -1.0,
     };
-    match along_y {
-        AlongY::Whole => Complex::new(1.0, 0.0),
-        AlongY::Halfway => Complex::from_polar(sign, -PI * j as f64 / ly as f64),
+    match at {
+        At::Whole => Complex::new(1.0, 0.0),
+        At::Halfway => Complex::from_polar(sign, -PI * j as f64 / l as f64),
     }
 }

@@ -5,6 +5,7 @@ pub mod elliptic;
 mod even_transform;
 pub mod filter;
 pub mod grid;
+mod halfway;
 pub mod kernel_symbol;
 pub mod ln_sum;
 mod quarter_wave;

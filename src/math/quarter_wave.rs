@@ -75,7 +75,7 @@ impl<T: FftNum> QuarterWave<T> {
         self.fft.process_with_scratch(x, scratch);
     }
 
-    /// Transforms `v` back (it is overwritten); `x` takes the first values, at most `N + 1`.
+    /// Transforms `v` back (it is overwritten); `x` takes all values and x_N, or up to the first N/2 + 1.
     pub(super) fn inverse(
         &self,
         v: &mut [Complex<T>],
@@ -92,8 +92,8 @@ impl<T: FftNum> QuarterWave<T> {
             *x = v[half] * self.middle;
         }
         if x.len() > half + 1 {
-            let last = x.len().min(self.n);
-            unfold_high(low, high, &self.cosine, &self.sine, &mut x[half..last]);
+            let all = &mut x[half..self.n];
+            unfold_high(low, high, &self.cosine, &self.sine, all);
         }
         if let Some(x) = x.get_mut(self.n) {
             *x = Complex::new(T::zero(), T::zero());
@@ -142,6 +142,9 @@ fn fold<T: FftNum>(low: &mut [Complex<T>], high: &mut [Complex<T>], cosine: &[T]
 }
 }
 
+/// Values side by side.
+const LANES: usize = 8;
+
 dispatched! {
 /// 2N x_j from V, j = 1..N/2.
 fn unfold_low<T: FftNum>(
@@ -152,10 +155,23 @@ fn unfold_low<T: FftNum>(
     x: &mut [Complex<T>],
 ) {
     let n = low.len();
-    let (cosine, sine) = (&cosine[1..n], &sine[1..n]);
-    let pairs = low[1..].iter().zip(high[1..].iter().rev());
-    for (((a, b), (&c, &s)), x) in pairs.zip(cosine.iter().zip(sine)).zip(&mut x[1..]) {
-        *x = (*a + *b) * c + turned(*a - *b, s);
+    let (high, cosine, sine, x) = (&high[..n], &cosine[..n], &sine[..n], &mut x[..n]);
+    let blocks = (n - 1) / LANES;
+    for block in 0..blocks {
+        let j = 1 + block * LANES;
+        let a: &[Complex<T>; LANES] = low[j..].first_chunk().expect("within the half");
+        let b: &[Complex<T>; LANES] = high[..=n - j].last_chunk().expect("within the half");
+        let c: &[T; LANES] = cosine[j..].first_chunk().expect("within the half");
+        let s: &[T; LANES] = sine[j..].first_chunk().expect("within the half");
+        let x: &mut [Complex<T>; LANES] = x[j..].first_chunk_mut().expect("within the half");
+        for k in 0..LANES {
+            let b = b[LANES - 1 - k];
+            x[k] = (a[k] + b) * c[k] + turned(a[k] - b, s[k]);
+        }
+    }
+    for j in 1 + blocks * LANES..n {
+        let (a, b) = (low[j], high[n - j]);
+        x[j] = (a + b) * cosine[j] + turned(a - b, sine[j]);
     }
 }
 }
@@ -170,11 +186,23 @@ fn unfold_high<T: FftNum>(
     x: &mut [Complex<T>],
 ) {
     let n = low.len();
-    let (cosine, sine) = (&cosine[1..n], &sine[1..n]);
-    let pairs = low[1..].iter().rev().zip(&high[1..]);
-    let tables = cosine.iter().rev().zip(sine.iter().rev());
-    for (((a, b), (&c, &s)), x) in pairs.zip(tables).zip(&mut x[1..]) {
-        *x = (*a + *b) * s - turned(*a - *b, c);
+    let (high, cosine, sine, x) = (&high[..n], &cosine[..n], &sine[..n], &mut x[..n]);
+    let blocks = (n - 1) / LANES;
+    for block in 0..blocks {
+        let j = 1 + block * LANES;
+        let a: &[Complex<T>; LANES] = low[..=n - j].last_chunk().expect("within the half");
+        let b: &[Complex<T>; LANES] = high[j..].first_chunk().expect("within the half");
+        let c: &[T; LANES] = cosine[..=n - j].last_chunk().expect("within the half");
+        let s: &[T; LANES] = sine[..=n - j].last_chunk().expect("within the half");
+        let x: &mut [Complex<T>; LANES] = x[j..].first_chunk_mut().expect("within the half");
+        for k in 0..LANES {
+            let back = LANES - 1 - k;
+            x[k] = (a[back] + b[k]) * s[back] - turned(a[back] - b[k], c[back]);
+        }
+    }
+    for j in 1 + blocks * LANES..n {
+        let (a, b, c, s) = (low[n - j], high[j], cosine[n - j], sine[n - j]);
+        x[j] = (a + b) * s - turned(a - b, c);
     }
 }
 }

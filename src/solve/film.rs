@@ -19,7 +19,7 @@
 
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
-use crate::math::kernel_symbol::{AlongY, even_kernel_symbol};
+use crate::math::kernel_symbol::{At, even_kernel_symbol};
 
 /// What lies on the outer boundary of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,7 +92,7 @@ impl Elastic {
         let kernel = |i: usize, j: usize| table[i * rows + j];
         double.set_kernel(0, kernel);
         single.set_kernel(0, kernel);
-        let symbol = even_kernel_symbol(double.lx(), double.ly(), AlongY::Whole, kernel);
+        let symbol = even_kernel_symbol((double.lx(), double.ly()), (At::Whole, At::Whole), kernel);
         Self {
             double,
             single,

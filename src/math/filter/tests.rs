@@ -1,6 +1,7 @@
 //! Filters against direct sums.
 
 use super::*;
+use crate::math::grid::Symmetry;
 
 fn direct(grid: &Grid, p: &[f64], kernel: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let nyf = grid.ny_full();
