@@ -31,7 +31,7 @@ use super::kernel_symbol::{At, even_kernel_symbol, odd_kernel_symbol};
 /// Rows of one task: eight single-precision complex numbers of a column fill a cache line.
 const ROWS: usize = 8;
 const COLUMNS: usize = 8;
-/// Values between the lines of a block: lines a power of two apart would share cache sets.
+/// Values between lines: lines a power of two apart would share cache sets.
 const GAP: usize = 8;
 
 /// Padding of the transforms.
@@ -59,7 +59,7 @@ pub enum Parity {
 struct RowWork<T> {
     real: Vec<T>,
     row: Vec<T>,
-    /// Of [`ROWS`] rows.
+    /// Of [`ROWS`] rows, [`GAP`] apart.
     spectra: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
 }
@@ -87,7 +87,7 @@ pub struct Filter<T: FftNum> {
     column_len: usize,
     /// `[symbol][kx][column_len]`, the normalisation of the transforms included.
     symbols: Vec<T>,
-    /// `[row][kx]`
+    /// `[row][kx]`, the rows [`GAP`] apart.
     rows_spectrum: Vec<Complex<T>>,
     /// `[kx][symbol][row]`
     columns_out: Vec<Complex<T>>,
@@ -116,7 +116,7 @@ impl<T: FftNum> Filter<T> {
             .map(|_| RowWork {
                 real: vec![T::zero(); lx],
                 row: vec![T::zero(); grid.nx],
-                spectra: vec![zero; ROWS * n_kx],
+                spectra: vec![zero; ROWS * (n_kx + GAP)],
                 scratch: vec![zero; row_scratch],
             })
             .collect();
@@ -140,7 +140,7 @@ impl<T: FftNum> Filter<T> {
             columns,
             column_len,
             symbols: vec![T::zero(); n_symbols * n_kx * column_len],
-            rows_spectrum: vec![zero; grid.ny * n_kx],
+            rows_spectrum: vec![zero; grid.ny * (n_kx + GAP)],
             columns_out: vec![zero; n_kx * n_symbols * grid.ny],
             row_work,
             column_work,
@@ -218,14 +218,15 @@ impl<T: FftNum> Filter<T> {
     }
 
     fn forward(&mut self, input: &[T]) {
-        let (nx, n_kx) = (self.nx, self.n_kx);
+        let (nx, n_kx, stride) = (self.nx, self.n_kx, self.n_kx + GAP);
         let plan = &self.rows;
         self.rows_spectrum
-            .par_chunks_mut(ROWS * n_kx)
+            .par_chunks_mut(ROWS * stride)
             .zip(input.par_chunks(ROWS * nx))
             .zip(self.row_work.par_iter_mut())
             .for_each(|((spectra, rows), work)| {
-                for (spectrum, row) in spectra.chunks_exact_mut(n_kx).zip(rows.chunks_exact(nx)) {
+                for (spectrum, row) in spectra.chunks_exact_mut(stride).zip(rows.chunks_exact(nx)) {
+                    let spectrum = &mut spectrum[..n_kx];
                     plan.forward(row, spectrum, &mut work.real, &mut work.scratch);
                 }
             });
@@ -244,7 +245,7 @@ impl<T: FftNum> Filter<T> {
                 let k0 = block * COLUMNS;
                 let width = COLUMNS.min(n_kx - k0);
                 let stride = len + GAP;
-                gather(rows, n_kx, k0, width, ny, len, &mut work.line);
+                gather(rows, n_kx + GAP, k0, width, ny, len, &mut work.line);
                 for c in 0..width {
                     let line = &mut work.line[c * stride..c * stride + len];
                     plan.forward(line, ny, &mut work.work, &mut work.scratch);
@@ -291,7 +292,7 @@ impl<T: FftNum> Filter<T> {
                         if matches!(weight, Some(None)) {
                             continue;
                         }
-                        let spectrum = &mut work.spectra[r * n_kx..(r + 1) * n_kx];
+                        let spectrum = &mut work.spectra[r * (n_kx + GAP)..][..n_kx];
                         let (real, scratch) = (&mut work.real, &mut work.scratch);
                         let Some(weight) = weight.flatten() else {
                             plan.inverse(spectrum, row, real, scratch);

@@ -36,13 +36,14 @@ pub(super) fn scatter<T: FftNum>(
     spectra: &mut [Complex<T>],
 ) {
     if n_rows == ROWS {
-        let (spectra, _) = spectra.split_at_mut(ROWS * n_kx);
+        let apart = n_kx + GAP;
+        let (spectra, _) = spectra.split_at_mut(ROWS * apart);
         for kx in 0..n_kx {
             let column: &[Complex<T>; ROWS] = columns[kx * stride + first..]
                 .first_chunk()
                 .expect("a column has all rows");
             for r in 0..ROWS {
-                spectra[r * n_kx + kx] = column[r];
+                spectra[r * apart + kx] = column[r];
             }
         }
         return;
@@ -50,7 +51,7 @@ pub(super) fn scatter<T: FftNum>(
     for kx in 0..n_kx {
         let column = &columns[kx * stride + first..][..n_rows];
         for (r, &v) in column.iter().enumerate() {
-            spectra[r * n_kx + kx] = v;
+            spectra[r * (n_kx + GAP) + kx] = v;
         }
     }
 }
@@ -60,7 +61,7 @@ dispatched! {
 /// Columns `k0..k0+width` of the row spectra as contiguous lines of length `len`, [`GAP`] apart.
 pub(super) fn gather<T: FftNum>(
     rows: &[Complex<T>],
-    n_kx: usize,
+    row_stride: usize,
     k0: usize,
     width: usize,
     ny: usize,
@@ -70,7 +71,7 @@ pub(super) fn gather<T: FftNum>(
     let stride = len + GAP;
     let n = ny.min(len);
     for j in 0..n {
-        let row = &rows[j * n_kx + k0..][..width];
+        let row = &rows[j * row_stride + k0..][..width];
         for (c, &v) in row.iter().enumerate() {
             line[c * stride + j] = v;
         }
