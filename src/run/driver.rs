@@ -124,7 +124,7 @@ impl Driver {
             match make(&context.scene) {
                 Err(error) => End::NotStarted(error),
                 Ok(mut sim) => {
-                    let end = self.drive(&mut sim);
+                    let end = sim.inside(|sim| self.drive(sim));
                     steps = sim.passage_steps();
                     steps_per_s = self
                         .passage_began

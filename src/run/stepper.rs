@@ -11,6 +11,13 @@ pub trait Stepper {
     /// # Errors
     /// When the step failed; nothing of it was kept.
     fn step(&mut self) -> Result<(), StepError>;
+    /// Does many steps where making them costs least.
+    fn inside<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R
+    where
+        Self: Sized,
+    {
+        work(self)
+    }
     /// Moves a knob's target.
     ///
     /// # Errors
@@ -43,6 +50,9 @@ pub trait Stepper {
 impl Stepper for Simulation {
     fn step(&mut self) -> Result<(), StepError> {
         self.step()
+    }
+    fn inside<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R {
+        self.inside(work)
     }
     fn set(&mut self, knob: Knob, value: f64) -> Result<(), SimError> {
         self.set(knob, value)

@@ -1,5 +1,7 @@
 //! Making a simulation: everything is allocated here.
 
+use std::sync::Arc;
+
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::counting::{Counting, CountingSpec};
@@ -73,7 +75,7 @@ impl Simulation {
             shape,
             flow,
             regime,
-            pool,
+            pool: Arc::new(pool),
             phase: Phase::Smooth { left: 0 },
             wanted,
             metrics: Metrics::default(),

@@ -7,6 +7,8 @@
 //! passage   every number counts
 //! ```
 
+use std::sync::Arc;
+
 use rayon::ThreadPool;
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +68,7 @@ pub struct Simulation {
     pub(super) shape: Shape,
     pub(super) flow: Flow,
     pub(super) regime: Regime,
-    pub(super) pool: ThreadPool,
+    pub(super) pool: Arc<ThreadPool>,
     pub(super) phase: Phase,
     pub(super) wanted: Drive,
     pub(super) metrics: Metrics,
@@ -94,6 +96,17 @@ impl Simulation {
     /// # Errors
     /// [`StepError`] when the step failed; nothing of it was kept.
     pub fn step(&mut self) -> Result<(), StepError> {
+        self.inside(Self::step_inside)
+    }
+
+    /// Does something on a thread of the simulation's pool. Handing work over to a pool takes a wake-up, and room in
+    /// its queue now and then: who makes many steps makes them all inside.
+    pub fn inside<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R {
+        let pool = Arc::clone(&self.pool);
+        pool.install(|| work(self))
+    }
+
+    fn step_inside(&mut self) -> Result<(), StepError> {
         self.stats.steps += 1;
         match self.phase {
             Phase::Smooth { left: 0 } => self.refine_or_develop(),
@@ -106,7 +119,7 @@ impl Simulation {
             Phase::Settle { coarse: 0, fine: 0 } => {
                 self.phase = Phase::Develop { left: 0 };
                 self.stats.steps -= 1;
-                self.step()
+                self.step_inside()
             }
             Phase::Settle { coarse, fine } => {
                 self.advance()?;

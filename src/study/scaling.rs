@@ -209,12 +209,15 @@ fn run(case: &Case, more: &[&str]) -> Result<Timings, String> {
     let start = *sim.stats();
     let mut times = Vec::with_capacity(case.steps);
     let mut failed = 0;
-    for _ in 0..case.steps {
-        let clock = Instant::now();
-        sim.step().map_err(|error| error.to_string())?;
-        times.push(clock.elapsed().as_secs_f64());
-        failed += u32::from(!sim.metrics().converged);
-    }
+    sim.inside(|sim| {
+        for _ in 0..case.steps {
+            let clock = Instant::now();
+            sim.step().map_err(|error| error.to_string())?;
+            times.push(clock.elapsed().as_secs_f64());
+            failed += u32::from(!sim.metrics().converged);
+        }
+        Ok::<(), String>(())
+    })?;
     let mut frame = Frame::default();
     let frame_s = best(|| sim.fill(&mut frame));
     let pair_s = before.min(pair_s(case.nodes)?);
