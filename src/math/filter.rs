@@ -41,8 +41,8 @@ pub enum Padding {
     Doubled,
     /// The domain itself, periodic.
     Periodic,
-    /// As [`Padding::Periodic`], but a mirrored field goes on with the other sign beyond the end in y, where it is
-    /// zero: as good where the transform is an approximation, and faster.
+    /// As [`Padding::Periodic`], but a field goes on with the other sign beyond its ends, where it is zero: better
+    /// where the transform is an approximation (a preconditioner), and faster.
     Pinned,
 }
 
@@ -172,7 +172,7 @@ impl<T: FftNum> Filter<T> {
         };
         let along_y = match self.columns {
             Columns::Whole { .. } | Columns::Even(_) => At::Whole,
-            Columns::QuarterWave(_) => At::Halfway,
+            Columns::QuarterWave(_) | Columns::Turned(_) => At::Halfway,
         };
         let (lengths, at) = ((self.lx, self.ly), (along_x, along_y));
         let symbol = match self.parity {

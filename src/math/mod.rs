@@ -11,3 +11,4 @@ pub mod ln_sum;
 mod quarter_wave;
 pub mod root;
 pub mod spectrum;
+mod turned;

@@ -75,6 +75,17 @@ struct Case {
 const GENERAL: &[&str] = &["body_2.surface.angle_deg=0.01"];
 const MIRRORED: &[&str] = &[];
 
+/// The default scene at other speeds of entrainment.
+const SPEEDS: [(&str, &[&str]); 5] = [
+    ("U = 5 m/s, full film", &["motion.entrainment_m_s=5"]),
+    (HALF_TOUCHES, &["motion.entrainment_m_s=0.05"]),
+    ("U = 0.01 m/s", &["motion.entrainment_m_s=1e-2"]),
+    ("U = 1e-3 m/s, near dry", &["motion.entrainment_m_s=1e-3"]),
+    ("U = 1e-4 m/s, near dry", &["motion.entrainment_m_s=1e-4"]),
+];
+/// The mixed regime's dry end: at the default speed 2 % of the contact touch, here 56 %.
+const HALF_TOUCHES: &str = "U = 0.05 m/s, 56 % touch";
+
 /// Nodes of the largest grid.
 const LARGEST: usize = 513;
 
@@ -82,8 +93,8 @@ fn cases(extent: Extent) -> Vec<Case> {
     let mut cases = Vec::new();
     let sizes: &[(usize, usize)] = match extent {
         Extent::Quick => &[(65, 32), (129, 32)],
-        Extent::Usual => &[(65, 64), (129, 64), (257, 48)],
-        Extent::Full => &[(65, 64), (129, 64), (257, 48), (LARGEST, 16)],
+        Extent::Usual => &[(65, 256), (129, 256), (257, 96)],
+        Extent::Full => &[(65, 256), (129, 256), (257, 96), (LARGEST, 24)],
     };
     let mut push = |name, nodes, threads, steps, keys| {
         cases.push(Case {
@@ -95,39 +106,18 @@ fn cases(extent: Extent) -> Vec<Case> {
         });
     };
     for &(nodes, steps) in sizes {
-        // The largest grid takes minutes to start up: once, for the growth.
+        // The largest grid takes minutes to start up: one thread, for the growth.
         let most = if nodes == LARGEST { 1 } else { 2 };
         for threads in 1..=most {
             push("whole grid", nodes, threads, steps, GENERAL);
-            if nodes != LARGEST {
-                push("mirrored in y", nodes, threads, steps, MIRRORED);
-            }
+            push("mirrored in y", nodes, threads, steps, MIRRORED);
         }
     }
     if extent != Extent::Quick {
-        push(
-            "U = 5 m/s, full film",
-            129,
-            2,
-            32,
-            &["motion.entrainment_m_s=5"],
-        );
-        push("U = 0.01 m/s", 129, 2, 32, &["motion.entrainment_m_s=1e-2"]);
-        push(
-            "U = 1e-3 m/s, near dry",
-            129,
-            2,
-            32,
-            &["motion.entrainment_m_s=1e-3"],
-        );
-        push(
-            "U = 1e-4 m/s, near dry",
-            129,
-            2,
-            32,
-            &["motion.entrainment_m_s=1e-4"],
-        );
-        push("dry", 129, 2, 32, &["lubricant=none"]);
+        for (name, keys) in SPEEDS {
+            push(name, 129, 2, 256, keys);
+        }
+        push("dry", 129, 2, 256, &["lubricant=none"]);
     }
     cases
 }
@@ -338,13 +328,15 @@ fn push_ratios(text: &mut String, rows: &[ScalingRow]) {
     let ends = [sizes.first(), sizes.last()].map(|n| *n.unwrap_or(&0));
     let pairs = sizes.windows(2).map(|pair| [pair[0], pair[1]]);
     for [from, to] in pairs.chain((sizes.len() > 2).then_some(ends)) {
-        let (small, large) = (find("whole grid", from, 1), find("whole grid", to, 1));
-        if let (Some(small), Some(large)) = (small, large) {
-            let work = |n: usize| (n * n) as f64 * (n as f64).log2();
+        let work = |n: usize| (n * n) as f64 * (n as f64).log2();
+        let growth = |case: &str| {
+            let (small, large) = (find(case, from, 1)?, find(case, to, 1)?);
+            Some(large.step_s / small.step_s)
+        };
+        if let (Some(whole), Some(mirrored)) = (growth("whole grid"), growth("mirrored in y")) {
             let _ = writeln!(
                 text,
-                "{from}² to {to}²: cost x {:.2}, N² log N x {:.2}",
-                large.step_s / small.step_s,
+                "{from}² to {to}², one thread: cost x {whole:.2}, mirrored x {mirrored:.2}; N² log N x {:.2}",
                 work(to) / work(from)
             );
         }
@@ -357,6 +349,14 @@ fn push_ratios(text: &mut String, rows: &[ScalingRow]) {
                 row.case,
                 row.step_s / mixed.step_s
             );
+            if let Some(half) = find(HALF_TOUCHES, 129, 2) {
+                let _ = writeln!(
+                    text,
+                    "  and {:.2} times that at its dry end, {}",
+                    row.step_s / half.step_s,
+                    half.case
+                );
+            }
         }
     }
 }

@@ -9,6 +9,7 @@ use super::Padding;
 use crate::math::even_transform::EvenTransform;
 use crate::math::grid::Symmetry;
 use crate::math::quarter_wave::QuarterWave;
+use crate::math::turned::Turned;
 
 /// Transforms along y.
 pub(super) enum Columns<T: FftNum> {
@@ -17,6 +18,8 @@ pub(super) enum Columns<T: FftNum> {
         forward: Arc<dyn Fft<T>>,
         inverse: Arc<dyn Fft<T>>,
     },
+    /// Of whole columns that may go on with the other sign.
+    Turned(Turned<T>),
     /// Of columns that are even in y.
     Even(EvenTransform<T>),
     /// Of columns that are even in y and zero at its end, where they may go on with the other sign.
@@ -37,6 +40,11 @@ impl<T: FftNum> Columns<T> {
                 let scratch = even.scratch_len();
                 (Self::Even(even), ly / 2 + 1, scratch)
             }
+            Symmetry::General if padding == Padding::Pinned => {
+                let turned = Turned::new(ly);
+                let scratch = turned.scratch_len();
+                (Self::Turned(turned), ly, scratch)
+            }
             Symmetry::General | Symmetry::Line => {
                 let mut planner = FftPlanner::<T>::new();
                 let forward = planner.plan_fft_forward(ly);
@@ -53,6 +61,7 @@ impl<T: FftNum> Columns<T> {
     pub(super) fn twice_frequency(&self, place: usize, ly: usize) -> usize {
         match self {
             Self::Whole { .. } | Self::Even(_) => 2 * place.min(ly - place),
+            Self::Turned(_) => Turned::<T>::twice_frequency(ly, place),
             Self::QuarterWave(_) => QuarterWave::<T>::twice_frequency(ly / 2, place),
         }
     }
@@ -67,6 +76,7 @@ impl<T: FftNum> Columns<T> {
     ) {
         match self {
             Self::Whole { forward, .. } => forward.process_with_scratch(line, scratch),
+            Self::Turned(turned) => turned.forward(line, scratch),
             Self::Even(even) => even.process(line, work, scratch),
             Self::QuarterWave(quarter) => quarter.forward(line, filled, scratch),
         }
@@ -82,12 +92,13 @@ impl<T: FftNum> Columns<T> {
     ) {
         match self {
             Self::Whole { inverse, .. } => inverse.process_with_scratch(line, scratch),
+            Self::Turned(turned) => turned.inverse(line, scratch),
             Self::Even(even) => even.process(line, work, scratch),
             Self::QuarterWave(quarter) => return quarter.inverse(line, out, scratch),
         }
         let n = out.len().min(line.len());
         out[..n].copy_from_slice(&line[..n]);
-        // A periodic column's last row is its first.
+        // A periodic column's last row is its first. (Of a pinned one both are zero; nobody reads them.)
         if let Some(last) = out.get_mut(n) {
             *last = line[0];
         }
