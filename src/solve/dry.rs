@@ -75,7 +75,11 @@ impl Dry {
     /// Makes all memory for `grid`; `elastic` gives the symbol that the preconditioner inverts.
     pub fn new(grid: &Grid, elastic: &Elastic) -> Self {
         let n = grid.len();
-        let mut inverse = Filter::new(grid, Padding::Periodic, 1);
+        let padding = match elastic.edge() {
+            Edge::Free => Padding::Pinned,
+            Edge::Periodic => Padding::Periodic,
+        };
+        let mut inverse = Filter::new(grid, padding, 1);
         inverse.set_symbol(0, |kx, ky| {
             let symbol = elastic.symbol_on_domain(kx, ky).abs();
             if symbol > 0.0 { 1.0 / symbol } else { 0.0 }
