@@ -62,7 +62,10 @@ pub(super) struct LineSweep {
 impl LineSweep {
     /// Buffers for `grid`.
     pub(super) fn new(grid: &Grid) -> Self {
-        let blocks = grid.ny.div_ceil(2).div_ceil(LANES);
+        // The last stored row lies on the boundary and has no equation: with it, rows that fill whole blocks would
+        // need one more.
+        let rows = grid.interior_rows().end;
+        let blocks = rows.div_ceil(2).div_ceil(LANES);
         let half = |rows: usize| Half {
             rows,
             factors: vec![NO_FACTOR; blocks * grid.nx],
@@ -72,7 +75,7 @@ impl LineSweep {
         Self {
             nx: grid.nx,
             blocks,
-            halves: [half(grid.ny.div_ceil(2)), half(grid.ny / 2)],
+            halves: [half(rows.div_ceil(2)), half(rows / 2)],
         }
     }
 
@@ -109,6 +112,10 @@ impl LineSweep {
             .with_min_len(8)
             .for_each(|(j, row)| {
                 let half = &self.halves[j % 2];
+                if j / 2 >= half.rows {
+                    row.fill(0.0);
+                    return;
+                }
                 let (block, lane) = ((j / 2) % blocks, (j / 2) / blocks);
                 for (v, z) in row.iter_mut().zip(&half.z[(block + 1) * nx..]) {
                     *v = z[lane];
@@ -134,8 +141,8 @@ impl LineSweep {
             .par_chunks_mut(nx)
             .zip(mine.r.par_chunks_mut(nx))
             .enumerate()
-            // A block takes less than a microsecond: two make a task worth handing over.
-            .with_min_len(2)
+            // A block takes a microsecond, hardly worth handing over; but a thread that finds nothing to do falls
+            // asleep, and to wake it for the transforms takes longer (8 % of a step on two threads).
             .for_each(|(block, (z, own))| {
                 if let Some(r) = r {
                     for lane in 0..LANES {
