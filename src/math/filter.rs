@@ -1,10 +1,11 @@
 //! Filters of 2-D fields by planned FFTs: `out = F^-1[ S F[in] ]`, or `out += sum_b w_b . F^-1[ S_b F[in] ]`.
 //!
 //! One real transform along x for every stored row, one complex transform along y for every
-//! wavenumber kx, the symbols `S_b` (real and even in both wavenumbers), and back. Rows of zeros
-//! pad the field to the transform lengths `lx`, `ly`: with `lx = 2 (nx-1)`, `ly = 2 (ny_full-1)` and
-//! a field that is zero on the boundary this is the exact free-space convolution; with
-//! `lx = nx-1`, `ly = ny_full-1` it is the periodic one.
+//! wavenumber kx, the symbols `S_b` (real and even in both wavenumbers), and back. With
+//! `lx = 2 (nx-1)`, `ly = 2 (ny_full-1)` and a field that is zero on the boundary this is the exact
+//! free-space convolution, whether the padded field repeats or goes on with the other sign: the second,
+//! at frequencies half-way between the usual ones, costs less. With `lx = nx-1`, `ly = ny_full-1` it is
+//! the periodic one, or that of a field pinned at its ends.
 //!
 //! All buffers are made in [`Filter::new`]; work is split in fixed blocks, so that the result does
 //! not depend on the number of threads.

@@ -7,7 +7,8 @@
 //! The bins ε_b of conductance have their cut-off (K̂ = ε s k²) at wavenumbers 1.5π/dx, /4, /16 …;
 //! the first bin, ε = 0, is the elastic inverse. The weights w_b are hats in the logarithm of the
 //! local conductance. The constraint of load is bordered: one solve for its column per
-//! linearisation. Single precision throughout.
+//! linearisation. Single precision throughout. The transforms' fields are zero at the ends of the domain, as pressure is
+//! (Krylov iterations of a mixed step 16.8 → 15.5 against periodic ones, at U = 1e-4 m/s 75 → 65).
 
 use super::film::Elastic;
 use super::jacobian::Jacobian;
