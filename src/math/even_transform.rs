@@ -17,6 +17,8 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftNum, FftPlanner};
 
+use super::table;
+
 /// A planned transform of `M + 1` values.
 pub(super) struct EvenTransform<T: FftNum> {
     m: usize,
@@ -29,16 +31,12 @@ pub(super) struct EvenTransform<T: FftNum> {
 impl<T: FftNum> EvenTransform<T> {
     /// Plans for `m` intervals (even).
     pub(super) fn new(m: usize) -> Self {
-        let table = |f: fn(f64) -> f64| {
-            (0..m)
-                .map(|j| T::from_f64(2.0 * f(PI * j as f64 / m as f64)).unwrap_or_else(T::zero))
-                .collect()
-        };
+        let angle = |j: usize| PI * j as f64 / m as f64;
         Self {
             m,
             fft: FftPlanner::new().plan_fft_forward(m),
-            sine: table(f64::sin),
-            cosine: table(f64::cos),
+            sine: table(m, |j| 2.0 * angle(j).sin()),
+            cosine: table(m, |j| 2.0 * angle(j).cos()),
         }
     }
 

@@ -56,6 +56,13 @@ pub enum Parity {
     OddInX,
 }
 
+/// The transform of a kernel at a filter's frequencies.
+pub struct KernelTransform {
+    /// `[kx][ky]`
+    values: Vec<f64>,
+    n_ky: usize,
+}
+
 /// Buffers of one block of rows.
 struct RowWork<T> {
     real: Vec<T>,
@@ -84,7 +91,7 @@ pub struct Filter<T: FftNum> {
     n_kx: usize,
     rows: Rows<T>,
     columns: Columns<T>,
-    /// Values of a column: the transform length, or half of it and one where fields are mirrored.
+    /// Values of a column's transform: its length, or half of it (and one, if they repeat) where fields are mirrored.
     column_len: usize,
     /// `[symbol][kx][column_len]`, the normalisation of the transforms included.
     symbols: Vec<T>,
@@ -165,8 +172,8 @@ impl<T: FftNum> Filter<T> {
         self.ly
     }
 
-    /// Sets symbol `b` to the transform of a kernel sampled at node offsets (i, j) along x and y.
-    pub fn set_kernel(&mut self, b: usize, kernel: impl Fn(usize, usize) -> f64) {
+    /// The transform of a kernel sampled at node offsets (i, j) along x and y, at the frequencies that this filter has.
+    pub fn transform_kernel(&self, kernel: impl Fn(usize, usize) -> f64) -> KernelTransform {
         let along_x = match self.rows {
             Rows::Usual { .. } => At::Whole,
             Rows::Halfway { .. } => At::Halfway,
@@ -176,12 +183,19 @@ impl<T: FftNum> Filter<T> {
             Columns::QuarterWave(_) | Columns::Turned(_) => At::Halfway,
         };
         let (lengths, at) = ((self.lx, self.ly), (along_x, along_y));
-        let symbol = match self.parity {
+        let values = match self.parity {
             Parity::Even => even_kernel_symbol(lengths, at, kernel),
             Parity::OddInX => odd_kernel_symbol(lengths, at, kernel),
         };
-        let n = along_y.len(self.ly);
-        self.set_symbol(b, |kx, ky| symbol[kx / 2 * n + ky / 2]);
+        KernelTransform {
+            values,
+            n_ky: along_y.len(self.ly),
+        }
+    }
+
+    /// Sets symbol `b` to the transform of a kernel, made by this filter or one of the same grid, padding and parity.
+    pub fn set_kernel(&mut self, b: usize, kernel: &KernelTransform) {
+        self.set_symbol(b, |kx, ky| kernel.values[kx / 2 * kernel.n_ky + ky / 2]);
     }
 
     /// Sets symbol `b` from `f(2 kx, 2 ky)`, twice the wavenumber indices, 0 <= kx <= lx/2, 0 <= ky <= ly/2.
@@ -249,7 +263,7 @@ impl<T: FftNum> Filter<T> {
                 gather(rows, n_kx + GAP, k0, width, ny, len, &mut work.line);
                 for c in 0..width {
                     let line = &mut work.line[c * stride..c * stride + len];
-                    plan.forward(line, ny, &mut work.work, &mut work.scratch);
+                    plan.forward(line, &mut work.work, &mut work.scratch);
                     for b in (0..n_symbols).filter(|&b| is_used(b)) {
                         let start = (b * n_kx + k0 + c) * len;
                         multiply(line, &symbols[start..start + len], &mut work.image);

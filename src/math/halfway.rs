@@ -18,6 +18,8 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftNum, FftPlanner};
 
+use super::table;
+
 /// A planned transform of `N` real values.
 pub(super) struct Halfway<T: FftNum> {
     half: usize,
@@ -31,18 +33,14 @@ pub(super) struct Halfway<T: FftNum> {
 impl<T: FftNum> Halfway<T> {
     /// Plans for `n` values (even).
     pub(super) fn new(n: usize) -> Self {
-        let table = |f: fn(f64) -> f64| {
-            (0..n / 2)
-                .map(|j| T::from_f64(f(PI * j as f64 / n as f64)).unwrap_or_else(T::zero))
-                .collect()
-        };
+        let angle = |j: usize| PI * j as f64 / n as f64;
         let mut planner = FftPlanner::new();
         Self {
             half: n / 2,
             forward: planner.plan_fft_forward(n / 2),
             inverse: planner.plan_fft_inverse(n / 2),
-            cosine: table(f64::cos),
-            sine: table(f64::sin),
+            cosine: table(n / 2, |j| angle(j).cos()),
+            sine: table(n / 2, |j| angle(j).sin()),
         }
     }
 

@@ -17,6 +17,9 @@ pub enum At {
     Halfway,
 }
 
+/// Of a kernel that repeats.
+pub const REPEATING: (At, At) = (At::Whole, At::Whole);
+
 impl At {
     /// Frequencies for length `l`.
     pub fn len(self, l: usize) -> usize {

@@ -12,3 +12,12 @@ mod quarter_wave;
 pub mod root;
 pub mod spectrum;
 mod turned;
+
+use rustfft::FftNum;
+
+/// `n` values of `f` in the precision of a transform.
+fn table<T: FftNum>(n: usize, f: impl Fn(usize) -> f64) -> Vec<T> {
+    (0..n)
+        .map(|j| T::from_f64(f(j)).unwrap_or_else(T::zero))
+        .collect()
+}

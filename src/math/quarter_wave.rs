@@ -13,25 +13,21 @@
 //! even transform (type I) needs running sums. N is even; x_N is zero.
 //! Source: Makhoul, IEEE Trans. Acoust. Speech Signal Process. 28 (1980).
 
-use std::f64::consts::{PI, SQRT_2};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftNum, FftPlanner};
 
+use super::table;
+
 /// A planned transform of `N` values.
 pub(super) struct QuarterWave<T: FftNum> {
     n: usize,
     fft: Arc<dyn Fft<T>>,
-    /// cos(πj/2N) and sin(πj/2N), j < N/2.
+    /// cos(πj/2N) and sin(πj/2N).
     cosine: Vec<T>,
     sine: Vec<T>,
-    /// w + w̄ at j = N/2.
-    middle: T,
-}
-
-fn number<T: FftNum>(value: f64) -> T {
-    T::from_f64(value).unwrap_or_else(T::zero)
 }
 
 impl<T: FftNum> QuarterWave<T> {
@@ -41,9 +37,8 @@ impl<T: FftNum> QuarterWave<T> {
         Self {
             n,
             fft: FftPlanner::new().plan_fft_forward(n),
-            cosine: (0..n / 2).map(|j| number(angle(j).cos())).collect(),
-            sine: (0..n / 2).map(|j| number(angle(j).sin())).collect(),
-            middle: number(SQRT_2),
+            cosine: table(n, |j| angle(j).cos()),
+            sine: table(n, |j| angle(j).sin()),
         }
     }
 
@@ -61,21 +56,14 @@ impl<T: FftNum> QuarterWave<T> {
         }
     }
 
-    /// Transforms `x` (`N` values) in place; beyond `filled` values it is zero, whatever is stored there.
-    pub(super) fn forward(&self, x: &mut [Complex<T>], filled: usize, scratch: &mut [Complex<T>]) {
+    /// Transforms `x` (`N` values) in place.
+    pub(super) fn forward(&self, x: &mut [Complex<T>], scratch: &mut [Complex<T>]) {
         let x = &mut x[..self.n];
-        let middle = x[self.n / 2] * self.middle;
-        let (low, high) = x.split_at_mut(self.n / 2);
-        if filled <= self.n / 2 + 1 {
-            fold_half(low, high, &self.cosine, &self.sine);
-        } else {
-            fold(low, high, &self.cosine, &self.sine);
-        }
-        high[0] = middle;
+        fold(x, &self.cosine, &self.sine);
         self.fft.process_with_scratch(x, scratch);
     }
 
-    /// Transforms `v` back (it is overwritten); `x` takes all values and x_N, or up to the first N/2 + 1.
+    /// Transforms `v` back (it is overwritten); `x` takes the first values, at most `N + 1`.
     pub(super) fn inverse(
         &self,
         v: &mut [Complex<T>],
@@ -84,17 +72,7 @@ impl<T: FftNum> QuarterWave<T> {
     ) {
         let v = &mut v[..self.n];
         self.fft.process_with_scratch(v, scratch);
-        let half = self.n / 2;
-        let (low, high) = v.split_at(half);
-        unfold_low(low, high, &self.cosine, &self.sine, &mut x[..half]);
-        x[0] = v[0] + v[0];
-        if let Some(x) = x.get_mut(half) {
-            *x = v[half] * self.middle;
-        }
-        if x.len() > half + 1 {
-            let all = &mut x[half..self.n];
-            unfold_high(low, high, &self.cosine, &self.sine, all);
-        }
+        unfold(v, &self.cosine, &self.sine, x);
         if let Some(x) = x.get_mut(self.n) {
             *x = Complex::new(T::zero(), T::zero());
         }
@@ -108,37 +86,19 @@ fn turned<T: FftNum>(z: Complex<T>, s: T) -> Complex<T> {
 }
 
 dispatched! {
-/// V from x, whose high half is zero. Halves: `low[j]` is of j, `high[N/2 − j]` of N − j.
-fn fold_half<T: FftNum>(
-    low: &mut [Complex<T>],
-    high: &mut [Complex<T>],
-    cosine: &[T],
-    sine: &[T],
-) {
-    let n = low.len();
-    let (cosine, sine) = (&cosine[1..n], &sine[1..n]);
+/// V from x, in pairs: V_j = w_j (x_j + i x_{N−j}), V_{N−j} = w̄_j (x_j − i x_{N−j}).
+fn fold<T: FftNum>(x: &mut [Complex<T>], cosine: &[T], sine: &[T]) {
+    let half = x.len() / 2;
+    let (low, high) = x.split_at_mut(half);
     let pairs = low[1..].iter_mut().zip(high[1..].iter_mut().rev());
-    for ((a, b), (&c, &s)) in pairs.zip(cosine.iter().zip(sine)) {
-        let (straight, turned) = (*a * c, turned(*a, s));
-        *a = straight + turned;
-        *b = straight - turned;
-    }
-}
-}
-
-dispatched! {
-/// V from x.
-fn fold<T: FftNum>(low: &mut [Complex<T>], high: &mut [Complex<T>], cosine: &[T], sine: &[T]) {
-    let n = low.len();
-    let (cosine, sine) = (&cosine[1..n], &sine[1..n]);
-    let pairs = low[1..].iter_mut().zip(high[1..].iter_mut().rev());
-    for ((a, b), (&c, &s)) in pairs.zip(cosine.iter().zip(sine)) {
-        // w(a + ib) and w̄(a − ib).
+    for ((a, b), (&c, &s)) in pairs.zip(cosine[1..half].iter().zip(&sine[1..half])) {
         let up = Complex::new(a.re - b.im, a.im + b.re);
         let down = Complex::new(a.re + b.im, a.im - b.re);
         *a = up * c + turned(up, s);
         *b = down * c - turned(down, s);
     }
+    // w (1 + i) = √2 at j = N/2.
+    high[0] = high[0] * (cosine[half] + sine[half]);
 }
 }
 
@@ -146,63 +106,28 @@ fn fold<T: FftNum>(low: &mut [Complex<T>], high: &mut [Complex<T>], cosine: &[T]
 const LANES: usize = 8;
 
 dispatched! {
-/// 2N x_j from V, j = 1..N/2.
-fn unfold_low<T: FftNum>(
-    low: &[Complex<T>],
-    high: &[Complex<T>],
-    cosine: &[T],
-    sine: &[T],
-    x: &mut [Complex<T>],
-) {
-    let n = low.len();
-    let (high, cosine, sine, x) = (&high[..n], &cosine[..n], &sine[..n], &mut x[..n]);
-    let blocks = (n - 1) / LANES;
+/// 2N x_j = w_j V_j + w̄_j V_{N−j}, of all j that `x` has below N.
+fn unfold<T: FftNum>(v: &[Complex<T>], cosine: &[T], sine: &[T], x: &mut [Complex<T>]) {
+    let n = v.len();
+    let wanted = x.len().min(n);
+    let (cosine, sine, x) = (&cosine[..n], &sine[..n], &mut x[..wanted]);
+    x[0] = v[0] + v[0];
+    let blocks = (wanted - 1) / LANES;
     for block in 0..blocks {
         let j = 1 + block * LANES;
-        let a: &[Complex<T>; LANES] = low[j..].first_chunk().expect("within the half");
-        let b: &[Complex<T>; LANES] = high[..=n - j].last_chunk().expect("within the half");
-        let c: &[T; LANES] = cosine[j..].first_chunk().expect("within the half");
-        let s: &[T; LANES] = sine[j..].first_chunk().expect("within the half");
-        let x: &mut [Complex<T>; LANES] = x[j..].first_chunk_mut().expect("within the half");
+        let a: &[Complex<T>; LANES] = v[j..].first_chunk().expect("j + LANES <= N");
+        let b: &[Complex<T>; LANES] = v[..=n - j].last_chunk().expect("j + LANES <= N");
+        let c: &[T; LANES] = cosine[j..].first_chunk().expect("j + LANES <= N");
+        let s: &[T; LANES] = sine[j..].first_chunk().expect("j + LANES <= N");
+        let x: &mut [Complex<T>; LANES] = x[j..].first_chunk_mut().expect("j + LANES <= wanted");
         for k in 0..LANES {
             let b = b[LANES - 1 - k];
             x[k] = (a[k] + b) * c[k] + turned(a[k] - b, s[k]);
         }
     }
-    for j in 1 + blocks * LANES..n {
-        let (a, b) = (low[j], high[n - j]);
+    for j in 1 + blocks * LANES..wanted {
+        let (a, b) = (v[j], v[n - j]);
         x[j] = (a + b) * cosine[j] + turned(a - b, sine[j]);
-    }
-}
-}
-
-dispatched! {
-/// 2N x_{N−j} from V, of j = N/2 − 1 downwards: `x[0]`, of N/2, is left.
-fn unfold_high<T: FftNum>(
-    low: &[Complex<T>],
-    high: &[Complex<T>],
-    cosine: &[T],
-    sine: &[T],
-    x: &mut [Complex<T>],
-) {
-    let n = low.len();
-    let (high, cosine, sine, x) = (&high[..n], &cosine[..n], &sine[..n], &mut x[..n]);
-    let blocks = (n - 1) / LANES;
-    for block in 0..blocks {
-        let j = 1 + block * LANES;
-        let a: &[Complex<T>; LANES] = low[..=n - j].last_chunk().expect("within the half");
-        let b: &[Complex<T>; LANES] = high[j..].first_chunk().expect("within the half");
-        let c: &[T; LANES] = cosine[..=n - j].last_chunk().expect("within the half");
-        let s: &[T; LANES] = sine[..=n - j].last_chunk().expect("within the half");
-        let x: &mut [Complex<T>; LANES] = x[j..].first_chunk_mut().expect("within the half");
-        for k in 0..LANES {
-            let back = LANES - 1 - k;
-            x[k] = (a[back] + b[k]) * s[back] - turned(a[back] - b[k], c[back]);
-        }
-    }
-    for j in 1 + blocks * LANES..n {
-        let (a, b, c, s) = (low[n - j], high[j], cosine[n - j], sine[n - j]);
-        x[j] = (a + b) * s - turned(a - b, c);
     }
 }
 }
@@ -214,25 +139,19 @@ mod tests {
     #[test]
     fn it_is_the_cosine_sum_and_comes_back() {
         for n in [2, 4, 16, 64, 90] {
-            for filled in [n / 2 + 1, n] {
-                check(n, filled);
-            }
+            check(n);
         }
     }
 
-    fn check(n: usize, filled: usize) {
+    fn check(n: usize) {
         let zero = Complex::new(0.0, 0.0);
         let x: Vec<Complex<f64>> = (0..n)
             .map(|j| Complex::new((0.7 * j as f64).sin() + 0.2, (1.3 * j as f64).cos()))
-            .enumerate()
-            .map(|(j, v)| if j < filled { v } else { zero })
             .collect();
         let transform = QuarterWave::<f64>::new(n);
         let mut v = x.clone();
-        // What lies beyond the filled values is not read.
-        v[filled..].fill(Complex::new(f64::NAN, 0.0));
         let mut scratch = vec![zero; transform.scratch_len()];
-        transform.forward(&mut v, filled, &mut scratch);
+        transform.forward(&mut v, &mut scratch);
         for (place, &got) in v.iter().enumerate() {
             let frequency = QuarterWave::<f64>::twice_frequency(n, place) as f64 / 2.0;
             let mut sum = x[0];

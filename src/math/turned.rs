@@ -11,6 +11,8 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftNum, FftPlanner};
 
+use super::table;
+
 /// A planned transform of `N` values.
 pub(super) struct Turned<T: FftNum> {
     forward: Arc<dyn Fft<T>>,
@@ -21,15 +23,14 @@ pub(super) struct Turned<T: FftNum> {
 impl<T: FftNum> Turned<T> {
     /// Plans for `n` values.
     pub(super) fn new(n: usize) -> Self {
-        let number = |value: f64| T::from_f64(value).unwrap_or_else(T::zero);
-        let turn = |j: usize| Complex::from_polar(1.0, -PI * j as f64 / n as f64);
+        let angle = |j: usize| -PI * j as f64 / n as f64;
+        let (re, im) = (table(n, |j| angle(j).cos()), table(n, |j| angle(j).sin()));
         let mut planner = FftPlanner::new();
         Self {
             forward: planner.plan_fft_forward(n),
             inverse: planner.plan_fft_inverse(n),
-            turns: (0..n)
-                .map(turn)
-                .map(|turn| Complex::new(number(turn.re), number(turn.im)))
+            turns: std::iter::zip(re, im)
+                .map(|(re, im)| Complex::new(re, im))
                 .collect(),
         }
     }

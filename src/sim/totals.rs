@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+use super::fatigue_stage::LifeStage;
 use super::summary::PitStart;
 use super::{LifeEstimate, Metrics, Simulation, Stats, Summary};
 use crate::physics::cycles::BodyId;
@@ -115,6 +116,7 @@ pub(super) fn summary(
 ) -> Summary {
     let m = sim.metrics();
     let stress = totals.greatest_stress();
+    let stage = sim.life.as_ref();
     Summary {
         scene: String::new(),
         converged: totals.not_converged == 0,
@@ -145,19 +147,13 @@ pub(super) fn summary(
         life_relative: life.map(|l| l.life_relative),
         life_relative_low: life.map(|l| l.life_relative_low),
         life_relative_high: life.map(|l| l.life_relative_high),
-        survival_ratio: sim
-            .life
-            .as_ref()
-            .map(super::fatigue_stage::LifeStage::survival_ratio),
+        survival_ratio: stage.map(LifeStage::survival_ratio),
         sigma_eff_max_pa: stress.map(|s| s[0]),
         sigma_eff_max_depth_m: stress.map(|s| s[1]),
         sigma_eff_max_x_m: stress.map(|s| s[2]),
         counters,
         life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
-        life_basis: sim
-            .life
-            .as_ref()
-            .map(super::fatigue_stage::LifeStage::basis_text),
+        life_basis: stage.map(LifeStage::basis_text),
         life_body: life.map(|l| l.detail.body),
         life_body_1: life.and_then(|l| l.detail.life_body[0]),
         life_body_2: life.and_then(|l| l.detail.life_body[1]),

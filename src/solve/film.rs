@@ -19,7 +19,7 @@
 
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
-use crate::math::kernel_symbol::{At, even_kernel_symbol};
+use crate::math::kernel_symbol::{REPEATING, even_kernel_symbol};
 
 /// What lies on the outer boundary of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,9 +90,10 @@ impl Elastic {
             .map(|n| influence(n / rows, n % rows))
             .collect();
         let kernel = |i: usize, j: usize| table[i * rows + j];
-        double.set_kernel(0, kernel);
-        single.set_kernel(0, kernel);
-        let symbol = even_kernel_symbol((double.lx(), double.ly()), (At::Whole, At::Whole), kernel);
+        let transform = double.transform_kernel(kernel);
+        double.set_kernel(0, &transform);
+        single.set_kernel(0, &transform);
+        let symbol = even_kernel_symbol((double.lx(), double.ly()), REPEATING, kernel);
         Self {
             double,
             single,

@@ -40,7 +40,7 @@ impl Tangential {
     pub fn new(grid: &Grid, kappa_s: f64) -> Self {
         let mut filter = Filter::new(grid, Padding::Doubled, 1).odd_in_x();
         let (dx, dy) = (grid.dx, grid.dy);
-        filter.set_kernel(0, |i, j| {
+        let kernel = filter.transform_kernel(|i, j| {
             kappa_s
                 * match grid.symmetry {
                     Symmetry::Line => std::f64::consts::PI * dx,
@@ -49,6 +49,7 @@ impl Tangential {
                     }
                 }
         });
+        filter.set_kernel(0, &kernel);
         Self { filter }
     }
 

@@ -33,7 +33,7 @@ use super::peak::{self, Peak};
 use super::slice_out::SliceOut;
 use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
 use super::volume::VolumeOut;
-use crate::math::kernel_symbol::{At, even_kernel_symbol, odd_kernel_symbol};
+use crate::math::kernel_symbol::{REPEATING, even_kernel_symbol, odd_kernel_symbol};
 use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
 
@@ -285,20 +285,8 @@ impl Layer {
                 .map(|s| (s * scale) as f32)
                 .collect::<Vec<_>>()
         };
-        let even = |f| {
-            narrow(even_kernel_symbol(
-                (length, 1),
-                (At::Whole, At::Whole),
-                strip(f),
-            ))
-        };
-        let odd = |f| {
-            narrow(odd_kernel_symbol(
-                (length, 1),
-                (At::Whole, At::Whole),
-                strip(f),
-            ))
-        };
+        let even = |f| narrow(even_kernel_symbol((length, 1), REPEATING, strip(f)));
+        let odd = |f| narrow(odd_kernel_symbol((length, 1), REPEATING, strip(f)));
         Self {
             symbols: [
                 [even(across), odd(along)],
