@@ -1,7 +1,7 @@
 //! Zebra relaxation by x-lines, sixteen lines at a time.
 //!
 //! ```text
-//! (A_P + e) z = r:   for all rows of one parity   z_j ← tridiag(A_P + e)⁻¹ (r_j − A_S z_{j−1} − A_N z_{j+1})
+//! (L + e) z = r:   for all rows of one parity   z_j ← tridiag(L + e)⁻¹ (r_j − L_S z_{j−1} − L_N z_{j+1})
 //! ```
 //! Elimination along a line is a chain of dependent steps; sixteen lines side by side keep the vector
 //! unit busy. Rows of one parity are numbered 0.. m−1 and dealt out in `blocks` blocks of [`LANES`]: row
@@ -190,7 +190,7 @@ impl Half {
 
 /// Puts grid row `j` of the Jacobian into `lane`: coefficients first, elimination follows.
 fn gather_row(jacobian: &Jacobian, j: usize, extra: &[f32], lane: usize, factors: &mut [Factor]) {
-    let [own, west, east, south, north] = std::array::from_fn(|k| jacobian.a_p(j, k));
+    let [own, west, east, south, north] = jacobian.local(j);
     for (i, f) in factors.iter_mut().enumerate() {
         // A row of zeros is not active: its pivot stays 0 and so does its correction.
         f.inverse[lane] = if own[i] == 0.0 {

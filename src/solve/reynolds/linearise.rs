@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::super::faces::{Faces, Nodes, Slopes};
-use super::super::jacobian::STENCIL;
+use super::super::jacobian::{STENCIL, localise};
 use super::super::reynolds_rows::{flow_row, scale_row, storage_row};
 use super::closing::{conductance_slopes, keep_rising};
 use super::{ROWS, Reynolds, Scratch};
@@ -72,7 +72,7 @@ impl Reynolds {
         faces.fill(nodes_a, slopes_a, nodes_b, slopes_b);
     }
 
-    /// The ten lines of grid row `j`.
+    /// The lines of grid row `j`.
     pub(super) fn linearise_row(
         &self,
         grid: &Grid,
@@ -87,6 +87,7 @@ impl Reynolds {
         self.fill_run(start, start + 1, nx - 1, &mut scratch.east);
         self.fill_run(start, south, nx, &mut scratch.south);
         self.fill_run(start, north, nx, &mut scratch.north);
+        let (row, local) = row.split_at_mut(2 * STENCIL * nx);
         row.fill(0.0);
         {
             let mut lines = Lines::of(row, nx);
@@ -129,6 +130,8 @@ impl Reynolds {
                 line,
             );
         }
+        let (a_p, a_h) = row.split_at(STENCIL * nx);
+        localise(a_p, a_h, at.k00, local);
     }
 }
 
