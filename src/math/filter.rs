@@ -263,7 +263,7 @@ impl<T: FftNum> Filter<T> {
                 gather(rows, n_kx + GAP, k0, width, ny, len, &mut work.line);
                 for c in 0..width {
                     let line = &mut work.line[c * stride..c * stride + len];
-                    plan.forward(line, &mut work.work, &mut work.scratch);
+                    plan.forward(line, ny, &mut work.work, &mut work.scratch);
                     for b in (0..n_symbols).filter(|&b| is_used(b)) {
                         let start = (b * n_kx + k0 + c) * len;
                         multiply(line, &symbols[start..start + len], &mut work.image);

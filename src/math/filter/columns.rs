@@ -66,10 +66,11 @@ impl<T: FftNum> Columns<T> {
         }
     }
 
-    /// Of a column.
+    /// Of a column whose first `filled` values are not zero.
     pub(super) fn forward(
         &self,
         line: &mut [Complex<T>],
+        filled: usize,
         work: &mut [Complex<T>],
         scratch: &mut [Complex<T>],
     ) {
@@ -77,7 +78,7 @@ impl<T: FftNum> Columns<T> {
             Self::Whole { forward, .. } => forward.process_with_scratch(line, scratch),
             Self::Turned(turned) => turned.forward(line, scratch),
             Self::Even(even) => even.process(line, work, scratch),
-            Self::QuarterWave(quarter) => quarter.forward(line, scratch),
+            Self::QuarterWave(quarter) => quarter.forward(line, filled, scratch),
         }
     }
 
