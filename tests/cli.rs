@@ -155,6 +155,37 @@ fn bad_files_and_options_are_refused() {
 }
 
 #[test]
+fn options_that_a_study_does_not_read_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases: [(&[&str], &[&str]); 5] = [
+        (
+            &["scaling", "--threads=1"],
+            &["--threads", "one thread with two"],
+        ),
+        (
+            &["accuracy", "--only=life"],
+            &["--only", "stability, pruning and scaling"],
+        ),
+        (
+            &["scaling", "--only=nothing"],
+            &["--only nothing", "no case"],
+        ),
+        (
+            &["stability", "--only=nothing"],
+            &["--only nothing", "no case"],
+        ),
+        (
+            &["pruning", "--only=nothing"],
+            &["--only nothing", "no case"],
+        ),
+    ];
+    for (args, words) in cases {
+        let all: Vec<&str> = ["study"].into_iter().chain(args.iter().copied()).collect();
+        refused(&asperity(folder.path(), &all), 1, words);
+    }
+}
+
+#[test]
 fn unwritable_outputs_are_refused_before_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let kept = folder.path().join("kept.csv");

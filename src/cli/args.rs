@@ -146,7 +146,7 @@ pub(crate) struct StudyArgs {
     /// Folder for the report's files, made where it is missing
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Cases whose name or group holds this text only
+    /// Cases whose name or group holds this text only (stability, pruning, scaling)
     #[arg(long, value_name = "TEXT")]
     pub(crate) only: Option<String>,
     /// Cores to use [default: all]

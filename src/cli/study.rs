@@ -22,6 +22,7 @@ struct Report {
 
 /// Runs a study, prints its report and writes its files.
 pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
+    refuse_what_is_not_read(args)?;
     let bar = Bar::new();
     let report = match args.kind {
         StudyKind::Accuracy => accurate(args, &bar),
@@ -39,6 +40,20 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
         write(folder, &report.files)?;
     }
     Ok(if report.passes { 0 } else { 2 })
+}
+
+/// Options that a study has no use for.
+fn refuse_what_is_not_read(args: &StudyArgs) -> Result<(), Failure> {
+    let refused = match args.kind {
+        StudyKind::Accuracy | StudyKind::Peers if args.only.is_some() => {
+            "--only: this study's cases belong together; stability, pruning and scaling take it"
+        }
+        StudyKind::Scaling if args.threads.is_some() => {
+            "--threads: this study compares one thread with two; to have cases of one only: --only \"1 threads\""
+        }
+        _ => return Ok(()),
+    };
+    Err(Failure::input(miette::miette!("{refused}")))
 }
 
 fn accurate(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
@@ -101,7 +116,10 @@ fn stable(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
 }
 
 fn scales(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
-    let rows = scaling(extent(args), &mut |name, n, all| bar.tell(name, n, all))?;
+    let only = args.only.as_deref();
+    let rows = scaling(extent(args), only, &mut |name, n, all| {
+        bar.tell(name, n, all)
+    })?;
     let text = headed("Scaling", args, &scaling_text(&rows));
     Ok(Report {
         files: vec![("scaling.md".to_owned(), text)],

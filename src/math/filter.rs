@@ -242,6 +242,10 @@ impl<T: FftNum> Filter<T> {
             .for_each(|((spectra, rows), work)| {
                 for (spectrum, row) in spectra.chunks_exact_mut(stride).zip(rows.chunks_exact(nx)) {
                     let spectrum = &mut spectrum[..n_kx];
+                    if row.iter().all(|v| v.is_zero()) {
+                        spectrum.fill(Complex::new(T::zero(), T::zero()));
+                        continue;
+                    }
                     plan.forward(row, spectrum, &mut work.real, &mut work.scratch);
                 }
             });

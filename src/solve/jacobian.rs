@@ -89,12 +89,13 @@ impl Jacobian {
             });
     }
 
-    /// `out = (r − L v − e v) f`: what the local part with an extra diagonal `e` leaves of `r`, times `f`.
+    /// `out = (r − L v − e v) f`: what the local part with an extra diagonal `e` leaves of `r`, times `f`; zero in
+    /// the rows of parity `solved`, which the last sweep has solved.
     pub fn local_rest(
         &self,
         grid: &Grid,
         extra: &[f32],
-        v: &[f32],
+        (v, solved): (&[f32], usize),
         r: &[f32],
         factor: &[f32],
         out: &mut [f32],
@@ -105,7 +106,7 @@ impl Jacobian {
             .enumerate()
             .with_min_len(8)
             .for_each(|(j, out)| {
-                if !interior.contains(&j) {
+                if j % 2 == solved || !interior.contains(&j) {
                     out.fill(0.0);
                     return;
                 }

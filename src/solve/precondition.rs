@@ -28,9 +28,10 @@ fn bins(grid: &Grid) -> usize {
     }
     bins
 }
-/// Extra diagonal of the line sweeps in units of K00. Krylov iterations a step (mixed; U = 1e-4 m/s): 14.4 and 60.1 at
-/// 2, 14.7 and 59.4 at 2.3.
-const IDLE: f64 = 2.0;
+
+/// Extra diagonal of the line sweeps in units of K00. Krylov iterations a step (mixed; U = 1e-4 m/s; mixed on 513²
+/// nodes): 14.0, 60.3 and 19.8 at 1.6, 14.4, 60.1 and 21.4 at 2, 14.7 and 59.4 at 2.3.
+const IDLE: f64 = 1.8;
 
 /// Steepest rise of F with H that the frozen symbols divide by: steeper ones are of closing films, whose neighbours
 /// rise as well. Krylov iterations a step, mixed, at U = 1e-4 m/s and of 132 steps of the stiff set (`tests/ladder.rs`):
@@ -131,7 +132,15 @@ impl Preconditioner {
     /// `z = M⁻¹ r` (without the border).
     pub fn apply(&mut self, grid: &Grid, jacobian: &Jacobian, r: &[f32], z: &mut [f32]) {
         self.sweeps.solve(r, &ORDER, z);
-        jacobian.local_rest(grid, &self.extra, z, r, &self.scale, &mut self.rest);
+        let solved = ORDER[ORDER.len() - 1];
+        jacobian.local_rest(
+            grid,
+            &self.extra,
+            (z, solved),
+            r,
+            &self.scale,
+            &mut self.rest,
+        );
         self.filter.add_weighted(&self.rest, &self.weights, z);
     }
 }

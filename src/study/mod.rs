@@ -40,6 +40,9 @@ pub enum StudyError {
     /// A picture could not be drawn.
     #[error("a plot could not be drawn: {0}")]
     Plot(String),
+    /// Cases were asked for by a text that none has in its name.
+    #[error("--only {0}: no case of this study has that in its name")]
+    NoCase(String),
     /// A run of the study failed.
     #[error("{case}: {reason}")]
     Run {

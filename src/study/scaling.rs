@@ -72,6 +72,12 @@ struct Case {
     keys: &'static [&'static str],
 }
 
+impl Case {
+    fn title(&self) -> String {
+        format!("{}² {}, {} threads", self.nodes, self.name, self.threads)
+    }
+}
+
 const GENERAL: &[&str] = &["body_2.surface.angle_deg=0.01"];
 const MIRRORED: &[&str] = &[];
 
@@ -122,15 +128,23 @@ fn cases(extent: Extent) -> Vec<Case> {
     cases
 }
 
-/// Measures; `progress` hears the name of each case before it runs.
+/// Measures the cases, those whose name holds `only` if that is given; `progress` hears the name of each before it runs.
 ///
 /// # Errors
-/// [`StudyError`] when a case cannot be made or fails.
-pub fn scaling(extent: Extent, progress: &mut Progress) -> Result<Vec<ScalingRow>, StudyError> {
-    let cases = cases(extent);
+/// [`StudyError`] when a case cannot be made or fails, or when none has that name.
+pub fn scaling(
+    extent: Extent,
+    only: Option<&str>,
+    progress: &mut Progress,
+) -> Result<Vec<ScalingRow>, StudyError> {
+    let mut cases = cases(extent);
+    cases.retain(|case| only.is_none_or(|part| case.title().contains(part)));
+    if let (Some(part), true) = (only, cases.is_empty()) {
+        return Err(StudyError::NoCase(part.to_owned()));
+    }
     let mut rows = Vec::with_capacity(cases.len());
     for (n, case) in cases.iter().enumerate() {
-        let name = format!("{}² {}, {} threads", case.nodes, case.name, case.threads);
+        let name = case.title();
         progress(&name, n, cases.len());
         rows.push(measure(case).map_err(|reason| StudyError::Run { case: name, reason })?);
     }

@@ -101,6 +101,9 @@ pub fn pruning(
     progress: &mut Progress,
 ) -> Result<Vec<PruningRow>, StudyError> {
     let variants = variants(extent, only);
+    if let (Some(part), true) = (only, variants.is_empty()) {
+        return Err(StudyError::NoCase(part.to_owned()));
+    }
     let mut rows = Vec::new();
     for (n, (name, preset, sets)) in variants.iter().enumerate() {
         let failed = |reason: String| StudyError::Run {

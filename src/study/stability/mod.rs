@@ -94,6 +94,11 @@ pub fn stability(
         None => extent != Extent::Quick || case.quick,
     };
     let cases: Vec<Case> = set.cases.iter().filter(wanted).cloned().collect();
+    if let (Some(part), true) = (only, cases.is_empty()) {
+        if part != LONG_RUN {
+            return Err(StudyError::NoCase(part.to_owned()));
+        }
+    }
     let rows = share_out(
         &cases,
         workers,
