@@ -8,15 +8,22 @@
 //!
 //! | U, m/s | S | steps | Newtons a step | tried again | halved | on the safe side | mass error | overlap, nm | contact |
 //! |---|---|---|---|---|---|---|---|---|---|
-//! | 0.1 | 2 | 136 | 5.3 | 0 | 0 | 0 | 4.0e-5 | 0 | 0.37 |
-//! | 0.1 | −2 | 136 | 5.4 | 0 | 0 | 0 | 8.5e-5 | 0 | 0.30 |
-//! | 1e-3 | 2 | 136 | 13.8 | 33 | 1 | 0 | 6.3e-5 | 0.037 | 0.78 |
-//! | 1e-4 | 2 | 136 | 24.2 | 80 | 18 | 0 | 4.8e-5 | 0.044 | 0.77 |
-//! | 1e-4 | −2 | 136 | 33.2 | 126 | 39 | 0 | 8.1e-5 | 0.034 | 0.75 |
+//! | 0.1 | 2 | 136 | 5.5 | 0 | 0 | 0 | 6.9e-5 | 0 | 0.37 |
+//! | 0.1 | −2 | 136 | 5.6 | 0 | 0 | 0 | 2.9e-5 | 0 | 0.30 |
+//! | 1e-3 | 2 | 136 | 13.5 | 29 | 0 | 0 | 7.4e-5 | 0 | 0.77 |
+//! | 1e-4 | 2 | 136 | 18.4 | 49 | 7 | 0 | 8.0e-5 | 0.033 | 0.81 |
+//! | 1e-4 | −2 | 136 | 26.0 | 86 | 29 | 0 | 5.2e-5 | 0.036 | 0.69 |
 //!
 //! With tangents in place of secants, and pivots of either sign (`solve/reynolds/closing.rs`), the last three took 36.8,
-//! 58.9 and 67.3 Newtons a step, and on 129² both runs ended by name while the roughness came up. Now the one at
-//! 1.73 GPa, S = −2, ends with every step converged: 296 steps, 159 Newtons a step, 1745 tries again, 128 halvings.
+//! 58.9 and 67.3 Newtons a step, and on 129² both runs ended by name while the roughness came up. There, at 1e-4 m/s,
+//! every step converges now (with IDLE = 2 in `solve/precondition.rs`; eight minutes):
+//!
+//! | p_h, GPa | S | steps | Newtons a step | tried again | halved | mass error | overlap, nm | contact |
+//! |---|---|---|---|---|---|---|---|---|
+//! | 1.73 | −2 | 296 | 139.2 | 1486 | 128 | 1.0e-4 | 0.047 | 0.27 |
+//! | 1.73 | 2 | 296 | 123.5 | 1334 | 128 | 9.9e-5 | 0.046 | 0.27 |
+//! | 4 | −2 | 296 | 87.9 | 865 | 116 | 9.7e-5 | 0.044 | 0.32 |
+//! | 4 | 2 | 296 | 92.1 | 909 | 113 | 9.8e-5 | 0.049 | 0.42 |
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use asperity::plan::Plan;
