@@ -42,8 +42,8 @@ fn extrapolated(coarse: f64, fine: f64) -> f64 {
     fine + (fine - coarse) / 3.0
 }
 
-/// Solves one row, prints it and compares.
-fn compare(name: &str, case: &Case, nodes: usize, unit: f64, reference: &Reference) {
+/// Solves one row, prints it and compares; the relative error of the central film.
+fn compare(name: &str, case: &Case, nodes: usize, unit: f64, reference: &Reference) -> f64 {
     let films = films(case, nodes, unit);
     let [.., coarsest, coarse, fine] = films[..] else {
         panic!("three grids");
@@ -84,6 +84,7 @@ fn compare(name: &str, case: &Case, nodes: usize, unit: f64, reference: &Referen
         single.abs() < rule + reference.tolerance,
         "{name}: mesh rule"
     );
+    error[0]
 }
 
 fn is_long(row: &Row) -> bool {
@@ -117,9 +118,10 @@ fn minimum_beyond_512(m: f64, l: f64) -> f64 {
     table.rows().next().map_or(1.0, ratio)
 }
 
-fn roelands(row: Row) {
+/// The row under one form of the density law; the central film within `central` of the file's in place of its tolerance.
+fn roelands(row: Row, fluid: Fluid, central: Option<f64>) {
     let (m, l) = (row.number("M"), row.number("L"));
-    let case = Case::moes(m, l, Fluid::RoelandsDowsonHigginson, TABLE);
+    let case = Case::moes(m, l, fluid, TABLE);
     // The file holds single grids. The central film is extrapolated here; of the minimum there is only 512². What that
     // grid lacks is taken from the row of the same M and L in the file for Barus, which has both: 0.04 % at M = 20,
     // 0.4 % at 200, but 4.5 % at 1000.
@@ -128,14 +130,12 @@ fn roelands(row: Row) {
         minimum: row.number("h_min_512") * minimum_beyond_512(m, l),
         tolerance: row.number("tolerance_percent") / 100.0,
     };
+    let name = format!("{fluid:?} M {m} L {l}");
     let nodes = if is_long(&row) { 513 } else { 257 };
-    compare(
-        &format!("Roelands M {m} L {l}"),
-        &case,
-        nodes,
-        case.film(1.0),
-        &reference,
-    );
+    let found = compare(&name, &case, nodes, case.film(1.0), &reference);
+    if let Some(bound) = central {
+        assert!(found.abs() < bound, "{name}: {found}");
+    }
 }
 
 fn rows(name: &str, long: impl Fn(&Row) -> bool) -> Table {
@@ -155,7 +155,19 @@ fn barus_incompressible_table() {
 fn roelands_dowson_higginson_table() {
     let table = rows("smooth_roelands_dh.csv", |row| !is_long(row));
     assert_eq!(table.rows().count(), 3);
-    table.rows().for_each(roelands);
+    for row in table.rows() {
+        roelands(row, Fluid::RoelandsDowsonHigginson, None);
+    }
+}
+
+/// With 1 + 0.6 p/(1 + 1.7 p) all central films lie 0.4 to 0.6 % below the file's. With the density law in its other
+/// round numbers, (0.59 + 1.34 p)/(0.59 + p), they lie within 0.02 %: those are the file's, and that is all of the difference.
+#[test]
+fn the_other_form_of_the_density_law_gives_the_files_films() {
+    let table = rows("smooth_roelands_dh.csv", |row| !is_long(row));
+    for row in table.rows() {
+        roelands(row, Fluid::RoelandsVennerLubrecht, Some(5e-4));
+    }
 }
 
 #[test]
@@ -178,7 +190,9 @@ fn tables_at_m_1000() {
     let table = rows("smooth_barus_incompressible.csv", is_long);
     table.rows().for_each(barus);
     let table = rows("smooth_roelands_dh.csv", is_long);
-    table.rows().for_each(roelands);
+    for row in table.rows() {
+        roelands(row, Fluid::RoelandsDowsonHigginson, None);
+    }
 }
 
 /// Found, central and minimum in Moes units by grid (65², 129², 257², 513²): 4.4005, 4.9808, 5.0768, 5.1072 and 1.4347,
@@ -202,8 +216,8 @@ fn m_2000_l_15_converges_from_hertz() {
 
 /// Found at 513² and extrapolated with 257²: U = 10 m/s central 2084.3 → 2084.5 nm (2097, −0.6 %), minimum 1219.8 →
 /// 1219.7 (1222, −0.2 %); U = 1 m/s 428.52 → 428.76 (431.4, −0.6 %), minimum 169.32 → 168.89 (169.1, −0.1 %).
-/// Every step at the first try. All rows with Roelands and Dowson-Higginson lie 0.4 to 0.6 % low, all of Barus
-/// incompressible within 0.04 %: not the scheme, but one of the two laws or its constants.
+/// Every step at the first try. Why all rows with Roelands and Dowson-Higginson lie 0.4 to 0.7 % low, all of
+/// Barus incompressible within 0.04 %: `the_other_form_of_the_density_law_gives_the_files_films`.
 /// U = 0.1 m/s 83.45 → 83.80 (84.4, −0.7 %), minimum 22.81 → 22.43 (22.3, +0.6 %), tolerance 3 %.
 #[test]
 #[ignore = "minutes"]

@@ -21,7 +21,7 @@ fn every_combination_of_laws_converges_on_rough_surfaces() {
     );
     let mut runs = 0;
     for viscosity in ["barus", "roelands"] {
-        for density in ["incompressible", "dowson_higginson"] {
+        for density in ["incompressible", "dowson_higginson", "venner_lubrecht"] {
             for rheology in ["newtonian", "eyring"] {
                 for cavitation in ["reynolds", "jfo"] {
                     rough_run([viscosity, density, rheology, cavitation]);
@@ -30,7 +30,7 @@ fn every_combination_of_laws_converges_on_rough_surfaces() {
             }
         }
     }
-    assert_eq!(runs, 16);
+    assert_eq!(runs, 24);
 }
 
 /// The default scene under those laws (limiting shear stress 0.08 p with Eyring) on 65².

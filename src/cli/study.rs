@@ -118,7 +118,7 @@ fn stable(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
 fn scales(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
     let only = args.only.as_deref();
     let rows = scaling(extent(args), only, &mut |name, n, all| {
-        bar.tell(name, n, all)
+        bar.tell(name, n, all);
     })?;
     let text = headed("Scaling", args, &scaling_text(&rows));
     Ok(Report {

@@ -20,6 +20,7 @@ mod weights;
 use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use rustfft::FftNum;
+use rustfft::num_traits::Zero;
 
 pub use weights::Weights;
 
@@ -242,7 +243,7 @@ impl<T: FftNum> Filter<T> {
             .for_each(|((spectra, rows), work)| {
                 for (spectrum, row) in spectra.chunks_exact_mut(stride).zip(rows.chunks_exact(nx)) {
                     let spectrum = &mut spectrum[..n_kx];
-                    if row.iter().all(|v| v.is_zero()) {
+                    if row.iter().all(Zero::is_zero) {
                         spectrum.fill(Complex::new(T::zero(), T::zero()));
                         continue;
                     }

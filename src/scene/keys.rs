@@ -153,7 +153,7 @@ pub const SECTIONS: &[Section] = &[
             key("viscosity_pa_s", "Pa s", Number(1e-6, 1e4), Required, "viscosity at ambient pressure"),
             key("pressure_viscosity_per_pa", "1/Pa", Number(0.0, 1e-7), Required, "pressure-viscosity coefficient alpha"),
             key("viscosity_law", "", Choice(&["barus", "roelands"]), Defaulted, "viscosity against pressure"),
-            key("density_law", "", Choice(&["incompressible", "dowson_higginson"]), Defaulted, "density against pressure"),
+            key("density_law", "", Choice(&["incompressible", "dowson_higginson", "venner_lubrecht"]), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law in other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
             key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
             key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
             key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),

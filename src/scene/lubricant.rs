@@ -20,6 +20,8 @@ pub enum DensityLaw {
     Incompressible,
     /// `1 + 0.6e-9 p/(1 + 1.7e-9 p)`.
     DowsonHigginson,
+    /// `(0.59e9 + 1.34 p)/(0.59e9 + p)`: the same law in other round numbers.
+    VennerLubrecht,
 }
 
 /// Shear law of the film.

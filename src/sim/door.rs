@@ -101,6 +101,9 @@ impl Door {
                 DensityLaw::DowsonHigginson => Density::DowsonHigginson {
                     p_hertz_gpa: p * 1e-9,
                 },
+                DensityLaw::VennerLubrecht => Density::VennerLubrecht {
+                    p_hertz_gpa: p * 1e-9,
+                },
             };
             if oil.rheology == Rheology::Eyring {
                 door.sliding_s_m = eta * rx / (oil.eyring_stress_pa * a * a);

@@ -160,7 +160,7 @@ fn prepare_scales(
     for n in 0..n_all {
         extra[n] = (idle / diagonal[n]) as f32;
         let scale_of_row = diagonal[n] as f32;
-        let slope = (own_slope[n] * scale_of_row).max(1.0).min(STEEPEST);
+        let slope = (own_slope[n] * scale_of_row).clamp(1.0, STEEPEST);
         scale[n] = if active[n] { scale_of_row / slope } else { 0.0 };
     }
 }

@@ -17,6 +17,8 @@ pub(crate) enum Fluid {
     BarusIncompressible,
     /// η0 = 0.04 Pa s, α = 2.2e-8 1/Pa.
     RoelandsDowsonHigginson,
+    /// The same with the density law in the round numbers of Venner and Lubrecht.
+    RoelandsVennerLubrecht,
 }
 
 impl Fluid {
@@ -24,16 +26,15 @@ impl Fluid {
     pub(crate) fn medium(self, alpha_p: f64, lambda: f64) -> Medium {
         let alpha = 2.2e-8;
         let p_hertz = alpha_p / alpha;
+        let (barus, roelands) = (
+            Viscosity::barus(alpha, p_hertz),
+            Viscosity::roelands(0.04, alpha, p_hertz),
+        );
+        let p_hertz_gpa = p_hertz * 1e-9;
         let (viscosity, density) = match self {
-            Self::BarusIncompressible => {
-                (Viscosity::barus(alpha, p_hertz), Density::Incompressible)
-            }
-            Self::RoelandsDowsonHigginson => (
-                Viscosity::roelands(0.04, alpha, p_hertz),
-                Density::DowsonHigginson {
-                    p_hertz_gpa: p_hertz * 1e-9,
-                },
-            ),
+            Self::BarusIncompressible => (barus, Density::Incompressible),
+            Self::RoelandsDowsonHigginson => (roelands, Density::DowsonHigginson { p_hertz_gpa }),
+            Self::RoelandsVennerLubrecht => (roelands, Density::VennerLubrecht { p_hertz_gpa }),
         };
         Medium {
             viscosity,

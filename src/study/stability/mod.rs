@@ -94,10 +94,8 @@ pub fn stability(
         None => extent != Extent::Quick || case.quick,
     };
     let cases: Vec<Case> = set.cases.iter().filter(wanted).cloned().collect();
-    if let (Some(part), true) = (only, cases.is_empty()) {
-        if part != LONG_RUN {
-            return Err(StudyError::NoCase(part.to_owned()));
-        }
+    if let Some(part) = only.filter(|&part| cases.is_empty() && part != LONG_RUN) {
+        return Err(StudyError::NoCase(part.to_owned()));
     }
     let rows = share_out(
         &cases,
