@@ -52,3 +52,11 @@ pub enum StudyError {
         reason: String,
     },
 }
+
+/// Refuses a choice of cases that leaves nothing.
+fn refuse_nothing(only: Option<&str>, is_empty: bool) -> Result<(), StudyError> {
+    match only {
+        Some(part) if is_empty => Err(StudyError::NoCase(part.to_owned())),
+        _ => Ok(()),
+    }
+}

@@ -13,7 +13,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use super::{Extent, Progress, StudyError};
+use super::{Extent, Progress, StudyError, refuse_nothing};
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
 use crate::plan::Plan;
@@ -139,9 +139,7 @@ pub fn scaling(
 ) -> Result<Vec<ScalingRow>, StudyError> {
     let mut cases = cases(extent);
     cases.retain(|case| only.is_none_or(|part| case.title().contains(part)));
-    if let (Some(part), true) = (only, cases.is_empty()) {
-        return Err(StudyError::NoCase(part.to_owned()));
-    }
+    refuse_nothing(only, cases.is_empty())?;
     let mut rows = Vec::with_capacity(cases.len());
     for (n, case) in cases.iter().enumerate() {
         let name = case.title();

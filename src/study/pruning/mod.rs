@@ -13,7 +13,7 @@ pub use force::Forced;
 pub use measure::{Difference, Gain, PruningRow};
 
 use super::table::{Table, figure};
-use super::{Extent, Progress, StudyError};
+use super::{Extent, Progress, StudyError, refuse_nothing};
 use crate::plan::Plan;
 use crate::scene::{Override, Scene, presets};
 
@@ -101,9 +101,7 @@ pub fn pruning(
     progress: &mut Progress,
 ) -> Result<Vec<PruningRow>, StudyError> {
     let variants = variants(extent, only);
-    if let (Some(part), true) = (only, variants.is_empty()) {
-        return Err(StudyError::NoCase(part.to_owned()));
-    }
+    refuse_nothing(only, variants.is_empty())?;
     let mut rows = Vec::new();
     for (n, (name, preset, sets)) in variants.iter().enumerate() {
         let failed = |reason: String| StudyError::Run {

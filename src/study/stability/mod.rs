@@ -18,7 +18,7 @@ pub use trial::{Ending, Trial};
 
 use super::crew::share_out;
 use super::table::{Table, figure};
-use super::{Extent, Progress, StudyError};
+use super::{Extent, Progress, StudyError, refuse_nothing};
 
 /// A case and how it went.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,9 +94,7 @@ pub fn stability(
         None => extent != Extent::Quick || case.quick,
     };
     let cases: Vec<Case> = set.cases.iter().filter(wanted).cloned().collect();
-    if let Some(part) = only.filter(|&part| cases.is_empty() && part != LONG_RUN) {
-        return Err(StudyError::NoCase(part.to_owned()));
-    }
+    refuse_nothing(only, cases.is_empty() && only != Some(LONG_RUN))?;
     let rows = share_out(
         &cases,
         workers,
