@@ -16,14 +16,14 @@
 //!
 //! With tangents in place of secants, and pivots of either sign (`solve/reynolds/closing.rs`), the last three took 36.8,
 //! 58.9 and 67.3 Newtons a step, and on 129² both runs ended by name while the roughness came up. There, at 1e-4 m/s,
-//! every step converges now (with IDLE = 2 in `solve/precondition.rs`; eight minutes):
+//! every step converges now (six to eight minutes):
 //!
 //! | p_h, GPa | S | steps | Newtons a step | tried again | halved | mass error | overlap, nm | contact |
 //! |---|---|---|---|---|---|---|---|---|
-//! | 1.73 | −2 | 296 | 139.2 | 1486 | 128 | 1.0e-4 | 0.047 | 0.27 |
-//! | 1.73 | 2 | 296 | 123.5 | 1334 | 128 | 9.9e-5 | 0.046 | 0.27 |
-//! | 4 | −2 | 296 | 87.9 | 865 | 116 | 9.7e-5 | 0.044 | 0.32 |
-//! | 4 | 2 | 296 | 92.1 | 909 | 113 | 9.8e-5 | 0.049 | 0.42 |
+//! | 1.73 | −2 | 296 | 141.5 | 1513 | 126 | 9.9e-5 | 0.044 | 0.27 |
+//! | 1.73 | 2 | 296 | 123.2 | 1333 | 129 | 1.0e-4 | 0.045 | 0.27 |
+//! | 4 | −2 | 296 | 87.9 | 864 | 116 | 1.0e-4 | 0.042 | 0.31 |
+//! | 4 | 2 | 296 | 94.7 | 944 | 114 | 9.9e-5 | 0.044 | 0.42 |
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use asperity::plan::Plan;
