@@ -8,6 +8,7 @@ pub mod grid;
 mod halfway;
 pub mod kernel_symbol;
 pub mod ln_sum;
+pub mod number;
 mod quarter_wave;
 pub mod root;
 pub mod spectrum;

@@ -286,6 +286,7 @@ impl LifeStage {
             stress_factor: f.stress,
             peak_factor: f.peak,
             traction_factor: f.traction,
+            load_factor: 1.0,
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,

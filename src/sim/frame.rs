@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::LubricationRegime;
 use crate::scene::{ContactKind, LifeModel};
 
 /// Which part of a run a frame belongs to.
@@ -206,6 +207,9 @@ pub struct Metrics {
     pub contact_ratio: f64,
     /// Part of the load that contacts carry.
     pub contact_load_ratio: f64,
+    /// Lubrication regime.
+    #[serde(default)]
+    pub regime: LubricationRegime,
     /// |carried - asked|/asked.
     pub load_error: f64,
     /// Σ|film equation's residual| over the mass in the pressurised zone; the next step takes it over.
@@ -295,6 +299,10 @@ pub struct LifeEstimate {
     pub peak_factor: f64,
     /// Part of the stress factor due to traction.
     pub traction_factor: f64,
+    /// What the load itself costs: life of the smooth contact at the load, speed and radii of now over its life at
+    /// those that the scene began with. `life_relative * load_factor` compares lives at different loads.
+    #[serde(default)]
+    pub load_factor: f64,
     /// Relative life.
     pub life_relative: f64,
     /// Lower end of the band from the discretisation error.

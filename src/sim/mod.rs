@@ -1,5 +1,6 @@
 //! The simulation loop: `step`, `set`, `fill`; state, workspace, drive, frames, work counters.
 
+mod caution;
 mod counting;
 mod door;
 mod drive;
@@ -9,6 +10,7 @@ mod fill;
 mod follow;
 mod frame;
 mod knob;
+mod lubrication;
 mod measure;
 mod motion;
 mod orbit;
@@ -27,12 +29,14 @@ mod totals;
 mod variant;
 mod watching;
 
+pub use caution::{Caution, CautionCode};
 pub use error::{SimError, StepError};
 pub use frame::{
     DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,
     Repeat, Rhythm, Stage, StressPlane, StressSlice,
 };
 pub use knob::Knob;
+pub use lubrication::LubricationRegime;
 pub use simulation::Simulation;
 pub use state::State;
 pub use stats::Stats;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Rhythm, Stats};
+use super::{Caution, LubricationRegime, Rhythm, Stats};
 
 /// Summary of a run, SI. Means are over the last passage of 4 a, or the
 /// whole periods that fit into it (one period where it is longer); what was not computed is `None`
@@ -28,10 +28,22 @@ pub struct Summary {
     pub p_hertz_pa: f64,
     /// Film thickness at the origin, m.
     pub h_central_m: f64,
-    /// Least film inside the Hertz ellipse, m.
+    /// Least film of a step inside the Hertz ellipse, m: the mean over the steps.
     pub h_min_m: f64,
-    /// Greatest pressure, Pa.
+    /// Greatest pressure of a step, Pa: the mean over the steps.
     pub p_max_pa: f64,
+    /// Greatest pressure of all those steps, Pa.
+    #[serde(default)]
+    pub p_max_greatest_pa: f64,
+    /// Least film of all those steps inside the Hertz ellipse, m.
+    #[serde(default)]
+    pub h_min_least_m: f64,
+    /// Lubrication regime of the last step.
+    #[serde(default)]
+    pub regime: LubricationRegime,
+    /// What to know before trusting the numbers, the weightiest first.
+    #[serde(default)]
+    pub cautions: Vec<Caution>,
     /// Part of the Hertz ellipse in contact.
     pub contact_ratio: f64,
     /// Load asked for, N; of a line per metre of length, N/m.
@@ -62,6 +74,10 @@ pub struct Summary {
     pub peak_factor: Option<f64>,
     /// Part of the stress factor due to traction.
     pub traction_factor: Option<f64>,
+    /// What the load, speed and radii of now cost against those that the scene began with, on the smooth contact:
+    /// `life_relative * load_factor` compares lives at different loads.
+    #[serde(default)]
+    pub load_factor: Option<f64>,
     /// Relative life.
     pub life_relative: Option<f64>,
     /// Lower end of its band.

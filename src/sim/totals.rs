@@ -102,6 +102,11 @@ impl Totals {
         self.recent.iter().filter_map(|e| e.stress).max_by(by_value)
     }
 
+    fn least(&self, k: usize) -> f64 {
+        let values = self.recent.iter().map(|e| e.values[k]);
+        values.reduce(f64::min).unwrap_or(0.0)
+    }
+
     fn greatest(&self, k: usize) -> f64 {
         self.recent.iter().map(|e| e.values[k]).fold(0.0, f64::max)
     }
@@ -129,6 +134,10 @@ pub(super) fn summary(
         h_central_m: totals.mean(0),
         h_min_m: totals.mean(1),
         p_max_pa: totals.mean(2),
+        p_max_greatest_pa: totals.greatest(2),
+        h_min_least_m: totals.least(1),
+        regime: m.regime,
+        cautions: Vec::new(),
         contact_ratio: totals.mean(3),
         load_n: totals.mean(7),
         load_error: totals.greatest(5),
@@ -144,6 +153,7 @@ pub(super) fn summary(
         stress_factor: life.map(|l| l.stress_factor),
         peak_factor: life.map(|l| l.peak_factor),
         traction_factor: life.map(|l| l.traction_factor),
+        load_factor: life.map(|l| l.load_factor),
         life_relative: life.map(|l| l.life_relative),
         life_relative_low: life.map(|l| l.life_relative_low),
         life_relative_high: life.map(|l| l.life_relative_high),

@@ -4,7 +4,7 @@ use super::counting::contacts;
 use super::measure::{Fields, Measured, measure};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
-use super::{Follow, Knob, LifeEstimate};
+use super::{Follow, Knob, LifeEstimate, LubricationRegime};
 use crate::physics::cycles::BodyId;
 use crate::solve::march::Flow;
 use crate::solve::traction::TractionLaw;
@@ -161,6 +161,8 @@ impl Simulation {
         m.h_mean_m = door.m_from_h(measured.h_mean);
         m.contact_ratio = measured.contact_ratio;
         m.contact_load_ratio = measured.contact_load_ratio;
+        let flows = self.regime.flow_now(door, &self.drive) != Flow::Dry;
+        m.regime = LubricationRegime::of(flows, m.contact_load_ratio);
         m.friction_coefficient = measured.friction.abs();
         let rq = (m.amplitude_1_m * self.composite[0]).hypot(m.amplitude_2_m * self.composite[1]);
         // Smooth film at the knobs' present values, scaled by the exponents of a regression.
