@@ -13,7 +13,7 @@ use crate::sim::{Frame, LifeEstimate, Metrics, Stage};
 
 /// Columns in the order of [`Row::write`], which destructures every field: a new metric that is
 /// not given a column does not compile.
-const COLUMNS: [&str; 52] = [
+const COLUMNS: [&str; 54] = [
     "step",
     "time_s",
     "passages",
@@ -40,6 +40,7 @@ const COLUMNS: [&str; 52] = [
     "lambda_ratio",
     "contact_ratio",
     "contact_load_ratio",
+    "regime",
     "load_error",
     "film_error",
     "mass_error",
@@ -59,6 +60,7 @@ const COLUMNS: [&str; 52] = [
     "stress_factor",
     "peak_factor",
     "traction_factor",
+    "load_factor",
     "life_relative",
     "life_relative_low",
     "life_relative_high",
@@ -212,6 +214,7 @@ impl Row {
             lambda_ratio,
             contact_ratio,
             contact_load_ratio,
+            regime,
             load_error,
             film_error,
             mass_error,
@@ -247,6 +250,7 @@ impl Row {
         self.optional(*lambda_ratio);
         self.cell(*contact_ratio);
         self.cell(*contact_load_ratio);
+        self.cells.text(regime.name());
         self.cell(*load_error);
         self.cell(*film_error);
         self.cell(*mass_error);
@@ -263,7 +267,7 @@ impl Row {
 
     fn life(&mut self, life: Option<&LifeEstimate>) {
         let Some(life) = life else {
-            self.cells.empty(11);
+            self.cells.empty(12);
             return;
         };
         let LifeEstimate {
@@ -274,6 +278,7 @@ impl Row {
             stress_factor,
             peak_factor,
             traction_factor,
+            load_factor,
             life_relative,
             life_relative_low,
             life_relative_high,
@@ -287,6 +292,7 @@ impl Row {
         self.cell(*stress_factor);
         self.cell(*peak_factor);
         self.cell(*traction_factor);
+        self.cell(*load_factor);
         self.cell(*life_relative);
         self.cell(*life_relative_low);
         self.cell(*life_relative_high);

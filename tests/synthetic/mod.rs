@@ -9,7 +9,9 @@ use asperity::scene::{
     Body, Contact, ContactKind, Event, Friction, Grid, Load, Motion, Numerics, Record, Scene,
     Surface, Time,
 };
-use asperity::sim::{Frame, LifeEstimate, MaterialPoint, Metrics, Stage, StressSlice};
+use asperity::sim::{
+    Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, Stage, StressSlice,
+};
 
 /// Half-width, m.
 pub(crate) const A: f64 = 0.47e-3;
@@ -252,6 +254,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         lambda_ratio: Some(1.1),
         contact_ratio: 0.03 + 0.01 * wobble,
         contact_load_ratio: 0.05 + 0.012 * wobble,
+        regime: LubricationRegime::Mixed,
         load_error: 3e-6 * (1.2 + wobble),
         film_error: 1e-3 * (1.3 + wobble),
         mass_error: 2e-5 * (1.3 + wobble),
@@ -268,6 +271,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
             stress_factor: peak_factor * 0.9,
             peak_factor,
             traction_factor: 0.9,
+            load_factor: 1.0,
             life_relative,
             life_relative_low: life_relative * 0.8,
             life_relative_high: life_relative * 1.25,

@@ -8,7 +8,9 @@ use std::time::Duration;
 
 use asperity::run::{Command, Settled};
 use asperity::scene::{Body, Contact, ContactKind, Life, Load, Motion, Record, Scene, Surface};
-use asperity::sim::{Frame, LifeEstimate, MaterialPoint, Metrics, Stage, StressSlice};
+use asperity::sim::{
+    Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, Stage, StressSlice,
+};
 use asperity::study::sweep::{Began, Conditions, Found};
 use asperity::tui::app::{App, Effect, ErrandKind, Setup};
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
@@ -298,6 +300,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         lambda_ratio: (rough > 0.0).then(|| 1.08 / rough),
         contact_ratio: touching / (0.196 * frame.film_m.len() as f64),
         contact_load_ratio: 0.12,
+        regime: LubricationRegime::Mixed,
         load_error: 2.4e-6,
         film_error: 1.2e-3,
         mass_error: 3.3e-5,
@@ -314,6 +317,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
             stress_factor: peak_factor * traction_factor,
             peak_factor,
             traction_factor,
+            load_factor: 1.0,
             life_relative,
             life_relative_low: 0.8 * life_relative,
             life_relative_high: 1.25 * life_relative,
