@@ -305,11 +305,12 @@ pub struct LifeEstimate {
     pub load_factor: f64,
     /// Relative life.
     pub life_relative: f64,
-    /// Lower end of the band from the discretisation error.
+    /// Lower end of the band: of the discretisation error, and of what a mean without a common period still wanders.
     pub life_relative_low: f64,
     /// Upper end of the band.
     pub life_relative_high: f64,
-    /// Whether a full period has been averaged since the last knob change.
+    /// Whether no step of a ramp, or of what the ramp left in the film, is in the average, and the average has stopped
+    /// moving within its own band.
     pub settled: bool,
     /// Both bodies, other forms, other models.
     pub detail: LifeDetail,

@@ -16,6 +16,7 @@ mod motion;
 mod orbit;
 mod pace;
 mod regime;
+mod settling;
 mod setup;
 mod simulation;
 mod start_up;
