@@ -18,4 +18,5 @@ pub mod race_and_cam;
 pub mod rainflow;
 pub mod stress_exact;
 pub mod stress_exact_patch;
+pub mod turning;
 pub mod waviness;
