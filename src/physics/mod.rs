@@ -19,4 +19,5 @@ pub mod rainflow;
 pub mod ripple;
 pub mod stress_exact;
 pub mod stress_exact_patch;
+pub mod turning;
 pub mod waviness;

@@ -177,12 +177,12 @@ const GROUPS: [Group; 21] = [
     },
     Group {
         entity: "material_point/cycles/counted",
-        lines: &[("cycles counted in this crossing", WHITE)],
+        lines: &[("peaks so far in this crossing", WHITE)],
         values: |frame, out| out.extend(frame.material_point.map(|point| point.cycles_counted)),
     },
     Group {
         entity: "material_point/cycles/formula",
-        lines: &[("contacts by formula, n", GREY)],
+        lines: &[("expected on average, n", GREY)],
         values: |frame, out| {
             out.extend(frame.material_point.and_then(|point| match point.body {
                 1 => frame.metrics.n_body_1,
