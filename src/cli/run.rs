@@ -42,6 +42,7 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}.rrd", prepared.name)));
     let mut outputs = Outputs::open(args, &prepared, &path, Pace::Headless)?;
+    let recorded = prepared.scene.record.is_some();
     let plan = prepared.plan;
     let estimate_s = plan.cost.time_s;
     let saved = headless
@@ -84,6 +85,7 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     } else {
         "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
     };
+    note_in_recording(&outcome, recorded.then_some(path.as_path()));
     if matches!(outcome.end, End::Stopped) {
         let note = "stopped by the user; what was recorded is complete";
         let _ = writeln!(std::io::stderr(), "{note}");
@@ -93,6 +95,19 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         write_state(&outcome, path, &mut file)?;
     }
     Ok(code)
+}
+
+/// Writes what came out into the finished recording's properties. Without it the recording is as good.
+fn note_in_recording(outcome: &Outcome, recording: Option<&Path>) {
+    #[cfg(feature = "rerun")]
+    if let (Some(summary), Some(path)) = (&outcome.summary, recording)
+        && outcome.output_errors.is_empty()
+        && let Err(error) = asperity::observe::rerun::note_summary(path, summary)
+    {
+        let _ = writeln!(std::io::stderr(), "{error}");
+    }
+    #[cfg(not(feature = "rerun"))]
+    let _ = (outcome, recording);
 }
 
 fn write_state(

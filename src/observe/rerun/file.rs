@@ -4,8 +4,12 @@
 //! goes on returning `Ok`, and a flush (also the one on closing) waits for ever. This sink writes
 //! what it gets at once, keeps the first error for whoever asks, and cuts the file back to its last
 //! whole message, so that it stays readable up to there.
+//!
+//! While the run goes on the clock says when something is written, so that a kill loses less than a second. The
+//! finished file is [bound](super::bound): rows together by entity, whenever they were written, and a footer.
 
 use std::fs::File;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -13,11 +17,7 @@ use rerun::external::re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
 use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
-/// Messages from which on the file gets no footer: an index for partial loading, 5.6 kB a message, which would be
-/// kept in memory until the end. Without it a viewer reads the file from its beginning, as it does after a kill.
-/// Some 260 messages are made once and 50 come with every tick: recordings of a few passages stay below. With 1024
-/// the memory of a long run still grew by 7 % after its first thousand steps (`safety.py memory`; 5 % is the bound).
-const MOST_INDEXED: u64 = 640;
+use super::bound;
 
 /// A recording's file, shared by the library's thread, which writes, and the recorder, which asks.
 #[derive(Clone)]
@@ -28,10 +28,12 @@ struct State {
     encoder: Option<Encoder<File>>,
     /// The same file, for its length.
     file: File,
+    path: PathBuf,
     /// Length up to the last whole message.
     bytes: u64,
-    messages: u64,
     error: Option<String>,
+    /// Why the file is as it was written in the run, without a footer.
+    unbound: Option<String>,
 }
 
 impl State {
@@ -39,10 +41,6 @@ impl State {
         let Some(encoder) = &mut self.encoder else {
             return;
         };
-        self.messages += 1;
-        if self.messages == MOST_INDEXED {
-            encoder.do_not_emit_footer();
-        }
         match encoder.append(message) {
             Ok(bytes) => self.bytes += bytes,
             Err(error) => self.fail(&error.to_string()),
@@ -52,9 +50,19 @@ impl State {
     fn finish(&mut self) {
         if let Some(mut encoder) = self.encoder.take() {
             match encoder.finish() {
-                Ok(()) => self.bytes = self.length(),
+                Ok(()) => self.bind(),
                 Err(error) => self.fail(&error.to_string()),
             }
+        }
+    }
+
+    /// Puts rows together and adds the footer. A recording that cannot be bound (no room for another) is complete
+    /// all the same: viewers then read it from its beginning.
+    fn bind(&mut self) {
+        self.bytes = self.length();
+        match bound::bind(&self.path, Vec::new()) {
+            Ok(bytes) => self.bytes = bytes,
+            Err(reason) => self.unbound = Some(reason),
         }
     }
 
@@ -74,18 +82,21 @@ impl State {
 }
 
 impl RecordingFile {
-    /// Starts a recording in an empty file.
-    pub(super) fn start(file: File) -> Result<Self, String> {
+    /// Starts a recording in an empty file, which lies there.
+    pub(super) fn start(file: File, path: &Path) -> Result<Self, String> {
         let for_length = file.try_clone().map_err(|error| error.to_string())?;
         let options = EncodingOptions::PROTOBUF_COMPRESSED;
-        let encoder = Encoder::new_eager(CrateVersion::LOCAL, options, file)
+        let mut encoder = Encoder::new_eager(CrateVersion::LOCAL, options, file)
             .map_err(|error| error.to_string())?;
+        // An index of 5.6 kB a message, kept in memory until the end: it is made when the file is bound.
+        encoder.do_not_emit_footer();
         let mut state = State {
             encoder: Some(encoder),
             file: for_length,
+            path: path.to_owned(),
             bytes: 0,
-            messages: 0,
             error: None,
+            unbound: None,
         };
         state.bytes = state.length();
         Ok(Self(Arc::new(Mutex::new(state))))
@@ -106,7 +117,12 @@ impl RecordingFile {
         self.lock().error.clone()
     }
 
-    /// Writes the footer; what is sent afterwards is not written.
+    /// Why the finished file has no footer, if it has none.
+    pub(super) fn unbound(&self) -> Option<String> {
+        self.lock().unbound.clone()
+    }
+
+    /// Binds the file; what is sent afterwards is not written.
     pub(super) fn finish(&self) -> Result<(), String> {
         let mut state = self.lock();
         state.finish();

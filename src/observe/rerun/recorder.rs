@@ -13,13 +13,16 @@ use super::kymograph::{self, Kymograph};
 use super::layout::{self, Shown};
 use super::live::Live;
 use super::maps::{self, Maps};
+use super::properties;
+use super::raster::{Beyond, Raster};
 use super::series::Series;
 use super::slice::Slice;
 use super::space::{Space, Tops};
 use super::stream::{Moment, Stream};
 use super::text;
 use super::trace::Trace;
-use crate::observe::scales::Ranges;
+use crate::math::number::sig;
+use crate::observe::scales::{Ranges, ToCome};
 use crate::observe::{
     ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent, RunEventKind,
 };
@@ -37,6 +40,10 @@ pub struct Recorder {
     scene: Option<Arc<Scene>>,
     views: Option<Views>,
     caption: String,
+    /// What happened before the first frame: it is logged with it, so that the recording begins with a picture.
+    early: Vec<RunEvent>,
+    program: String,
+    last: Option<properties::Last>,
     frames: u64,
     /// Where the last frame was: events come between frames.
     passages: f64,
@@ -91,6 +98,9 @@ impl Recorder {
             scene: None,
             views: None,
             caption: String::new(),
+            early: Vec::new(),
+            program: String::new(),
+            last: None,
             frames: 0,
             passages: 0.0,
             unsent: 0,
@@ -101,6 +111,9 @@ impl Recorder {
     fn log_frame(&mut self, frame: &Frame) -> Result<(), ObserveError> {
         let now = Moment::new(frame.step, frame.time_s, frame.passages);
         self.stream.set_time(now);
+        if self.views.is_none() {
+            self.log_early()?;
+        }
         let views = match &mut self.views {
             Some(views) => views,
             empty => {
@@ -125,8 +138,18 @@ impl Recorder {
         }
         views.follow(frame);
         if due.fields {
-            text::log_now(stream, frame, &self.caption)?;
             views.log(stream, frame)?;
+            text::log_now(stream, frame, &self.caption, &views.beyond())?;
+        }
+        Ok(())
+    }
+
+    /// Logs what came before the first frame.
+    fn log_early(&mut self) -> Result<(), ObserveError> {
+        let first = format!("recorded by {}; {}", self.program, text::CAUTION);
+        text::log_line(&self.stream, &first, TextLogLevel::INFO)?;
+        for event in std::mem::take(&mut self.early) {
+            text::log_event(&self.stream, &event)?;
         }
         Ok(())
     }
@@ -149,20 +172,22 @@ impl Views {
         scene: Option<&Scene>,
         first: &Frame,
     ) -> Result<Self, ObserveError> {
-        let geometry = Geometry::of(first);
+        let to_come = ToCome::of(scene, first);
+        let geometry = Geometry::of(first, to_come.size);
         if !geometry.holds(first) {
             return Err(ObserveError::new(
                 stream.output(),
                 "the first frame's fields have not the sizes of its grid",
             ));
         }
-        let ranges = Ranges::of(first);
+        let ranges = Ranges::of(first, &to_come);
         let maps = Maps::new(stream, geometry, &ranges)?;
         let slice = Slice::new(stream, geometry, first, &ranges)?;
         let tops = Tops {
             pressure_pa: maps.pressure_top_pa(),
             effective_pa: slice.as_ref().map(Slice::effective_top_pa),
             rough: maps.rough(),
+            roughness_m: to_come.amplitude_m.iter().sum(),
         };
         let space = Space::new(stream, geometry, first, tops)?;
         let centre_line = CentreLine::new(stream, geometry, tops.pressure_pa, maps.film_top_m())?;
@@ -185,13 +210,14 @@ impl Views {
         ];
         let cadence = Cadence::new(record, steps, frame_bytes(geometry));
         let exaggeration = space.as_ref().map(Space::note).unwrap_or_default();
-        let slice_scales = slice.as_ref().map(Slice::scales).unwrap_or_default();
-        let scales = maps.scales().iter().chain(slice_scales);
+        let below = slice.iter().flat_map(Slice::rasters);
+        let scales = maps.rasters().chain(below);
+        let scales = scales.map(|(entity, raster)| (entity, raster.scale()));
         text::log_notes(stream, scales, &cadence.note(), &exaggeration)?;
         let views = Self {
             geometry,
             cadence,
-            series: Series::new(stream)?,
+            series: Series::new(stream, first.kind)?,
             maps,
             slice,
             space,
@@ -204,12 +230,14 @@ impl Views {
                 .map_or([false; 2], crate::scene::Life::maps),
             pictures: 0,
         };
-        layout::send(stream, &views.shown(first))?;
+        layout::send(stream, &views.shown(first, stream.is_live()))?;
         Ok(views)
     }
 
-    fn shown(&self, first: &Frame) -> Shown {
+    fn shown(&self, first: &Frame, live: bool) -> Shown {
         Shown {
+            live,
+            kind: first.kind,
             map: maps::plot_box(self.geometry),
             interferogram: self.maps.interferogram().plot().clone(),
             centre_line: self.centre_line.plot().clone(),
@@ -221,6 +249,40 @@ impl Views {
             damaged: self.damaged,
             life: first.metrics.life.is_some(),
         }
+    }
+
+    fn rasters(&self) -> impl Iterator<Item = (&'static str, &Raster)> {
+        self.maps
+            .rasters()
+            .chain(self.slice.iter().flat_map(Slice::rasters))
+    }
+
+    /// What of the last pictures lay beyond their ranges. The bath around the contact is no news.
+    fn beyond(&self) -> Vec<text::Above> {
+        let rasters = self.rasters().filter(|(entity, _)| *entity != maps::FILM);
+        let above = rasters.map(|(entity, raster)| (entity, raster.beyond(), raster.scale().unit));
+        above.filter(|(_, beyond, _)| beyond.above > 0).collect()
+    }
+
+    /// Samples that could not be stored as they are, and words about them.
+    fn clipped(&self) -> (u64, String) {
+        let clipped = |(entity, raster): (&'static str, &Raster)| {
+            let Beyond {
+                clipped,
+                clipped_by,
+                ..
+            } = raster.beyond_in_all();
+            let unit = raster.scale().unit;
+            let by = sig(clipped_by.into(), 3);
+            (clipped > 0).then(|| {
+                (
+                    clipped,
+                    format!("{clipped} of {entity} by up to {by} {unit}"),
+                )
+            })
+        };
+        let (counts, words): (Vec<u64>, Vec<String>) = self.rasters().filter_map(clipped).unzip();
+        (counts.iter().sum(), words.join(", "))
     }
 
     /// What has to see every step.
@@ -267,10 +329,9 @@ impl Views {
 impl Observer for Recorder {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
         self.scene = Some(Arc::clone(&context.scene));
+        self.program.clone_from(&context.program);
+        properties::log_scene(&self.stream, context)?;
         text::log_context(&self.stream, context)?;
-        self.stream.set_time(Moment::new(0, 0.0, 0.0));
-        let first = format!("recorded by {}; {}", context.program, text::CAUTION);
-        text::log_line(&self.stream, &first, TextLogLevel::INFO)?;
         // What repeats the run is on the disk before it starts.
         self.stream.send_on()
     }
@@ -286,6 +347,7 @@ impl Observer for Recorder {
         }
         self.passages = frame.passages;
         self.log_frame(frame)?;
+        self.last = Some(properties::Last::of(frame));
         let full = |views: &Views| views.series.is_full();
         if self.stream.is_due() || self.views.as_ref().is_some_and(full) {
             self.send_on()?;
@@ -307,11 +369,15 @@ impl Observer for Recorder {
         if self.stream.is_gone() {
             return Ok(());
         }
-        let now = Moment::new(event.step, event.time_s, self.passages);
-        self.stream.set_time(now);
         if let RunEventKind::Caption(caption) = &event.kind {
             self.caption.clone_from(caption);
         }
+        if self.views.is_none() {
+            self.early.push(event.clone());
+            return Ok(());
+        }
+        let now = Moment::new(event.step, event.time_s, self.passages);
+        self.stream.set_time(now);
         text::log_event(&self.stream, event)
     }
 
@@ -325,27 +391,48 @@ impl Observer for Recorder {
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        let (clipped, clipped_words) = self.views.as_ref().map(Views::clipped).unwrap_or_default();
+        if self.views.is_none() && !self.stream.is_gone() {
+            // A run without a frame still tells what happened.
+            self.stream.set_time(Moment::new(0, 0.0, 0.0));
+            self.log_early()?;
+        }
         if let Some(views) = &mut self.views
             && !self.stream.is_gone()
         {
+            if let Some(last) = self.last.take() {
+                properties::log_result(&self.stream, &last, clipped)?;
+            }
             for kymograph in &mut views.kymographs {
                 kymograph.log(&self.stream)?;
             }
             views.series.send(&self.stream)?;
             let last = format!("the recording ends after {} steps", self.frames);
             text::log_line(&self.stream, &last, TextLogLevel::INFO)?;
+            if clipped > 0 {
+                let told = format!("values that could not be stored as they are: {clipped_words}");
+                text::log_line(&self.stream, &told, TextLogLevel::WARN)?;
+            }
         }
         self.stream.close()?;
+        let mut notes = Vec::new();
+        if self.unsent > 0 {
+            notes.push("the viewer was closed".to_owned());
+        }
+        if clipped > 0 {
+            notes.push(format!("clipped: {clipped_words}"));
+        }
+        if let Some(reason) = self.stream.unbound() {
+            notes.push(format!(
+                "without a footer, so viewers read all of it: {reason}"
+            ));
+        }
         Ok(ObserverReport {
             output: self.stream.output(),
             frames: self.frames,
             skipped: self.unsent,
             bytes: self.stream.bytes(),
-            note: if self.unsent > 0 {
-                "the viewer was closed".to_owned()
-            } else {
-                String::new()
-            },
+            note: notes.join("; "),
             queue: None,
         })
     }

@@ -77,6 +77,13 @@ fn builder(batching: ChunkBatcherConfig) -> RecordingStreamBuilder {
         .batcher_config(batching)
 }
 
+/// For how long something that is logged holds. What holds always shadows what holds from some time on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Holds {
+    Always,
+    FromNow,
+}
+
 /// A recording that is being written.
 pub(super) struct Stream {
     recording: RecordingStream,
@@ -108,7 +115,7 @@ impl Stream {
             let reason = format!("the recording could not be started: {reason}");
             ObserveError::new(path.display().to_string(), reason)
         };
-        let file = RecordingFile::start(overwrite.create(path)?).map_err(failed)?;
+        let file = RecordingFile::start(overwrite.create(path)?, path).map_err(failed)?;
         let recording = builder(ChunkBatcherConfig::NEVER)
             .buffered()
             .map_err(|error| failed(error.to_string()))?;
@@ -167,6 +174,19 @@ impl Stream {
         match &self.to {
             Destination::File { .. } => false,
             Destination::Live(link) => link.is_gone(),
+        }
+    }
+
+    /// Whether it goes to viewers, while the run goes on.
+    pub(super) fn is_live(&self) -> bool {
+        matches!(self.to, Destination::Live(_))
+    }
+
+    /// Why a closed file has no footer, if it has none.
+    pub(super) fn unbound(&self) -> Option<String> {
+        match &self.to {
+            Destination::File { file, .. } => file.unbound(),
+            Destination::Live(_) => None,
         }
     }
 
@@ -283,6 +303,19 @@ impl Stream {
         Ok(())
     }
 
+    /// Logs what holds for the whole recording, or from the time that was set last.
+    pub(super) fn log_that(
+        &self,
+        entity: &str,
+        data: &(impl AsComponents + ?Sized),
+        holds: Holds,
+    ) -> Result<(), ObserveError> {
+        match holds {
+            Holds::Always => self.log_static(entity, data),
+            Holds::FromNow => self.log(entity, data),
+        }
+    }
+
     /// Logs what holds for the whole recording.
     pub(super) fn log_static(
         &self,
@@ -357,7 +390,7 @@ impl Stream {
         }
     }
 
-    /// Writes what waits and the footer.
+    /// Writes what waits and binds the file.
     pub(super) fn close(&mut self) -> Result<(), ObserveError> {
         if self.closed {
             return self.check();

@@ -6,7 +6,8 @@ use rerun::blueprint::{
 };
 use rerun::datatypes::{Range1D, Range2D};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, TextDocumentFormat, VisualBounds2D,
+    Background, EyeControls3D, LineGrid3D, PlotBackground, PlotLegend, TextDocumentFormat,
+    VisualBounds2D,
 };
 use rerun::{AsComponents, Color};
 
@@ -19,6 +20,11 @@ use super::super::space::SPACE;
 pub(super) struct Property {
     pub(super) path: String,
     pub(super) value: Box<dyn AsComponents>,
+}
+
+/// What lines and labels are drawn on: their colours were chosen for it, and a viewer's theme may be light or dark.
+fn background() -> Background {
+    Background::new(BackgroundKind::SolidColor).with_color(Color::from(BACKGROUND))
 }
 
 /// Views under construction, with their properties.
@@ -62,6 +68,7 @@ impl Views {
             y_range: Range1D(y),
         };
         self.set(&view, "VisualBounds2D", VisualBounds2D::new(Bounds(range)));
+        self.set(&view, "Background", background());
         view
     }
 
@@ -86,9 +93,7 @@ impl Views {
             .with_look_target(target.map(|v| v as f32))
             .with_eye_up([0.0_f32, 0.0, 1.0]);
         self.set(&view, "EyeControls3D", controls);
-        let background =
-            Background::new(BackgroundKind::SolidColor).with_color(Color::from(BACKGROUND));
-        self.set(&view, "Background", background);
+        self.set(&view, "Background", background());
         self.set(&view, "LineGrid3D", LineGrid3D::new().with_visible(false));
         view
     }
@@ -101,6 +106,8 @@ impl Views {
             .into();
         let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
         self.set(&view, "PlotLegend", legend);
+        let background = PlotBackground::new().with_color(Color::from(BACKGROUND));
+        self.set(&view, "PlotBackground", background);
         view
     }
 
