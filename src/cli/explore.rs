@@ -114,24 +114,20 @@ fn end(runs: &Runs) -> Result<u8, Failure> {
     }
 }
 
-/// Another scene in place of the present one. Recordings are numbered on; tables, exports and viewers belong
-/// to the first scene.
+/// Another scene in place of the present one. Recordings bear its name and a number; tables, exports and viewers
+/// belong to the first scene.
 fn rebuild(engine: Engine, args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
     let (threads, no_record) = (args.threads(), args.no_record);
-    Box::new(move |scene| {
+    Box::new(move |scene, name| {
         let words = |failure: Failure| failure.to_string();
         let mut next = RunArgs::bare();
         next.no_record = no_record;
         let mut runs = runs.borrow_mut();
-        let name = runs
-            .last()
-            .map_or("scene", |run| &run.prepared.name)
-            .to_owned();
         let mut scene = scene.clone();
         scene.record = runs
             .last()
             .and_then(|run| run.prepared.scene.record.clone());
-        let prepared = scenes::finish(&next, scene, name).map_err(words)?;
+        let prepared = scenes::finish(&next, scene, name.to_owned()).map_err(words)?;
         let path = free_name(&prepared).map_err(words)?;
         let outputs = Outputs::open(&next, &prepared, &path, Pace::Live).map_err(words)?;
         let run = start(engine, threads, prepared, outputs).map_err(words)?;
@@ -167,6 +163,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     let name = prepared.name.clone();
     Wiring {
         scene: prepared.scene.clone(),
+        name: prepared.name.clone(),
         load_n: plan.force_n,
         half_width_m: plan.hertz.a_m,
         p_hertz_pa: plan.hertz.p_max_pa,

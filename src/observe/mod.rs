@@ -11,6 +11,7 @@
 pub(crate) mod cells;
 pub(crate) mod chart;
 mod export;
+pub(crate) mod interferogram;
 mod latest;
 mod pool;
 mod queue;

@@ -156,6 +156,7 @@ pub const SECTIONS: &[Section] = &[
             key("density_law", "", Choice(&["incompressible", "dowson_higginson", "venner_lubrecht"]), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law in other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
             key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
             key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
+            key("eyring_flow", "", Choice(&["secant", "along_across"]), Defaulted, "viscosity that the pressure's flow meets in sheared oil: one for both directions (secant of Eyring's law), or its tangent along the sliding and its secant across; read when rheology = \"eyring\""),
             key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),
             key("cavitation", "", Choice(&["reynolds", "jfo"]), Defaulted, "how the film ruptures"),
         ],

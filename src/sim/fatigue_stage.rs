@@ -8,7 +8,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
-use super::frame::{LifeDetail, LifeEstimate};
+use super::frame::{LifeDetail, LifeEstimate, Repeat};
+use super::settling::Settling;
 use super::stress_stage::StressStage;
 use super::variant::{Shared, Variant, models};
 use crate::physics::cycles::BodyId;
@@ -16,7 +17,7 @@ use crate::physics::fatigue::{LifeFactors, LifeLaw};
 use crate::physics::life_models::{CycleProfile, LifeModel, calibrated_reference};
 use crate::plan::Plan;
 use crate::scene::{BodyChoice, ContactKind, CycleBasis, Life, Scene, Spread, VolumeIntegral};
-use crate::solve::life::{Coverage, Shares, Sweep, factors};
+use crate::solve::life::{Shares, Sweep, factors};
 use crate::solve::stress::{Loading, StressLaw};
 
 /// Loading cycles of the smooth contact, where the scene gives a point of them.
@@ -47,6 +48,7 @@ pub(super) struct LifeStage {
     calibration: Option<Calibration>,
     /// Cycles of the smooth contact at the scene's load.
     reference_cycles: Option<f64>,
+    settling: Settling,
 }
 
 impl LifeStage {
@@ -96,6 +98,7 @@ impl LifeStage {
             wavelengths: BodyId::BOTH.map(wavelength),
             calibration,
             reference_cycles: None,
+            settling: Settling::new(law, scene.numerics.tolerance),
         })
     }
 
@@ -199,6 +202,13 @@ impl LifeStage {
             variant.restart();
         }
         self.set_period(period);
+        self.settling.restart();
+    }
+
+    /// Whether the average may be called settled, after a sample without anything of a ramp in it.
+    pub(super) fn judge(&mut self, stress_error: f64, repeat: Option<Repeat>) {
+        let meter = self.variants[0].meter();
+        self.settling.judge(meter, stress_error, repeat);
     }
 
     /// Takes the surface loaded last, which stands for a `way` (in a).
@@ -272,6 +282,8 @@ impl LifeStage {
         let lives = self.lives(scene, (basis, form), n, counting)?;
         let (body, f) = self.governing(lives)?;
         let (low, high) = self.law.band(f.relative, stress_error);
+        let wander = self.settling.wander().exp();
+        let (low, high) = (low / wander, high * wander);
         let other = |form| {
             let lives = self.lives(scene, (basis, form), n, counting)?;
             lives[body.index()].map(|f| f.relative)
@@ -290,7 +302,7 @@ impl LifeStage {
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
-            settled: scene.meter().coverage() == Coverage::Settled,
+            settled: self.settling.has_settled(),
             detail: LifeDetail {
                 model: Some(self.asked.model),
                 body: body.index() as u8 + 1,

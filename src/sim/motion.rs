@@ -98,8 +98,8 @@ impl Motion {
         self.unsettled = 0.0;
     }
 
-    /// Whether the contact has been flushed since the last disturbance.
+    /// Whether the contact has been flushed since the last disturbance; what rounding leaves is no time.
     pub(super) fn is_flushed(&self) -> bool {
-        self.unsettled == 0.0
+        self.unsettled < 1e-9
     }
 }

@@ -147,15 +147,30 @@ impl Simulation {
         }
     }
 
-    /// Counts and phases seen so far belong to other conditions.
+    /// Counts and phases seen so far belong to other conditions. The next step is looked at.
     fn forget_passage(&mut self) {
         self.orbit.restart();
         let window = self.averaged();
         if let Some(life) = &mut self.life {
             life.restart(window);
         }
+        self.next_volume = self.way;
         if let Some(counting) = &mut self.counting {
-            counting.restart(self.motion.travelled);
+            counting.restart(self.watched);
+        }
+    }
+
+    /// What a step of the passage leaves to be averaged: while a knob walks, and until what entered meanwhile has
+    /// left the contact, nothing. What was seen of it so far is shown as on its way, and forgotten here.
+    fn count_from_here(&mut self, walked: bool, was_flushed: bool) {
+        if self.phase != Phase::Passage {
+            return;
+        }
+        if walked {
+            self.motion.disturb(DEVELOP);
+        } else if !was_flushed && self.motion.is_flushed() {
+            self.forget_passage();
+            self.totals.restart();
         }
     }
 
@@ -180,6 +195,7 @@ impl Simulation {
     pub(super) fn advance(&mut self) -> Result<(), StepError> {
         let law = self.law_of_oil();
         let (stepping, nodes) = self.next_step();
+        let (walked, was_flushed) = (self.drive.is_walking(), self.motion.is_flushed());
         let attempted = self.pool.install(|| {
             Mover {
                 march: &mut self.march,
@@ -206,6 +222,7 @@ impl Simulation {
             return Err(error);
         }
         self.time_s += attempted.dt_s;
+        self.count_from_here(walked, was_flushed);
         self.watch(&attempted);
         let dx = self.march.grid.dx;
         self.way += attempted.nodes * dx;
@@ -316,6 +333,15 @@ impl Simulation {
             Stepping::Adaptive { .. } => steps * self.way / self.plan.length_a,
         };
         ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
+    }
+
+    /// How much of the start-up is done, 0 to 1.
+    pub fn start_up_progress(&self) -> f64 {
+        let (done, all) = self.start_up_steps;
+        match self.stage() {
+            Stage::Passage => 1.0,
+            Stage::StartUp => (done as f64 / all.max(1) as f64).min(1.0),
+        }
     }
 
     /// Time steps since the start-up.

@@ -53,6 +53,11 @@ impl Totals {
         (self.window, self.way, self.not_converged) = (window, way, not_converged);
     }
 
+    /// Forgets the steps so far, but not those that failed.
+    pub(super) fn restart(&mut self) {
+        self.recent.clear();
+    }
+
     /// Takes a step that ended at `way` (in a); keeps what the last `window` (in a) touches.
     pub(super) fn push(&mut self, m: &Metrics, way: f64, window: f64) {
         let span = way - self.way;

@@ -40,12 +40,18 @@ impl Simulation {
         });
         // By the way at the step's beginning, so that the first step of a passage is looked at.
         let due = self.phase == Phase::Passage && self.way >= self.next_volume - 1e-9;
+        let flushed = self.motion.is_flushed();
+        let repeat = self.metrics.repeat;
+        let stress_error = self.stress_error;
         self.pool.install(|| {
             stress.slice(p, q, measured.friction);
             if let Some(life) = &mut self.life
                 && due
             {
                 life.push(every, stress);
+                if flushed {
+                    life.judge(stress_error, repeat);
+                }
                 self.stats.stress_volumes += u64::from(life.integrates());
                 self.next_volume = next_due(self.next_volume, self.way, every);
             }
@@ -89,10 +95,12 @@ impl Simulation {
         {
             life.set_period(self.orbit.window(passage));
         }
-        let state = &self.march.state;
-        let fields = (&state.pressure[..], &state.film[..]);
-        self.orbit
-            .push(self.way, self.way - before, fields, &self.metrics);
+        if self.motion.is_flushed() {
+            let state = &self.march.state;
+            let fields = (&state.pressure[..], &state.film[..]);
+            self.orbit
+                .push(self.way, self.way - before, fields, &self.metrics);
+        }
         let second_per_a = self.door.a_m / self.drive.get(Knob::EntrainmentMS).now;
         self.metrics.repeat = Some(self.orbit.repeat(second_per_a));
     }

@@ -86,22 +86,6 @@ pub(super) fn hillshade(slope_x: f32, slope_y: f32) -> f32 {
     (0.72 * light + 0.2).clamp(0.45, 1.15) / 0.92
 }
 
-/// Refractive index of the oil in the interferogram.
-pub(super) const REFRACTIVE_INDEX: f64 = 1.5;
-/// Wavelengths of its three lights, nm.
-pub(super) const LIGHTS_NM: [f64; 3] = [640.0, 540.0, 450.0];
-
-/// What an optical rig shows for a film of `h_um`: three lights, each of intensity
-/// `(1 - cos(4 pi n h / lambda) exp(-(h/h_c)^2))/2`, dark at contact; the coherence length
-/// h_c = 0.7 um lets high fringes fade as in white light.
-pub(super) fn interference(h_um: f64) -> [u8; 3] {
-    let fade = (-(h_um / 0.7).powi(2)).exp();
-    LIGHTS_NM.map(|lambda_nm| {
-        let phase = 4.0 * std::f64::consts::PI * REFRACTIVE_INDEX * h_um * 1e3 / lambda_nm;
-        (255.0 * 0.5 * (1.0 - phase.cos() * fade)).round() as u8
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -163,14 +147,5 @@ mod tests {
             }
             assert!(contrast(for_text(WHITE), sheet) >= 3.0);
         }
-    }
-
-    #[test]
-    fn contact_is_dark_and_the_first_green_fringe_is_at_a_quarter_wave() {
-        assert_eq!(interference(0.0), [0, 0, 0]);
-        let quarter = LIGHTS_NM[1] * 1e-3 / (4.0 * REFRACTIVE_INDEX);
-        assert!(interference(quarter)[1] > 250);
-        // Far out all three lights are equally bright: white light shows no fringe.
-        assert!(interference(5.0).iter().all(|&c| c.abs_diff(128) <= 1));
     }
 }

@@ -220,12 +220,12 @@ static GROUPS: [Group; 26] = [
     },
     Group {
         entity: "material_point/cycles/counted",
-        lines: &[("cycles counted in this crossing", VERMILION)],
+        lines: &[("peaks so far in this crossing", VERMILION)],
         values: |frame, out| out.extend(frame.material_point.map(|point| point.cycles_counted)),
     },
     Group {
         entity: "material_point/cycles/formula",
-        lines: &[("contacts by formula, n", GREY)],
+        lines: &[("expected on average, n", GREY)],
         values: |frame, out| {
             out.extend(frame.material_point.and_then(|point| match point.body {
                 1 => frame.metrics.n_body_1,
