@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use asperity::physics::fluid::{Density, Viscosity, eyring_across, eyring_along};
 use asperity::physics::film_ripple::FlatFilm;
+use asperity::physics::fluid::{Density, Viscosity, eyring_across, eyring_along};
 use asperity::plan::Plan;
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Frame, Simulation};

@@ -123,7 +123,10 @@ impl Ranges {
         let metrics = &first.metrics;
         let round = |value: f64, (_, per_si): (&str, f64)| nice_up(value * per_si) / per_si;
         let greatest_pa = (1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa);
-        let pressure_pa = round((to_come.size * greatest_pa).max(to_come.crest_pa), GPA);
+        let pressure_pa = round(
+            (to_come.size * greatest_pa).max(1.1 * to_come.crest_pa),
+            GPA,
+        );
         // The film range starts from what the middle of the contact is like in the mean (the film at the
         // origin goes up and down with every crest); the bath around the contact is ten to a hundred times
         // thicker.

@@ -24,6 +24,7 @@ mod layout;
 mod live;
 mod maps;
 mod mesh;
+mod moment;
 mod plot;
 mod properties;
 mod raster;

@@ -5,7 +5,7 @@
 
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
-use super::colour::{GREY, WHITE, faded};
+use super::colour::{GREY, WHITE, faded, for_text};
 use super::stream::{Holds, Stream};
 use crate::math::number::sig;
 use crate::observe::ObserveError;
@@ -150,7 +150,7 @@ impl Labels {
         if !text.is_empty() {
             self.at.push([at[0] as f32, at[1] as f32]);
             self.texts.push(text.to_owned());
-            self.colours.push(Color::from(colour));
+            self.colours.push(Color::from(for_text(colour)));
         }
     }
 

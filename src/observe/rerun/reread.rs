@@ -10,7 +10,7 @@ use rerun::log::{Chunk, LogMsg};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::stream::STEP;
+use super::moment::STEP;
 use super::text::{COMMANDS, ORIGIN, SCENE_TOML};
 use crate::observe::{Began, SetBy};
 

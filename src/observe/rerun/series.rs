@@ -6,8 +6,9 @@
 
 use rerun::{Color, EntityPath, SeriesLines};
 
-use super::colour::{BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE, YELLOW};
-use super::stream::{Moment, Stream};
+use super::colour::curve::{BLUE, GREEN, GREY, OLIVE, ORANGE, PURPLE, SKY, VERMILION};
+use super::moment::Moment;
+use super::stream::Stream;
 use crate::observe::ObserveError;
 use crate::scene::ContactKind;
 use crate::sim::{CautionCode, Frame, LifeEstimate, LubricationRegime};
@@ -35,7 +36,7 @@ static GROUPS: [Group; 26] = [
         entity: "series/film_um",
         lines: &[
             ("h_central, µm", SKY),
-            ("h_mean, µm", WHITE),
+            ("h_mean, µm", GREEN),
             ("h_min, µm", BLUE),
         ],
         values: |frame, out| {
@@ -58,7 +59,7 @@ static GROUPS: [Group; 26] = [
     },
     Group {
         entity: "series/motion",
-        lines: &[("S", YELLOW), ("S target", GREY), ("U, m/s", PURPLE)],
+        lines: &[("S", OLIVE), ("S target", GREY), ("U, m/s", PURPLE)],
         values: |frame, out| {
             let m = &frame.metrics;
             out.extend([m.slide_roll, m.slide_roll_target, m.entrainment_m_s]);
@@ -66,12 +67,12 @@ static GROUPS: [Group; 26] = [
     },
     Group {
         entity: "series/load_N",
-        lines: &[("load, N", WHITE), ("load target, N", GREY)],
+        lines: &[("load, N", SKY), ("load target, N", GREY)],
         values: |frame, out| out.extend([frame.metrics.load_n, frame.metrics.load_target_n]),
     },
     Group {
         entity: "series/load_N_per_m",
-        lines: &[("load, N/m", WHITE), ("load target, N/m", GREY)],
+        lines: &[("load, N/m", SKY), ("load target, N/m", GREY)],
         values: |frame, out| out.extend([frame.metrics.load_n, frame.metrics.load_target_n]),
     },
     Group {
@@ -89,7 +90,7 @@ static GROUPS: [Group; 26] = [
         lines: &[
             ("beyond yield", VERMILION),
             ("film by the mesh", ORANGE),
-            ("models differ", YELLOW),
+            ("models differ", OLIVE),
             ("not settled", SKY),
             ("film below a molecule", BLUE),
             ("a body stands", PURPLE),
@@ -105,7 +106,7 @@ static GROUPS: [Group; 26] = [
     Group {
         entity: "convergence/log10_errors",
         lines: &[
-            ("log10 residual", WHITE),
+            ("log10 residual", GREEN),
             ("log10 load error", SKY),
             ("log10 film error", PURPLE),
             ("log10 mass error", ORANGE),
@@ -144,7 +145,7 @@ static GROUPS: [Group; 26] = [
         entity: "life/log10_relative",
         lines: &[
             ("log10 life, low", GREY),
-            ("log10 relative life", WHITE),
+            ("log10 relative life", VERMILION),
             ("log10 life, high", GREY),
         ],
         values: |frame, out| {
@@ -180,7 +181,7 @@ static GROUPS: [Group; 26] = [
     },
     Group {
         entity: "life/relative",
-        lines: &[("relative life", WHITE)],
+        lines: &[("relative life", VERMILION)],
         values: |frame, out| out.extend(frame.metrics.life.map(|life| life.life_relative)),
     },
     Group {
@@ -219,7 +220,7 @@ static GROUPS: [Group; 26] = [
     },
     Group {
         entity: "material_point/cycles/counted",
-        lines: &[("peaks so far in this crossing", WHITE)],
+        lines: &[("peaks so far in this crossing", VERMILION)],
         values: |frame, out| out.extend(frame.material_point.map(|point| point.cycles_counted)),
     },
     Group {

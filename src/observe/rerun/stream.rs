@@ -8,14 +8,12 @@ use re_log_types::{LogMsg, StoreId};
 use rerun::log::{Chunk, ChunkBatcherConfig, PendingRow};
 use rerun::sink::LogSink as _;
 use rerun::time::TimePoint;
-use rerun::{
-    AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars, TimeCell,
-    TimeColumn,
-};
+use rerun::{AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars};
 
 use super::file::RecordingFile;
 use super::gathered::{Pen, chunk_of};
 use super::live::{self, Link, Live};
+use super::moment::Moment;
 use super::waiting::{ClassImage, Curves, LevelImage, Sheet, Waiting};
 use crate::observe::{ObserveError, Overwrite};
 
@@ -32,42 +30,6 @@ const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
 /// What is logged is written at least this often: with a frame that waits for others in the queue and the writing
 /// itself, on a machine that does other things too, `kill -9` loses less than a second.
 const TICK: Duration = Duration::from_millis(700);
-
-/// Timelines of every frame.
-pub(super) const STEP: &str = "step";
-/// Simulated time since the start of the passage.
-pub(super) const SIMULATED_TIME: &str = "simulated_time";
-/// Lengths of 4 a travelled at U, in thousandths (a timeline holds no fractions).
-pub(super) const PASSAGE: &str = "passage_x1000";
-
-/// A place on all three timelines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Moment {
-    step: i64,
-    nanos: i64,
-    passage: i64,
-}
-
-impl Moment {
-    /// After so many steps, seconds and passages.
-    pub(super) fn new(step: u64, time_s: f64, passages: f64) -> Self {
-        Self {
-            step: i64::try_from(step).unwrap_or(i64::MAX),
-            nanos: (time_s * 1e9).round() as i64,
-            passage: (passages * 1000.0).round() as i64,
-        }
-    }
-}
-
-/// The three timelines of so many rows.
-pub(super) fn time_columns(moments: &[Moment]) -> [TimeColumn; 3] {
-    let of = |part: fn(&Moment) -> i64| moments.iter().map(part);
-    [
-        TimeColumn::new_sequence(STEP, of(|at| at.step)),
-        TimeColumn::new_duration_nanos(SIMULATED_TIME, of(|at| at.nanos)),
-        TimeColumn::new_sequence(PASSAGE, of(|at| at.passage)),
-    ]
-}
 
 /// `enabled` is set because the variable RERUN=off would make a silent no-op of a recording that the user
 /// asked for.
@@ -330,10 +292,7 @@ impl Stream {
     /// Sets the time of what is logged next.
     pub(super) fn set_time(&self, now: Moment) {
         self.now.set(now);
-        *self.timepoint.borrow_mut() = TimePoint::default()
-            .with_index(STEP, TimeCell::from_sequence(now.step))
-            .with_index(SIMULATED_TIME, TimeCell::from_duration_nanos(now.nanos))
-            .with_index(PASSAGE, TimeCell::from_sequence(now.passage));
+        *self.timepoint.borrow_mut() = now.timepoint();
     }
 
     /// Sends the scalars of many steps at once: `width` of each.

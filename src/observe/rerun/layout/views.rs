@@ -6,8 +6,7 @@ use rerun::blueprint::{
 };
 use rerun::datatypes::{Range1D, Range2D};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotBackground, PlotLegend, TextDocumentFormat,
-    VisualBounds2D,
+    Background, EyeControls3D, LineGrid3D, PlotLegend, TextDocumentFormat, VisualBounds2D,
 };
 use rerun::{AsComponents, Color};
 
@@ -106,8 +105,6 @@ impl Views {
             .into();
         let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
         self.set(&view, "PlotLegend", legend);
-        let background = PlotBackground::new().with_color(Color::from(BACKGROUND));
-        self.set(&view, "PlotBackground", background);
         view
     }
 

@@ -104,7 +104,7 @@ impl Space {
                 .map(|z| [(left - 0.1 * g.a) as f32, 0.0, (level - z) as f32]),
         )
         .with_radii([Radius::new_scene_units(0.0)])
-        .with_colors([Color::from(GREY)])
+        .with_colors([Color::from(WHITE)])
         .with_labels(depths.iter().map(|&z| format!("{} mm", number(z))))
         .with_show_labels(true);
         stream.log_static(format!("{SPACE}/cut/depths"), &labels)

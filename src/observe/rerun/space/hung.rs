@@ -3,7 +3,7 @@
 
 use rerun::{Color, Mesh3D, Points3D, Radius};
 
-use super::super::colour::{BACKGROUND, GREY, Ramp, Tints, packed};
+use super::super::colour::{BACKGROUND, Ramp, Tints, WHITE, packed};
 use super::super::damage::{DECADES, powers};
 use super::super::depths::Depths;
 use super::super::mesh::triangles;
@@ -135,7 +135,7 @@ impl Space {
         let at = [0.0, 0.0, (self.levels.damage - (DEPTH + 0.3) * a) as f32];
         let title = Points3D::new([at])
             .with_radii([Radius::new_scene_units(0.0)])
-            .with_colors([Color::from(GREY)])
+            .with_colors([Color::from(WHITE)])
             .with_labels([format!(
                 "damage of body 1, log10 D from -{DECADES} to {DECADES}; one wave, repeated"
             )])
