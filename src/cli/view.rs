@@ -16,7 +16,7 @@ const HOW_TO_GET_IT: &str = "the viewer is a program of its own; get it by one o
 
 /// Opens `file` in the viewer and waits until it is closed.
 pub(crate) fn view(file: &Path) -> Result<u8, Failure> {
-    if let Err(error) = std::fs::File::open(file) {
+    if let Err(error) = asperity::files::open_plain(file) {
         return Err(Failure::input(miette!(
             help = "asperity run writes a recording; asperity explore too",
             "cannot read the recording {}: {error}",

@@ -6,12 +6,15 @@
 //! whole message, so that it stays readable up to there.
 
 use std::fs::File;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use rerun::external::re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
 use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
+
+use crate::observe::placed::Placed;
 
 /// Messages from which on the file gets no footer: an index for partial loading, 5.6 kB a message, which would be
 /// kept in memory until the end. Without it a viewer reads the file from its beginning, as it does after a kill.
@@ -32,6 +35,8 @@ struct State {
     bytes: u64,
     messages: u64,
     error: Option<String>,
+    /// Where it lies and what it will be called.
+    placed: Placed,
 }
 
 impl State {
@@ -56,10 +61,21 @@ impl State {
                 Err(error) => self.fail(&error.to_string()),
             }
         }
+        if self.error.is_none() {
+            match self.placed.settle() {
+                Ok(true) => {}
+                Ok(false) => self.bytes = 0,
+                Err(error) => self.fail(&error.to_string()),
+            }
+        }
     }
 
     fn fail(&mut self, reason: &str) {
-        self.error.get_or_insert_with(|| reason.to_owned());
+        let place = self.placed.leave();
+        let place = place.map_or_else(String::new, |at| {
+            format!("; it is {}, the older one is as it was", at.display())
+        });
+        self.error.get_or_insert_with(|| format!("{reason}{place}"));
         if let Some(mut encoder) = self.encoder.take() {
             // Dropping it would try to write a footer to a disk that takes no more.
             encoder.do_not_emit_footer();
@@ -75,7 +91,7 @@ impl State {
 
 impl RecordingFile {
     /// Starts a recording in an empty file.
-    pub(super) fn start(file: File) -> Result<Self, String> {
+    pub(super) fn start(file: File, placed: Placed) -> Result<Self, String> {
         let for_length = file.try_clone().map_err(|error| error.to_string())?;
         let options = EncodingOptions::PROTOBUF_COMPRESSED;
         let encoder = Encoder::new_eager(CrateVersion::LOCAL, options, file)
@@ -86,6 +102,7 @@ impl RecordingFile {
             bytes: 0,
             messages: 0,
             error: None,
+            placed,
         };
         state.bytes = state.length();
         Ok(Self(Arc::new(Mutex::new(state))))
@@ -94,6 +111,16 @@ impl RecordingFile {
     /// The state stays whole between statements, so a panic elsewhere does not spoil it.
     fn lock(&self) -> MutexGuard<'_, State> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A step is in it: from now on it is worth its name.
+    pub(super) fn hold(&self) {
+        self.lock().placed.hold();
+    }
+
+    /// Where it is written.
+    pub(super) fn path(&self) -> PathBuf {
+        self.lock().placed.at().to_owned()
     }
 
     /// Bytes written.
@@ -106,7 +133,7 @@ impl RecordingFile {
         self.lock().error.clone()
     }
 
-    /// Writes the footer; what is sent afterwards is not written.
+    /// Writes the footer and gives the file its name; what is sent afterwards is not written.
     pub(super) fn finish(&self) -> Result<(), String> {
         let mut state = self.lock();
         state.finish();

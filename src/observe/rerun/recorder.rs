@@ -1,6 +1,6 @@
 //! Puts the parts of a recording together.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rerun::TextLogLevel;
@@ -8,6 +8,7 @@ use rerun::TextLogLevel;
 use super::cadence::Cadence;
 use super::centre_line::CentreLine;
 use super::damage::Damage;
+use super::file::RecordingFile;
 use super::geometry::Geometry;
 use super::kymograph::{self, Kymograph};
 use super::layout::{self, Shown};
@@ -21,7 +22,8 @@ use super::text;
 use super::trace::Trace;
 use crate::observe::scales::Ranges;
 use crate::observe::{
-    ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent, RunEventKind,
+    NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
+    RunEventKind,
 };
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
@@ -29,6 +31,9 @@ use crate::sim::{Frame, Stage};
 /// The maps of the second tab and of damage are recorded in every so-many-th picture: they cost as much as all
 /// the others, and for looking at textures and at what collects slowly half the pace does.
 const BESIDE_EVERY: u64 = 2;
+
+/// What is sent to a viewer that has not answered yet, bytes: far less than the library lets wait before it blocks.
+const UNANSWERED: u64 = 8 * 1024 * 1024;
 
 /// Writes a recording.
 pub struct Recorder {
@@ -84,6 +89,12 @@ impl Recorder {
         Ok(Self::on(Stream::live(live)?, record))
     }
 
+    /// The file that is written now: the recording's own, or beside it where it will replace another; `None`: a
+    /// viewer's.
+    pub fn path(&self) -> Option<PathBuf> {
+        self.stream.file().map(RecordingFile::path)
+    }
+
     fn on(stream: Stream, record: &Record) -> Self {
         Self {
             stream,
@@ -133,6 +144,14 @@ impl Recorder {
 }
 
 impl Recorder {
+    /// Whether enough was sent to a viewer that has not answered.
+    fn is_unheard(&self) -> bool {
+        let sent = self.views.as_ref().map_or(0, |views| {
+            self.frames.saturating_mul(frame_bytes(views.geometry))
+        });
+        !self.stream.has_answered() && sent > UNANSWERED
+    }
+
     /// Hands what waits on to the file or the viewer.
     fn send_on(&mut self) -> Result<(), ObserveError> {
         if let Some(views) = &mut self.views {
@@ -280,7 +299,7 @@ impl Observer for Recorder {
         if frame.stage == Stage::StartUp {
             return Ok(());
         }
-        if self.stream.is_gone() {
+        if self.stream.is_gone() || self.is_unheard() {
             self.unsent += 1;
             return Ok(());
         }
@@ -291,6 +310,9 @@ impl Observer for Recorder {
             self.send_on()?;
         }
         self.stream.check()?;
+        if let Some(file) = self.stream.file() {
+            file.hold();
+        }
         self.frames += 1;
         let on_disk = self.stream.bytes();
         let thinned = self
@@ -336,16 +358,19 @@ impl Observer for Recorder {
             text::log_line(&self.stream, &last, TextLogLevel::INFO)?;
         }
         self.stream.close()?;
+        let is_heard = self.stream.has_answered();
+        let note = match (self.stream.file(), is_heard) {
+            (Some(_), _) if self.frames == 0 => NOTHING_CAME,
+            (None, false) => "the viewer never answered",
+            (None, true) if self.unsent > 0 => "the viewer was closed",
+            _ => "",
+        };
         Ok(ObserverReport {
             output: self.stream.output(),
-            frames: self.frames,
-            skipped: self.unsent,
+            frames: if is_heard { self.frames } else { 0 },
+            skipped: self.unsent + if is_heard { 0 } else { self.frames },
             bytes: self.stream.bytes(),
-            note: if self.unsent > 0 {
-                "the viewer was closed".to_owned()
-            } else {
-                String::new()
-            },
+            note: note.to_owned(),
             queue: None,
         })
     }
