@@ -16,6 +16,7 @@ pub mod line;
 pub mod multiaxial;
 pub mod race_and_cam;
 pub mod rainflow;
+pub mod strength;
 pub mod stress_exact;
 pub mod stress_exact_patch;
 pub mod waviness;
