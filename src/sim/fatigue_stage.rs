@@ -20,7 +20,7 @@ use crate::solve::life::{Coverage, Shares, Sweep, factors};
 use crate::solve::stress::{Loading, StressLaw};
 
 /// Loading cycles of the smooth contact, where the scene gives a point of them.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Calibration {
     cycles: f64,
     /// p_cal/p_h.
@@ -42,8 +42,8 @@ pub(super) struct LifeStage {
     sweep: Sweep,
     scratch: Shares,
     depths: Vec<f64>,
-    /// Wavelength along x of the mating crests, a; infinite: none.
-    wavelengths: [f64; 2],
+    /// Wavelength along x of the mating crests, a.
+    wavelengths: [Option<f64>; 2],
     calibration: Option<Calibration>,
     /// Cycles of the smooth contact at the scene's load.
     reference_cycles: Option<f64>,
@@ -80,10 +80,8 @@ impl LifeStage {
             },
         });
         let wavelength = |body: BodyId| {
-            let wave = plan.waves[body.mate().index()];
-            wave.map_or(f64::INFINITY, |wave| {
-                1.0 / (wave.crests_per_m * plan.hertz.a_m)
-            })
+            let wave = plan.waves[body.mate().index()].filter(|wave| wave.crests_per_m > 0.0);
+            wave.map(|wave| 1.0 / (wave.crests_per_m * plan.hertz.a_m))
         };
         Some(Self {
             law,
@@ -172,7 +170,9 @@ impl LifeStage {
     /// Whether a stage that was saved is of the same make as this one.
     pub(super) fn fits(&self, saved: &Self) -> bool {
         let (depths, rows) = (self.depths.len(), self.sweep.of(Loading::ALL[0]).len());
-        self.asked == saved.asked
+        self.law == saved.law
+            && self.calibration == saved.calibration
+            && self.asked == saved.asked
             && self.laws == saved.laws
             && self.depths == saved.depths
             && saved.sweep.is_sound(rows)
@@ -183,6 +183,11 @@ impl LifeStage {
                 .iter()
                 .zip(&saved.variants)
                 .all(|(a, b)| a.fits(b))
+    }
+
+    /// Whether a stage that was saved was made for the same crests.
+    pub(super) fn same_waves(&self, saved: &Self) -> bool {
+        self.wavelengths == saved.wavelengths
     }
 
     /// Takes the mean over a way of `period` (in a) from now on.
@@ -335,7 +340,7 @@ impl LifeStage {
             CycleBasis::Global => Some(CycleProfile::Global(n)),
             CycleBasis::Depth => Some(CycleProfile::Depth {
                 n,
-                wavelength: self.wavelengths[body.index()],
+                wavelength: self.wavelengths[body.index()].unwrap_or(f64::INFINITY),
             }),
             CycleBasis::Peaks | CycleBasis::Ranges => counting?.profile(body, basis),
         }

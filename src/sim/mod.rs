@@ -7,6 +7,7 @@ mod drive;
 mod error;
 mod fatigue_stage;
 mod fill;
+mod fitness;
 mod follow;
 mod frame;
 mod knob;
@@ -30,7 +31,7 @@ mod variant;
 mod watching;
 
 pub use caution::{Caution, CautionCode};
-pub use error::{SimError, StepError};
+pub use error::{SimError, StepError, Unsolved};
 pub use frame::{
     DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,
     Repeat, Rhythm, Stage, StressPlane, StressSlice,

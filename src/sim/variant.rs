@@ -89,7 +89,7 @@ impl Variant {
         let depths = self.by_depth[0].len();
         self.model == saved.model
             && self.law == saved.law
-            && saved.meter.is_sound(depths)
+            && self.meter.fits(&saved.meter)
             && saved.swept.is_sound(depths)
             && saved.reference.len() == 4
             && saved.by_depth.iter().all(|list| list.len() == depths)
