@@ -94,12 +94,13 @@ static GROUPS: [Group; 26] = [
             ("not settled", SKY),
             ("film below a molecule", BLUE),
             ("a body stands", PURPLE),
+            ("not converged", GREEN),
         ],
         values: |frame, out| {
             let from = out.len();
-            out.resize(from + 6, 0.0);
-            for caution in frame.cautions() {
-                out[from + place(caution.code)] = 1.0;
+            out.resize(from + 7, 0.0);
+            for place in frame.cautions().iter().filter_map(|one| place(one.code)) {
+                out[from + place] = 1.0;
             }
         },
     },
@@ -254,15 +255,20 @@ fn regime(regime: LubricationRegime) -> f64 {
     }
 }
 
-/// Line of a caution in its group.
-fn place(code: CautionCode) -> usize {
+/// Line of a caution in its group; `None`: it holds for the whole run, and the text panel says it.
+fn place(code: CautionCode) -> Option<usize> {
     match code {
-        CautionCode::BeyondYield => 0,
-        CautionCode::MeshFilm => 1,
-        CautionCode::ModelRange => 2,
-        CautionCode::NotSettled => 3,
-        CautionCode::FilmBelowMolecule => 4,
-        CautionCode::StandingBody => 5,
+        CautionCode::BeyondYield => Some(0),
+        CautionCode::MeshFilm => Some(1),
+        CautionCode::ModelRange => Some(2),
+        CautionCode::NotSettled => Some(3),
+        CautionCode::FilmBelowMolecule => Some(4),
+        CautionCode::StandingBody => Some(5),
+        CautionCode::NotConverged => Some(6),
+        CautionCode::Dry
+        | CautionCode::NoLife
+        | CautionCode::StrengthUnknown
+        | CautionCode::ElasticOnly => None,
     }
 }
 
