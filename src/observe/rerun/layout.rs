@@ -242,7 +242,10 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
 fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let left = Vertical::new([
         life_series(views),
-        views.series("Its factors, log10 (they add up)", &["life/log10_factors"]),
+        views.series(
+            "Its factors, log10 (they add up; load apart)",
+            &["life/log10_factors"],
+        ),
     ]);
     let middle = Vertical::new([
         views.series(
