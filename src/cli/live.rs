@@ -74,7 +74,7 @@ impl Words {
         let file = File::options()
             .read(true)
             .append(true)
-            .create(true)
+            .create_new(true)
             .open(&path)
             .ok()?;
         Some(Self { file, path })
