@@ -106,11 +106,12 @@ impl Drop for Words {
     }
 }
 
-fn free_port() -> Result<u16, Failure> {
+/// A port of this machine that nobody uses.
+pub(crate) fn free_port() -> Result<u16, Failure> {
     TcpListener::bind((Ipv4Addr::LOCALHOST, 0))
         .and_then(|listener| listener.local_addr())
         .map(|address| address.port())
-        .map_err(|error| Failure::output(miette!("no free port for the viewer: {error}")))
+        .map_err(|error| Failure::output(miette!("no free port for a viewer: {error}")))
 }
 
 /// A group of its own: Ctrl-C ends the run and not the viewer.

@@ -88,6 +88,7 @@ const BODY: &[Key] = &[
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
     key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file"),
+    key("digest", "", Text(16), Optional("the file is taken as it is"), "digest of the file's numbers: a file of another is refused; written by the program"),
     key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
     key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean taken off), or once (mean of the rim taken off, tapered to 0)"),
     key("unit_m", "m", Number(1e-12, 1e3), Defaulted, "height that a value of 1 stands for"),
@@ -327,7 +328,7 @@ impl Key {
         }
         let of_map = matches!(
             self.name,
-            "file" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
+            "file" | "digest" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
         );
         match (kind, self.name) {
             (Some("smooth"), _) => None,

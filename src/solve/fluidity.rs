@@ -192,7 +192,7 @@ fn viscosities(law: Viscosity, p: &[f64], ln_eta: &mut [f64], slope: &mut [f64])
 
 dispatched! {
 /// One fluidity for both directions: the secant of Eyring's law, or Newtonian.
-fn one_values(medium: &Medium, p: &[f64], h: &[f64], out: Rows<'_>) {
+fn one_values(medium: &Medium, p: &[f64], h: &[f64], out: Rows) {
     let n = p.len();
     let (h, g, ln_g) = (&h[..n], &mut out.g[..n], &mut out.ln_g[..n]);
     let (ln_g_p, ln_g_h) = (&mut out.ln_g_p[..n], &mut out.ln_g_h[..n]);
@@ -245,7 +245,7 @@ fn shear(
 
 dispatched! {
 /// The fluidity along the sliding alone: of a line.
-fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: Rows<'_>) {
+fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: Rows) {
     let n = p.len();
     let (h, g, ln_g) = (&h[..n], &mut out.g[..n], &mut out.ln_g[..n]);
     let (ln_g_p, ln_g_h) = (&mut out.ln_g_p[..n], &mut out.ln_g_h[..n]);
@@ -264,7 +264,7 @@ fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: Rows<'_>
 
 dispatched! {
 /// Both fluidities.
-fn directed_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], along: Rows<'_>, across: Rows<'_>) {
+fn directed_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], along: Rows, across: Rows) {
     let n = p.len();
     let (h, x, y) = (&h[..n], along, across);
     let (x_g, x_ln, y_g, y_ln) = (&mut x.g[..n], &mut x.ln_g[..n], &mut y.g[..n], &mut y.ln_g[..n]);

@@ -9,7 +9,7 @@
 //! finished file is [bound](super::bound): rows together by entity, whenever they were written, and a footer.
 
 use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -18,6 +18,7 @@ use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
 use super::bound;
+use crate::observe::placed::Placed;
 
 /// A recording's file, shared by the library's thread, which writes, and the recorder, which asks.
 #[derive(Clone)]
@@ -28,12 +29,13 @@ struct State {
     encoder: Option<Encoder<File>>,
     /// The same file, for its length.
     file: File,
-    path: PathBuf,
     /// Length up to the last whole message.
     bytes: u64,
     error: Option<String>,
     /// Why the file is as it was written in the run, without a footer.
     unbound: Option<String>,
+    /// Where it lies and what it will be called.
+    placed: Placed,
 }
 
 impl State {
@@ -54,20 +56,31 @@ impl State {
                 Err(error) => self.fail(&error.to_string()),
             }
         }
+        if self.error.is_none() {
+            match self.placed.settle() {
+                Ok(true) => {}
+                Ok(false) => self.bytes = 0,
+                Err(error) => self.fail(&error.to_string()),
+            }
+        }
     }
 
     /// Puts rows together and adds the footer. A recording that cannot be bound (no room for another) is complete
     /// all the same: viewers then read it from its beginning.
     fn bind(&mut self) {
         self.bytes = self.length();
-        match bound::bind(&self.path, Vec::new()) {
+        match bound::bind(self.placed.at(), Vec::new()) {
             Ok(bytes) => self.bytes = bytes,
             Err(reason) => self.unbound = Some(reason),
         }
     }
 
     fn fail(&mut self, reason: &str) {
-        self.error.get_or_insert_with(|| reason.to_owned());
+        let place = self.placed.leave();
+        let place = place.map_or_else(String::new, |at| {
+            format!("; it is {}, the older one is as it was", at.display())
+        });
+        self.error.get_or_insert_with(|| format!("{reason}{place}"));
         if let Some(mut encoder) = self.encoder.take() {
             // Dropping it would try to write a footer to a disk that takes no more.
             encoder.do_not_emit_footer();
@@ -82,8 +95,8 @@ impl State {
 }
 
 impl RecordingFile {
-    /// Starts a recording in an empty file, which lies there.
-    pub(super) fn start(file: File, path: &Path) -> Result<Self, String> {
+    /// Starts a recording in an empty file.
+    pub(super) fn start(file: File, placed: Placed) -> Result<Self, String> {
         let for_length = file.try_clone().map_err(|error| error.to_string())?;
         let options = EncodingOptions::PROTOBUF_COMPRESSED;
         let mut encoder = Encoder::new_eager(CrateVersion::LOCAL, options, file)
@@ -93,10 +106,10 @@ impl RecordingFile {
         let mut state = State {
             encoder: Some(encoder),
             file: for_length,
-            path: path.to_owned(),
             bytes: 0,
             error: None,
             unbound: None,
+            placed,
         };
         state.bytes = state.length();
         Ok(Self(Arc::new(Mutex::new(state))))
@@ -105,6 +118,16 @@ impl RecordingFile {
     /// The state stays whole between statements, so a panic elsewhere does not spoil it.
     fn lock(&self) -> MutexGuard<'_, State> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A step is in it: from now on it is worth its name.
+    pub(super) fn hold(&self) {
+        self.lock().placed.hold();
+    }
+
+    /// Where it is written.
+    pub(super) fn path(&self) -> PathBuf {
+        self.lock().placed.at().to_owned()
     }
 
     /// Bytes written.
@@ -122,7 +145,7 @@ impl RecordingFile {
         self.lock().unbound.clone()
     }
 
-    /// Binds the file; what is sent afterwards is not written.
+    /// Binds the file and gives it its name; what is sent afterwards is not written.
     pub(super) fn finish(&self) -> Result<(), String> {
         let mut state = self.lock();
         state.finish();

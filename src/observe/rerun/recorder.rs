@@ -2,21 +2,27 @@
 
 mod views;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rerun::TextLogLevel;
 
 use self::views::Views;
+use super::file::RecordingFile;
+use super::geometry::Geometry;
 use super::live::Live;
 use super::moment::Moment;
 use super::stream::Stream;
 use super::{properties, text};
 use crate::observe::{
-    ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent, RunEventKind,
+    NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
+    RunEventKind,
 };
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
+
+/// What is sent to a viewer that has not answered yet, bytes: far less than the library lets wait before it blocks.
+const UNANSWERED: u64 = 8 * 1024 * 1024;
 
 /// Writes a recording.
 pub struct Recorder {
@@ -56,6 +62,12 @@ impl Recorder {
     /// When no viewer listens, or the port is busy.
     pub fn live(live: Live, record: &Record) -> Result<Self, ObserveError> {
         Ok(Self::on(Stream::live(live)?, record))
+    }
+
+    /// The file that is written now: the recording's own, or beside it where it will replace another; `None`: a
+    /// viewer's.
+    pub fn path(&self) -> Option<PathBuf> {
+        self.stream.file().map(RecordingFile::path)
     }
 
     fn on(stream: Stream, record: &Record) -> Self {
@@ -123,6 +135,15 @@ impl Recorder {
 }
 
 impl Recorder {
+    /// Whether enough was sent to a viewer that has not answered.
+    fn is_unheard(&self) -> bool {
+        let sent = self.views.as_ref().map_or(0, |views| {
+            self.frames
+                .saturating_mul(views::frame_bytes(views.geometry))
+        });
+        !self.stream.has_answered() && sent > UNANSWERED
+    }
+
     /// Hands what waits on to the file or the viewer.
     fn send_on(&mut self) -> Result<(), ObserveError> {
         if let Some(views) = &mut self.views {
@@ -147,7 +168,7 @@ impl Observer for Recorder {
         if frame.stage == Stage::StartUp {
             return Ok(());
         }
-        if self.stream.is_gone() {
+        if self.stream.is_gone() || self.is_unheard() {
             self.unsent += 1;
             return Ok(());
         }
@@ -159,6 +180,9 @@ impl Observer for Recorder {
             self.send_on()?;
         }
         self.stream.check()?;
+        if let Some(file) = self.stream.file() {
+            file.hold();
+        }
         self.frames += 1;
         let on_disk = self.stream.bytes();
         let thinned = self
@@ -221,9 +245,13 @@ impl Observer for Recorder {
             }
         }
         self.stream.close()?;
+        let is_heard = self.stream.has_answered();
         let mut notes = Vec::new();
-        if self.unsent > 0 {
-            notes.push("the viewer was closed".to_owned());
+        match (self.stream.file(), is_heard) {
+            (Some(_), _) if self.frames == 0 => notes.push(NOTHING_CAME.to_owned()),
+            (None, false) => notes.push("the viewer never answered".to_owned()),
+            (None, true) if self.unsent > 0 => notes.push("the viewer was closed".to_owned()),
+            _ => {}
         }
         if clipped > 0 {
             notes.push(format!("clipped: {clipped_words}"));
@@ -235,8 +263,8 @@ impl Observer for Recorder {
         }
         Ok(ObserverReport {
             output: self.stream.output(),
-            frames: self.frames,
-            skipped: self.unsent,
+            frames: if is_heard { self.frames } else { 0 },
+            skipped: self.unsent + if is_heard { 0 } else { self.frames },
             bytes: self.stream.bytes(),
             note: notes.join("; "),
             queue: None,

@@ -77,7 +77,8 @@ impl Stream {
             let reason = format!("the recording could not be started: {reason}");
             ObserveError::new(path.display().to_string(), reason)
         };
-        let file = RecordingFile::start(overwrite.create(path)?, path).map_err(failed)?;
+        let (file, placed) = overwrite.open(path)?;
+        let file = RecordingFile::start(file, placed).map_err(failed)?;
         let recording = builder(ChunkBatcherConfig::NEVER)
             .buffered()
             .map_err(|error| failed(error.to_string()))?;
@@ -131,6 +132,14 @@ impl Stream {
         self.output.clone()
     }
 
+    /// The recording's file; `None`: it goes to a viewer.
+    pub(super) fn file(&self) -> Option<&RecordingFile> {
+        match &self.to {
+            Destination::File { file, .. } => Some(file),
+            Destination::Live(_) => None,
+        }
+    }
+
     /// Whether a viewer has been closed: nobody reads any more.
     pub(super) fn is_gone(&self) -> bool {
         match &self.to {
@@ -149,6 +158,14 @@ impl Stream {
         match &self.to {
             Destination::File { file, .. } => file.unbound(),
             Destination::Live(_) => None,
+        }
+    }
+
+    /// Whether anybody has taken something yet; a file always has.
+    pub(super) fn has_answered(&self) -> bool {
+        match &self.to {
+            Destination::File { .. } => true,
+            Destination::Live(link) => link.has_answered(),
         }
     }
 

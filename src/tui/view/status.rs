@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use crate::sim::{Frame, Metrics, Rhythm, Stage};
+use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
 use crate::study::sweep::Along;
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
@@ -160,15 +160,14 @@ fn tiny(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// Who carries the load: the film, both, or the asperities.
+/// Who carries the load, and how good that is.
 fn regime(metrics: &Metrics) -> (&'static str, Role) {
-    if metrics.contact_ratio <= 0.0 {
-        ("full film", Role::Good)
-    } else if metrics.contact_load_ratio < 0.9 {
-        ("mixed", Role::Warn)
-    } else {
-        ("boundary", Role::Bad)
-    }
+    let role = match metrics.regime {
+        LubricationRegime::FullFilm => Role::Good,
+        LubricationRegime::Mixed => Role::Warn,
+        LubricationRegime::Boundary | LubricationRegime::Dry => Role::Bad,
+    };
+    (metrics.regime.name(), role)
 }
 
 fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {

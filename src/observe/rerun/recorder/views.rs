@@ -217,7 +217,7 @@ fn expected_steps(scene: Option<&Scene>, first: &Frame) -> f64 {
 }
 
 /// Raw bytes of one frame's fields, roughly: what the first cadence is decided from.
-fn frame_bytes(g: Geometry) -> u64 {
+pub(super) fn frame_bytes(g: Geometry) -> u64 {
     let nodes = (g.nx * g.ny) as u64;
     // Two maps of two bytes and one of one, the slice; of every second frame three maps more, the
     // interferogram and another slice; the sheets of the 3-D view.
