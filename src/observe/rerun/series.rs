@@ -88,19 +88,24 @@ static GROUPS: [Group; 26] = [
     Group {
         entity: "series/cautions",
         lines: &[
-            ("beyond yield", VERMILION),
-            ("film by the mesh", ORANGE),
+            ("not converged", VERMILION),
+            ("beyond yield", ORANGE),
+            ("no oil flows", GREY),
+            ("film below a molecule", BLUE),
+            ("mesh error of the film", GREEN),
+            ("a body stands", PURPLE),
             ("models differ", OLIVE),
             ("not settled", SKY),
-            ("film below a molecule", BLUE),
-            ("a body stands", PURPLE),
-            ("not converged", GREEN),
         ],
         values: |frame, out| {
             let from = out.len();
-            out.resize(from + 7, 0.0);
-            for place in frame.cautions().iter().filter_map(|one| place(one.code)) {
-                out[from + place] = 1.0;
+            out.resize(from + 8, 0.0);
+            for line in frame
+                .cautions()
+                .iter()
+                .filter_map(|caution| line(caution.code))
+            {
+                out[from + line] = 1.0;
             }
         },
     },
@@ -255,20 +260,18 @@ fn regime(regime: LubricationRegime) -> f64 {
     }
 }
 
-/// Line of a caution in its group; `None`: it holds for the whole run, and the text panel says it.
-fn place(code: CautionCode) -> Option<usize> {
+/// Line of a caution in its group; none for what holds for the whole run.
+fn line(code: CautionCode) -> Option<usize> {
     match code {
-        CautionCode::BeyondYield => Some(0),
-        CautionCode::MeshFilm => Some(1),
-        CautionCode::ModelRange => Some(2),
-        CautionCode::NotSettled => Some(3),
-        CautionCode::FilmBelowMolecule => Some(4),
+        CautionCode::NotConverged => Some(0),
+        CautionCode::BeyondYield => Some(1),
+        CautionCode::Dry => Some(2),
+        CautionCode::FilmBelowMolecule => Some(3),
+        CautionCode::MeshFilm => Some(4),
         CautionCode::StandingBody => Some(5),
-        CautionCode::NotConverged => Some(6),
-        CautionCode::Dry
-        | CautionCode::NoLife
-        | CautionCode::StrengthUnknown
-        | CautionCode::ElasticOnly => None,
+        CautionCode::ModelRange => Some(6),
+        CautionCode::NotSettled => Some(7),
+        CautionCode::NoLife | CautionCode::StrengthUnknown | CautionCode::ElasticOnly => None,
     }
 }
 
