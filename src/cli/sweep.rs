@@ -54,7 +54,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     })?;
     let sweep_s = began.elapsed().as_secs_f64();
     if report.stopped {
-        let note = "stopped; finished cases are kept, --resume goes on";
+        let note = "stopped; finished cases are kept, --resume continues";
         let _ = writeln!(std::io::stderr(), "{note}");
         return Ok(3);
     }
@@ -83,7 +83,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         if report.computed == sweep.len() {
             let cold_s = began.elapsed().as_secs_f64();
             print(&format!(
-                "by the clock, {threads} threads, writing included: sweep {sweep_s:.1} s, cold {cold_s:.1} s: {:.2} times \
+                "wall time on {threads} threads, writing included: sweep {sweep_s:.1} s, cold {cold_s:.1} s: {:.2} times \
                  faster\n",
                 cold_s / sweep_s
             ));
@@ -212,7 +212,7 @@ fn comparison(sweep: &Sweep, against: &Against) -> String {
     );
     let _ = writeln!(
         text,
-        "greatest departure from cold: life {:.2} %, central film {:.2} %",
+        "greatest difference from cold: life {:.2} %, central film {:.2} %",
         100.0 * against.worst(0),
         100.0 * against.worst(1)
     );
@@ -259,7 +259,7 @@ fn with_bar<T: Send>(
     match result {
         Ok(result) => Ok(result?),
         Err(_) => Err(Failure::stalled(miette::miette!(
-            "a worker broke off; finished cases are kept, --resume goes on"
+            "a worker failed; finished cases are kept, --resume continues"
         ))),
     }
 }
