@@ -193,6 +193,7 @@ fn check_life(screen: &[String], bench: &Bench, at: &Closed) {
         ("cycles", life.cycle_factor),
         ("peaks", life.peak_factor),
         ("traction", life.traction_factor),
+        ("load", life.load_factor),
     ] {
         let row = screen
             .iter()
@@ -297,7 +298,7 @@ fn every_knob_moves_every_number_as_the_engine_has_it() {
         let screen = bench.screen();
         check_formulas(&screen, &after);
         check_simulated(&screen, &last, &before);
-        assert_eq!(bench.app.leading(), Leading::Formula);
+        assert_eq!(bench.app.leading(), Leading::Scaled);
         check_marker(
             &screen,
             now.motion.slide_roll,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::physics::estimate::{Anchor, OperatingPoint};
+use crate::physics::estimate::OperatingPoint;
 use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::study::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
@@ -19,6 +19,8 @@ const PAST_FRAMES: usize = 96;
 const HISTORY: usize = 1024;
 /// Wall time over which the speed of the run is averaged.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
+/// How long a step that did not converge stays on the screen.
+const FAILURE_WINDOW: Duration = Duration::from_secs(3);
 /// How long a knob that was set here is not overruled by what a frame says of its target.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -42,6 +44,9 @@ impl App {
             self.trace.push(point, frame.a_m);
         }
         self.take_rate(&frame);
+        self.verdicts.push_back((self.now, frame.metrics.converged));
+        let now = self.now;
+        self.verdicts.retain(|(at, _)| *at + FAILURE_WINDOW >= now);
         self.take_life(&frame);
         self.waves.push(&frame);
         self.keep(frame);
@@ -120,13 +125,9 @@ impl App {
             load_n: metrics.load_n,
             amplitude_1_m: metrics.amplitude_1_m,
             amplitude_2_m: metrics.amplitude_2_m,
+            entrainment_m_s: metrics.entrainment_m_s,
         };
-        self.anchor = Some(Anchor {
-            at,
-            cycle_factor: life.cycle_factor,
-            peak_factor: life.peak_factor,
-            traction_factor: life.traction_factor,
-        });
+        self.drop_anchor(&at, &life);
     }
 
     fn keep(&mut self, frame: Arc<Frame>) {

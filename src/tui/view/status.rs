@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use crate::sim::{Frame, Metrics, Rhythm, Stage};
+use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
 use crate::study::sweep::Along;
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
@@ -24,7 +24,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             write(app, area, row, &words, buffer);
             row += 1;
             words = quality(app, frame);
-        } else if frame.metrics.converged {
+        } else if frame.metrics.converged && app.failures().is_none() {
             words.extend(quality(app, frame));
         } else {
             // What is wrong stands first: the rest may not fit.
@@ -91,16 +91,16 @@ fn progress(app: &App, frame: &Frame) -> Words {
 
 fn quality(app: &App, frame: &Frame) -> Words {
     let metrics = &frame.metrics;
-    let residual = if metrics.converged {
-        (format!("residual {:.0e}", metrics.residual), Role::Text)
-    } else {
-        (
-            format!(
-                " NOT CONVERGED residual {:.1e} after {} retries ",
-                metrics.residual, metrics.retries
-            ),
+    let residual = match (metrics.converged, app.failures()) {
+        (true, None) => (format!("residual {:.0e}", metrics.residual), Role::Text),
+        (true, Some((failed, all))) => (
+            format!("converged, but {failed} of the last {all} frames not"),
+            Role::Warn,
+        ),
+        (false, _) => (
+            format!(" NOT CONVERGED: {} ", unmet(app, metrics)),
             Role::Bad,
-        )
+        ),
     };
     let (regime, role) = regime(metrics);
     let lambda = sig_or_dash(metrics.lambda_ratio, 2);
@@ -137,6 +137,23 @@ fn quality(app: &App, frame: &Frame) -> Words {
     words
 }
 
+/// What a step that did not converge has left: not every one fails by its residual.
+fn unmet(app: &App, metrics: &Metrics) -> String {
+    let tolerance = app.setup.scene.numerics.tolerance;
+    let retries = match metrics.retries {
+        0 => String::new(),
+        n => format!(" after {n} retries"),
+    };
+    if metrics.overlap_m > 0.0 && metrics.residual <= tolerance {
+        let overlap = app.units.film().show(metrics.overlap_m, 2);
+        format!("bodies overlap by {overlap}{retries}")
+    } else if metrics.residual > tolerance {
+        format!("residual {:.1e}{retries}", metrics.residual)
+    } else {
+        format!("film error {:.1e}{retries}", metrics.film_error)
+    }
+}
+
 /// The letter of what a sweep goes along.
 fn swept(along: Along) -> &'static str {
     match along {
@@ -153,15 +170,14 @@ fn tiny(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// Who carries the load: the film, both, or the asperities.
+/// Who carries the load.
 fn regime(metrics: &Metrics) -> (&'static str, Role) {
-    if metrics.contact_ratio <= 0.0 {
-        ("full film", Role::Good)
-    } else if metrics.contact_load_ratio < 0.9 {
-        ("mixed", Role::Warn)
-    } else {
-        ("boundary", Role::Bad)
-    }
+    let role = match metrics.regime {
+        LubricationRegime::FullFilm => Role::Good,
+        LubricationRegime::Mixed => Role::Warn,
+        LubricationRegime::Boundary | LubricationRegime::Dry => Role::Bad,
+    };
+    (metrics.regime.name(), role)
 }
 
 fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {

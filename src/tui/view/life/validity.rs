@@ -1,0 +1,54 @@
+//! Below the number, always: what to know before trusting it.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::sim::{Caution, CautionCode};
+use crate::tui::app::App;
+use crate::tui::theme::Role;
+use crate::tui::view::{ascii_text, put};
+
+/// The weightiest caution, and how many more there are behind `i`: in its own words where they fit, else by its name.
+pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let cautions = app.cautions();
+    let Some(first) = cautions.first() else {
+        let word = if app.life().is_some() {
+            "no cautions (i: model)"
+        } else {
+            ""
+        };
+        put(row, 0, &Line::styled(word, theme.style(Role::Dim)), buffer);
+        return;
+    };
+    let more = match cautions.len() - 1 {
+        0 => String::new(),
+        more => format!(" +{more} i"),
+    };
+    let mark = theme.pick("⚠ ", "! ");
+    let room = usize::from(row.width).saturating_sub(more.len() + 2);
+    let text = ascii_text(theme, &first.text);
+    let text = if text.chars().count() <= room {
+        text
+    } else {
+        name(first).to_owned()
+    };
+    let line = Line::from(vec![
+        Span::styled(format!("{mark}{text}"), theme.style(Role::Warn)),
+        Span::styled(more, theme.style(Role::Key)),
+    ]);
+    put(row, 0, &line, buffer);
+}
+
+/// A caution in a few letters.
+fn name(caution: &Caution) -> &'static str {
+    match caution.code {
+        CautionCode::BeyondYield => "beyond yield",
+        CautionCode::MeshFilm => "coarse mesh",
+        CautionCode::ModelRange => "models differ",
+        CautionCode::NotSettled => "not settled",
+        CautionCode::FilmBelowMolecule => "film < molecule",
+        CautionCode::StandingBody => "a body stands",
+    }
+}
