@@ -74,6 +74,7 @@ impl Bench {
         let sim = Simulation::new(scene, plan.clone(), 1).unwrap();
         let app = App::new(Setup {
             scene: Arc::new(scene.clone()),
+            name: "demonstration".into(),
             load_n: plan.force_n,
             half_width_m: plan.hertz.a_m,
             p_hertz_pa: plan.hertz.p_max_pa,

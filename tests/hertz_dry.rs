@@ -4,7 +4,7 @@
 mod contact;
 
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, Viscosity};
+use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
@@ -17,6 +17,7 @@ const DRY: Medium = Medium {
     density: Density::Incompressible,
     lambda: f64::INFINITY,
     sliding: 0.0,
+    sheared: ShearedFlow::Secant,
 };
 
 fn tolerance(pressure: f64) -> Tolerance {

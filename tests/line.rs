@@ -5,7 +5,7 @@ mod contact;
 use std::f64::consts::{PI, TAU};
 
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, Viscosity};
+use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::plan::{LINE_ROWS, Plan};
 use asperity::scene::{ContactKind, Override, Scene, StressMeasure};
 use asperity::sim::{Frame, Knob, Simulation};
@@ -42,6 +42,7 @@ fn dry_hertz() {
         density: Density::Incompressible,
         lambda: f64::INFINITY,
         sliding: 0.0,
+        sheared: ShearedFlow::Secant,
     };
     let tolerance = Tolerance {
         pressure: 1e-8,

@@ -51,6 +51,7 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
 fn run_line(outcome: &Outcome) -> String {
     let how = match (&outcome.end, outcome.n_unconverged) {
         (End::Stalled(_), _) => "stalled".to_owned(),
+        (End::Stopped, _) if outcome.stopped => stopped(outcome),
         (End::Stopped, 0) => "stopped by the user, converged".to_owned(),
         (_, 0) => "converged".to_owned(),
         (_, n) => format!("{n} steps did not converge"),
@@ -62,6 +63,19 @@ fn run_line(outcome: &Outcome) -> String {
     format!(
         "{how}; {} steps in {:.1} s{pace}",
         outcome.steps, outcome.wall_s
+    )
+}
+
+/// A run that was stopped, with what it has done of what it was to do.
+pub(crate) fn stopped(outcome: &Outcome) -> String {
+    let planned = outcome.steps_planned.unwrap_or(outcome.steps);
+    let unconverged = match outcome.n_unconverged {
+        0 => String::new(),
+        n => format!(", {n} of which did not converge"),
+    };
+    format!(
+        "stopped by the user after {} of {planned} steps{unconverged}",
+        outcome.steps
     )
 }
 

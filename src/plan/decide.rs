@@ -7,7 +7,7 @@ use super::{
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Rheology, Scene, Spread, Surface};
+use crate::scene::{ContactKind, EyringFlow, Rheology, Scene, Spread, Surface};
 
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     if let Some(line) = scene.line_point() {
@@ -21,6 +21,7 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
             central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
             lambda_ratio: (rq_m > 0.0).then(|| central_m / rq_m),
             valleys: valleys(scene),
+            eyring_flow: eyring_flow(scene),
         });
     }
     let point = scene.operating_point()?;
@@ -37,7 +38,14 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
         central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
         lambda_ratio: (rq_m > 0.0).then(|| hamrock_dowson_central_m / rq_m),
         valleys: valleys(scene),
+        eyring_flow: eyring_flow(scene),
     })
+}
+
+fn eyring_flow(scene: &Scene) -> Option<EyringFlow> {
+    let oil = scene.lubricant.as_ref();
+    oil.filter(|oil| oil.rheology == Rheology::Eyring)
+        .map(|oil| oil.eyring_flow)
 }
 
 fn valleys(scene: &Scene) -> Valleys {

@@ -12,6 +12,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::files::fnv;
 use crate::scene::Scene;
 use crate::sim::State;
 
@@ -45,6 +46,9 @@ pub enum CheckpointError {
         /// Why.
         reason: String,
     },
+    /// The scene that it was saved with cannot be read any more: another version, or a height map that changed.
+    #[error("the scene of the saved state is refused: {0}")]
+    SavedScene(String),
     /// It belongs to another scene.
     #[error("the saved state belongs to another scene: {0} differs")]
     OtherScene(&'static str),
@@ -97,7 +101,7 @@ impl Checkpoint {
     /// [`CheckpointError::OtherScene`] names the table that differs.
     pub fn fits(&self, scene: &Scene) -> Result<(), CheckpointError> {
         let saved = Scene::from_toml(&self.scene)
-            .map_err(|_| CheckpointError::OtherScene("the form of the scene"))?;
+            .map_err(|error| CheckpointError::SavedScene(error.to_string()))?;
         let Scene {
             title: _,
             about: _,
@@ -138,11 +142,4 @@ impl Checkpoint {
             None => Ok(()),
         }
     }
-}
-
-/// FNV-1a, 64 bits (Fowler, Noll and Vo): against accidents, not against malice.
-fn fnv(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::door::Heading;
 use super::stress_stage::StressStage;
-use super::{DamageBlock, Frame, MaterialPoint, Simulation, StressPlane, StressSlice};
+use super::{DamageBlock, Frame, MaterialPoint, PassedPeak, Simulation, StressPlane, StressSlice};
 use crate::physics::cycles::BodyId;
 use crate::plan::LINE_ROWS;
 use crate::scene::ContactKind;
@@ -15,6 +15,7 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     frame.step = sim.step;
     frame.time_s = sim.time_s();
     frame.stage = sim.stage();
+    frame.start_up = sim.start_up_progress();
     frame.passages = if sim.step > 0 {
         sim.way / sim.plan.passage_a
     } else {
@@ -266,6 +267,11 @@ fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
             .door
             .pa_from_p(effective(at) * (1.0 - t) + effective(at + 1) * t),
         tau_xz_pa: sim.door.heading.sign() * sim.door.pa_from_p(shown.tau_xz),
-        cycles_counted: shown.counted,
+        cycles_counted: f64::from(shown.peaks),
+        last_peak: shown.last_peak.map(|peak| PassedPeak {
+            x_m: sim.door.place_m(peak.x),
+            pressure_pa: sim.door.pa_from_p(peak.value),
+        }),
+        cycles_before: shown.closed_before,
     })
 }

@@ -30,6 +30,8 @@ pub struct Frame {
     pub time_s: f64,
     /// Part of the run.
     pub stage: Stage,
+    /// How much of the start-up is done, 0 to 1.
+    pub start_up: f64,
     /// Point or line; a line's rows are all alike and its `b_m` is its `a_m`, for the sake of the picture.
     pub kind: ContactKind,
     /// Lengths of 4 a travelled at U since the start of the passage.
@@ -162,8 +164,22 @@ pub struct MaterialPoint {
     pub effective_pa: f64,
     /// Signed orthogonal shear at the point, Pa.
     pub tau_xz_pa: f64,
-    /// Cycles counted so far in this crossing (rainflow of the pressure, gate 5 % of p_h).
+    /// Peaks of the pressure passed so far in this crossing, each of which closes one cycle (a peak has passed
+    /// when the pressure has fallen from it by rainflow's gate, 5 % of p_h).
     pub cycles_counted: f64,
+    /// The last of them.
+    pub last_peak: Option<PassedPeak>,
+    /// Cycles that rainflow closed in the point's last whole crossing.
+    pub cycles_before: Option<f64>,
+}
+
+/// A peak of the pressure on a material point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PassedPeak {
+    /// Where, m.
+    pub x_m: f64,
+    /// How high, Pa.
+    pub pressure_pa: f64,
 }
 
 /// Scalars of one step. NaN never appears: what is not known yet is `None`.

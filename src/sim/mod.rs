@@ -34,7 +34,7 @@ pub use caution::{Caution, CautionCode};
 pub use error::{SimError, StepError};
 pub use frame::{
     DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,
-    Repeat, Rhythm, Stage, StressPlane, StressSlice,
+    PassedPeak, Repeat, Rhythm, Stage, StressPlane, StressSlice,
 };
 pub use knob::Knob;
 pub use lubrication::LubricationRegime;

@@ -335,6 +335,15 @@ impl Simulation {
         ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
     }
 
+    /// How much of the start-up is done, 0 to 1.
+    pub fn start_up_progress(&self) -> f64 {
+        let (done, all) = self.start_up_steps;
+        match self.stage() {
+            Stage::Passage => 1.0,
+            Stage::StartUp => (done as f64 / all.max(1) as f64).min(1.0),
+        }
+    }
+
     /// Time steps since the start-up.
     pub fn passage_steps(&self) -> u64 {
         self.step

@@ -130,7 +130,9 @@ pub(super) fn summary(
     Summary {
         scene: String::new(),
         converged: totals.not_converged == 0,
+        stopped: false,
         steps: sim.passage_steps(),
+        steps_planned: None,
         steps_not_converged: totals.not_converged,
         wall_s: 0.0,
         steps_per_s: None,

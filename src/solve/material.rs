@@ -34,6 +34,7 @@ pub use super::axis::Line;
 use super::damage::{BlockSpec, DamageMap};
 use super::tally::{Crossing, History, mean};
 pub use super::tally::{DamageBasis, Tally};
+use crate::physics::turning::{Peak, Peaks};
 
 /// Fraction of the golden section: multiples of it, modulo 1, spread evenly and never fall into step with
 /// the ripples, as equal spacing may.
@@ -101,6 +102,8 @@ struct Point {
     /// Place on the body, a: does not change during a crossing.
     place: f64,
     pressure: History,
+    /// Of the pressure, as they pass.
+    peaks: Peaks,
     shear: Vec<History>,
     effective: Vec<History>,
 }
@@ -122,8 +125,12 @@ pub struct Sample {
     pub pressure: f64,
     /// Signed orthogonal shear at the shown depth, p_h.
     pub tau_xz: f64,
-    /// Pressure cycles of this crossing so far.
-    pub counted: f64,
+    /// Peaks of the pressure passed so far in this crossing: each closes one cycle.
+    pub peaks: u32,
+    /// The last of them.
+    pub last_peak: Option<Peak>,
+    /// Closed cycles of the pressure in its last whole crossing.
+    pub closed_before: Option<f64>,
 }
 
 /// Points of one body under way.
@@ -154,6 +161,7 @@ impl MaterialTracker {
             crossing: Crossing::New,
             place: 0.0,
             pressure: History::new(spec.pressure_gate, DamageBasis::Ranges, History::OPEN),
+            peaks: Peaks::new(spec.pressure_gate),
             // Each made anew: a clone would not have the room.
             shear: (0..spec.depths)
                 .map(|_| below(spec.shear_gate, DamageBasis::Ranges))
@@ -210,6 +218,7 @@ impl MaterialTracker {
                 history.start(exponent);
                 history.last = None;
             }
+            point.peaks.start();
         }
         if let Some(map) = &mut self.map {
             map.clear();
@@ -260,6 +269,7 @@ impl MaterialTracker {
                 history.end(exponent, crossing);
                 history.start(exponent);
             }
+            point.peaks.start();
             if let (Some(map), Some((_, basis)), Crossing::Whole) =
                 (&mut self.map, self.spec.map, crossing)
             {
@@ -289,6 +299,7 @@ impl MaterialTracker {
             };
         }
         point.pressure.push(pressure, exponent);
+        point.peaks.push(point.x, pressure);
         if line.tau_xz.is_some() {
             for (k, history) in point.shear.iter_mut().enumerate() {
                 history.push(line.shear_at(k, point.x), exponent);
@@ -323,7 +334,9 @@ impl MaterialTracker {
             x: point.x,
             pressure: line.pressure_at(point.x),
             tau_xz: line.shear_at(self.spec.shown_depth, point.x),
-            counted: point.pressure.tally.count,
+            peaks: point.peaks.passed(),
+            last_peak: point.peaks.last(),
+            closed_before: point.pressure.last.map(|tally| tally.count),
         }
     }
 

@@ -15,7 +15,7 @@ use std::time::Instant;
 use super::table::Table;
 use super::{Extent, Progress, StudyError};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::physics::stress_exact::hertz_axis_maximum;
 use crate::solve::dry::{Dry, DryProblem};
 use crate::solve::film::Elastic;
@@ -124,6 +124,7 @@ fn hertz(n: usize, tolerance: f64) -> Result<Row, String> {
         density: Density::Incompressible,
         lambda: f64::INFINITY,
         sliding: 0.0,
+        sheared: ShearedFlow::Secant,
     };
     let conditions = Conditions {
         medium: &medium,

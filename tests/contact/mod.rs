@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, Viscosity};
+use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::physics::groups::OperatingPoint;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{NewtonReport, Tolerance, Verdict};
@@ -41,6 +41,7 @@ impl Fluid {
             density,
             lambda,
             sliding: 0.0,
+            sheared: ShearedFlow::Secant,
         }
     }
 }
@@ -114,6 +115,7 @@ impl Case {
             },
             lambda,
             sliding: 0.0,
+            sheared: ShearedFlow::Secant,
         };
         Self {
             medium,

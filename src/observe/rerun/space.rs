@@ -11,9 +11,9 @@ mod hung;
 use rerun::{Arrows3D, Color, Points3D};
 
 use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, packed};
+use super::depths::Depths;
 use super::geometry::Geometry;
 use super::mesh::{COARSE, FINE, Window};
-use super::slice::Rows;
 use super::stream::Stream;
 use super::waiting::Sheet;
 use crate::observe::ObserveError;
@@ -38,6 +38,8 @@ pub(super) struct Tops {
     pub(super) effective_pa: Option<f64>,
     /// Which bodies are rough.
     pub(super) rough: [bool; 2],
+    /// Height of both together that can come, m.
+    pub(super) roughness_m: f64,
 }
 
 /// The 3-D view.
@@ -90,7 +92,7 @@ struct Levels {
 
 /// The cut plane's nodes.
 struct SliceSheet {
-    rows: Rows,
+    depths: Depths,
     columns: Vec<usize>,
 }
 
@@ -125,7 +127,7 @@ impl Space {
             bodies,
             slice,
             tops,
-            exaggeration: exaggeration(geometry, first),
+            exaggeration: exaggeration(geometry, first, tops.roughness_m),
             levels,
             speeds: None,
             hung: hung::Hung::new(stream),
@@ -223,16 +225,15 @@ impl Space {
             return Ok(());
         };
         let nx = self.geometry.nx;
-        if !sheet.rows.hold(slice, nx) {
+        if !sheet.depths.hold(slice, nx) {
             return Ok(());
         }
         let per_top = 1.0 / top as f32;
+        let rows = slice.effective_pa.chunks_exact(nx).take(sheet.depths.len());
         stream.log_sheet(self.sheets.slice, |_, colours| {
-            for row in 0..sheet.rows.len() {
-                colours.extend(sheet.columns.iter().map(|&i| {
-                    let stress = sheet.rows.value(&slice.effective_pa, nx, row, i);
-                    self.stress.colour(stress * per_top, 1.0)
-                }));
+            for row in rows {
+                let stresses = sheet.columns.iter().map(|&i| row[i] * per_top);
+                colours.extend(stresses.map(|share| self.stress.colour(share, 1.0)));
             }
         })
     }
@@ -303,13 +304,20 @@ impl Space {
 }
 
 impl SliceSheet {
-    /// Coarser than the slice's image: the 3-D view is for looking, the image for reading.
+    /// Of fewer columns than the slice's image: the 3-D view is for looking, the image for reading.
     fn new(g: Geometry, slice: &crate::sim::StressSlice) -> Option<Self> {
         let columns: Vec<usize> = (0..g.nx).filter(|&i| g.x(i).abs() <= 1.45 * g.a).collect();
         let step = columns.len().div_ceil(64).max(1);
         let columns: Vec<usize> = columns.into_iter().step_by(step).collect();
-        let rows = Rows::new(&slice.depths_m, 0.05 * g.a, SLICE_DEPTH * g.a)?;
-        (columns.len() > 1).then_some(Self { rows, columns })
+        let depths = Depths::down_to(&slice.depths_m, SLICE_DEPTH * g.a / MM)?;
+        (columns.len() > 1).then_some(Self { depths, columns })
+    }
+
+    fn deepest_mm(&self) -> f64 {
+        self.depths
+            .shown_m()
+            .last()
+            .map_or(0.0, |depth_m| depth_m * MM)
     }
 
     fn edges(&self, g: Geometry) -> (f64, f64) {
@@ -335,8 +343,7 @@ fn steel(shade: f32) -> [u8; 3] {
 
 /// A round factor (1, 2 or 5 times a power of ten) that makes the roughness, or in smooth contacts
 /// the film, as high as about a tenth of the contact's half-width.
-fn exaggeration(g: Geometry, first: &Frame) -> f64 {
-    let rough = first.metrics.amplitude_1_m + first.metrics.amplitude_2_m;
+fn exaggeration(g: Geometry, first: &Frame, rough: f64) -> f64 {
     let height = if rough > 0.0 {
         rough
     } else {

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use super::row::{AccuracyRow, Against, Part, Timed, Varied, timed};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::solve::film::Elastic;
 use crate::solve::march::{Conditions, Flow, Guess, March, Shape};
 use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
@@ -40,6 +40,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Solved, String> {
         density: Density::Incompressible,
         lambda: f64::INFINITY,
         sliding: 0.0,
+        sheared: ShearedFlow::Secant,
     };
     let conditions = Conditions {
         medium: &medium,

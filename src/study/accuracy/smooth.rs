@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use super::hertz::{CIRCLE, LOAD};
 use super::row::{AccuracyRow, Against, Part, Timed, Varied, against_finest, timed};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::solve::march::{Conditions, Flow, Guess, March};
 use crate::solve::newton::{Tolerance, Verdict};
 use crate::solve::reynolds::Medium;
@@ -89,6 +89,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Film, String> {
         density: Density::Incompressible,
         lambda,
         sliding: 0.0,
+        sheared: ShearedFlow::Secant,
     };
     let conditions = Conditions {
         medium: &medium,

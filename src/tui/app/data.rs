@@ -35,8 +35,8 @@ pub enum Effect {
     Sweep(Box<Order>),
     /// Call that off.
     EndSweep,
-    /// Run this scene in place of the present one.
-    Rebuild(Box<Scene>),
+    /// Run this scene in place of the present one, under this name.
+    Rebuild(Box<Scene>, String),
     /// To the shell.
     Suspend,
     /// The end.
@@ -89,6 +89,8 @@ pub struct LifeSample {
 pub struct Setup {
     /// The scene that runs.
     pub scene: Arc<Scene>,
+    /// Its name: that of its preset or file.
+    pub name: String,
     /// Load, N; of a line N/m.
     pub load_n: f64,
     /// Hertz half-width along x at that load, m.

@@ -222,23 +222,25 @@ impl App {
         if let (Some(_), Some(whole)) = (&self.replay, self.trace.counted()) {
             let sample = *self.trace.current().last()?;
             let (body, depth_m) = self.trace.point();
-            let (formula, _) = of_body(body);
+            let (expected, average) = of_body(body);
             return Some(PointNow {
                 body,
                 depth_m,
                 sample,
-                formula,
-                counted: Some(whole),
+                expected,
+                average,
+                closed: Some(whole),
             });
         }
         let point = frame.material_point?;
-        let (formula, counted) = of_body(point.body);
+        let (expected, average) = of_body(point.body);
         Some(PointNow {
             body: point.body,
             depth_m: point.depth_m,
             sample: TraceSample::of(&point),
-            formula,
-            counted,
+            expected,
+            average,
+            closed: point.cycles_before,
         })
     }
 }
@@ -252,8 +254,10 @@ pub struct PointNow {
     pub depth_m: f64,
     /// Where it is and what it feels.
     pub sample: TraceSample,
-    /// n by formula.
-    pub formula: Option<f64>,
-    /// Cycles counted: in a replay of this crossing, else in the mean of crossings.
-    pub counted: Option<f64>,
+    /// Cycles a crossing by formula: n, expected on average.
+    pub expected: Option<f64>,
+    /// Mean of the crossings that were counted.
+    pub average: Option<f64>,
+    /// Closed cycles: in a replay of this crossing, else of the one before.
+    pub closed: Option<f64>,
 }

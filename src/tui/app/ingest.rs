@@ -7,7 +7,7 @@ use crate::physics::estimate::OperatingPoint;
 use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::study::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
-use crate::tui::app::{App, Effect, LifeSample, Ranges};
+use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges};
 use crate::tui::dial::{Dial, knob_target, knob_value};
 use crate::tui::units::nice_ceiling;
 
@@ -79,6 +79,11 @@ impl App {
     }
 
     fn take_rate(&mut self, frame: &Frame) {
+        if self.pace == Pace::Paused {
+            // A pause is no part of the run's pace.
+            self.rate.clear();
+            return;
+        }
         self.rate.push_back((self.now, frame.step));
         while self.rate.len() > 2
             && self

@@ -79,8 +79,8 @@ pub struct App {
     pub(crate) tour: Option<TourState>,
     /// The lesson's scene that runs; `None`: the user's own.
     staged: Option<Staging>,
-    /// The user's own scene, for the end of the tour.
-    own_scene: Arc<Scene>,
+    /// The user's own scene and its name, for the end of the tour.
+    own: (Arc<Scene>, String),
     /// A scene in the making.
     pub(crate) draft: Option<Draft>,
     pub(crate) estimate: Estimate,
@@ -141,7 +141,7 @@ impl App {
             point: None,
             tour: None,
             staged: None,
-            own_scene: Arc::clone(&setup.scene),
+            own: (Arc::clone(&setup.scene), setup.name.clone()),
             draft: None,
             estimate,
             anchor: None,
@@ -194,8 +194,11 @@ impl App {
         (self.back, self.past.len().saturating_sub(1))
     }
 
-    /// Time steps per second of wall time, over the last two seconds.
+    /// Time steps per second of wall time, over the last two seconds; `None` while the run waits.
     pub fn steps_per_s(&self) -> Option<f64> {
+        if self.pace == Pace::Paused {
+            return None;
+        }
         let (first, last) = (self.rate.front()?, self.rate.back()?);
         let seconds = last.0.checked_sub(first.0)?.as_secs_f64();
         (seconds > 0.0).then(|| last.1.saturating_sub(first.1) as f64 / seconds)

@@ -57,17 +57,24 @@ fn write(app: &App, area: Rect, row: u16, words: &Words, buffer: &mut Buffer) {
 }
 
 fn progress(app: &App, frame: &Frame) -> Words {
-    let stage = match frame.stage {
-        Stage::StartUp => ("start-up".to_owned(), Role::Warn),
-        Stage::Passage => (format!("passage {:.2}", frame.passages), Role::Text),
-    };
-    let rate = sig_or_dash(app.steps_per_s(), 2);
+    if frame.stage == Stage::StartUp {
+        let share = (100.0 * frame.start_up).floor();
+        return vec![
+            (format!("start-up {share:.0} %"), Role::Warn),
+            (
+                "smooth film on finer and finer grids, then roughness".to_owned(),
+                Role::Text,
+            ),
+        ];
+    }
     let mut words = vec![
-        stage,
+        (format!("passage {:.2}", frame.passages), Role::Text),
         (format!("step {}", frame.step), Role::Text),
-        (format!("{rate} steps/s"), Role::Text),
-        (format!("t {}", seconds(frame.time_s)), Role::Text),
     ];
+    if let Some(rate) = app.steps_per_s() {
+        words.push((format!("{} steps/s", sig(rate, 2)), Role::Text));
+    }
+    words.push((format!("t {}", seconds(frame.time_s)), Role::Text));
     if let Some(repeat) = frame.metrics.repeat.filter(|repeat| repeat.repeats) {
         let what = match repeat.rhythm {
             Rhythm::Steady => "steady".to_owned(),
