@@ -16,7 +16,7 @@ use crate::sim::{Frame, LifeEstimate, Metrics, Stage};
 
 /// Columns in the order of [`Row::write`], which destructures every field: a new metric that is
 /// not given a column does not compile.
-const COLUMNS: [&str; 54] = [
+const COLUMNS: [&str; 55] = [
     "step",
     "time_s",
     "passages",
@@ -41,6 +41,7 @@ const COLUMNS: [&str; 54] = [
     "h_min_m",
     "h_mean_m",
     "lambda_ratio",
+    "film_to_roughness",
     "contact_ratio",
     "contact_load_ratio",
     "regime",
@@ -221,6 +222,7 @@ impl Row {
             h_min_m,
             h_mean_m,
             lambda_ratio,
+            film_to_roughness,
             contact_ratio,
             contact_load_ratio,
             regime,
@@ -257,6 +259,7 @@ impl Row {
         self.cell(*h_min_m);
         self.cell(*h_mean_m);
         self.optional(*lambda_ratio);
+        self.optional(*film_to_roughness);
         self.cell(*contact_ratio);
         self.cell(*contact_load_ratio);
         self.cells.text(regime.name());

@@ -18,6 +18,7 @@ pub mod multiaxial;
 pub mod race_and_cam;
 pub mod rainflow;
 pub mod ripple;
+pub mod strength;
 pub mod stress_exact;
 pub mod stress_exact_patch;
 pub mod turning;

@@ -168,15 +168,6 @@ impl Door {
         self.kind.hertz_shape().size_ratio(ratio)
     }
 
-    /// The smooth film at `speed` and `load` times the scene's, over that at the scene's: exponents of
-    /// Hamrock and Dowson (1977), of a line those of Dowson and Higginson (1968).
-    pub(super) fn film_ratio(&self, speed: f64, load: f64) -> f64 {
-        match self.kind {
-            ContactKind::Point => speed.powf(0.67) * load.powf(-0.067),
-            ContactKind::Line => speed.powf(0.7) * load.powf(-0.13),
-        }
-    }
-
     /// Pressure, Pa.
     pub(super) fn pa_from_p(&self, p: f64) -> f64 {
         p * self.p_hertz_pa

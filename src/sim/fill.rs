@@ -36,13 +36,13 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
         fill_damage(sim, body, &mut frame.damage[body.index()]);
     }
     frame.metrics.clone_from(&sim.metrics);
+    frame.grounds = sim.grounds();
 }
 
 /// Nodes, edges and scales.
 fn fill_shape(sim: &Simulation, frame: &mut Frame) {
     let (grid, door) = (&sim.march.grid, &sim.door);
-    let load = sim.drive.get(door.load_knob()).now / sim.plan.force_n;
-    let scale = door.size_ratio(load);
+    let scale = sim.size_now();
     frame.kind = door.kind;
     frame.nx = grid.nx;
     (frame.ny, frame.dy_m) = match door.kind {
@@ -221,8 +221,9 @@ fn mirror_columns(damage: &mut [f32], depths: usize) {
 /// The damage map of a body.
 fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) {
     let found = sim.counting.as_ref().and_then(|counting| {
-        let (map, unit) = counting.map(body)?;
-        Some((map, unit, counting.pit(body)?, sim.stress.as_ref()?))
+        let size = sim.size_now();
+        let (map, unit) = counting.map(body, size)?;
+        Some((map, unit, counting.pit(body, size)?, sim.stress.as_ref()?))
     });
     let Some((map, unit, pit, stress)) = found else {
         *block = None;

@@ -15,6 +15,8 @@ mod measure;
 mod motion;
 mod orbit;
 mod pace;
+mod present;
+mod reference;
 mod regime;
 mod settling;
 mod setup;
@@ -30,7 +32,7 @@ mod totals;
 mod variant;
 mod watching;
 
-pub use caution::{Caution, CautionCode};
+pub use caution::{Caution, CautionCode, Grounds};
 pub use error::{SimError, StepError};
 pub use frame::{
     DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,

@@ -17,8 +17,9 @@ use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
-use super::{Knob, Metrics, SimError, Stats};
+use super::{Grounds, Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
+use crate::physics::strength;
 use crate::plan::Plan;
 use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
 use crate::solve::march::{Flow, March, Shape};
@@ -82,7 +83,8 @@ impl Simulation {
             stats: Stats::default(),
             totals: super::totals::Totals::new(most_steps),
             coarser: None,
-            smooth_film: 0.0,
+            mesh_errors: None,
+            grounds: grounds_of(scene),
             composite: scene.surfaces().map(rms_share),
             pace: Pace::new(stepping),
             stepping,
@@ -271,6 +273,16 @@ fn counting_spec(scene: &Scene, plan: &Plan, heading: Heading, depths: usize) ->
         },
         blocks: [0, 1]
             .map(|body: usize| (maps[body] && surfaces[body].has_block()).then(|| block(body))),
+    }
+}
+
+/// What the scene says of the grounds of cautions.
+fn grounds_of(scene: &Scene) -> Grounds {
+    Grounds {
+        measure: scene.stress.as_ref().map(|stress| stress.measure),
+        strength: [&scene.body_1, &scene.body_2].map(|body| strength::by_young(body.young_pa)),
+        has_life: scene.life.is_some(),
+        ..Grounds::default()
     }
 }
 

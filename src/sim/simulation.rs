@@ -24,7 +24,9 @@ use super::regime::Regime;
 use super::stepping::{Attempted, Mover};
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
-use super::{Frame, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
+use super::{
+    Frame, Grounds, Knob, MeshErrors, Metrics, SimError, Stage, Stats, StepError, Summary,
+};
 use crate::plan::{March as Marching, Plan};
 use crate::solve::march::{Flow, March, Shape};
 use crate::solve::stress::Cut;
@@ -76,7 +78,10 @@ pub struct Simulation {
     pub(super) totals: super::totals::Totals,
     /// The smooth contact on the last but one grid.
     pub(super) coarser: Option<Measured>,
-    pub(super) smooth_film: f64,
+    /// Errors by the mesh of the smooth contact at the scene's speed and load.
+    pub(super) mesh_errors: Option<MeshErrors>,
+    /// What cautions rest on, as far as the scene gives it.
+    pub(super) grounds: Grounds,
     pub(super) composite: [f64; 2],
     pub(super) orbit: Orbit,
     pub(super) stepping: Stepping,

@@ -23,8 +23,7 @@ impl Simulation {
             return self.step_within();
         }
         let measured = self.measure();
-        self.smooth_film = measured.h_central;
-        self.metrics.errors = self.coarser.map(|coarser| MeshErrors {
+        self.mesh_errors = self.coarser.map(|coarser| MeshErrors {
             h_central: (coarser.h_central / measured.h_central - 1.0).abs(),
             h_min: (coarser.h_min / measured.h_min - 1.0).abs(),
             p_max: (coarser.p_max / measured.p_max - 1.0).abs() + self.stress_error,
@@ -35,7 +34,7 @@ impl Simulation {
                 stress.slice(p, q, 0.0);
                 life.set_reference(stress);
                 if let Some(counting) = &mut self.counting {
-                    counting.set_reference(stress, life.stress_exponent());
+                    counting.set_reference(stress, 1.0);
                 }
             });
         }

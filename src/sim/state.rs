@@ -21,7 +21,7 @@ use super::simulation::{Phase, Simulation};
 use super::stepping::place_surfaces;
 use super::stress_stage::StressStage;
 use super::totals::Totals;
-use super::{Metrics, SimError, Stats};
+use super::{MeshErrors, Metrics, SimError, Stats};
 use crate::solve::march::{self, March};
 
 /// State of a simulation; opaque, made by [`Simulation::save`].
@@ -41,7 +41,7 @@ pub struct State {
     stats: Stats,
     totals: Totals,
     coarser: Option<Measured>,
-    smooth_film: f64,
+    mesh_errors: Option<MeshErrors>,
     orbit: Orbit,
     pace: Pace,
     way: f64,
@@ -98,7 +98,8 @@ impl Simulation {
             stats,
             totals,
             coarser,
-            smooth_film,
+            mesh_errors,
+            grounds: _,
             composite: _,
             stepping: _,
             orbit,
@@ -123,7 +124,7 @@ impl Simulation {
             stats: *stats,
             totals: totals.clone(),
             coarser: *coarser,
-            smooth_film: *smooth_film,
+            mesh_errors: *mesh_errors,
             orbit: orbit.clone(),
             pace: *pace,
             way: *way,
@@ -154,7 +155,7 @@ impl Simulation {
             stats,
             totals,
             coarser,
-            smooth_film,
+            mesh_errors,
             orbit,
             pace,
             way,
@@ -182,7 +183,7 @@ impl Simulation {
         if let Some(life) = &mut self.life {
             life.make_room();
         }
-        (self.coarser, self.smooth_film) = (coarser, smooth_film);
+        (self.coarser, self.mesh_errors) = (coarser, mesh_errors);
         self.orbit = orbit;
         (self.pace, self.way, self.next_volume) = (pace, way, next_volume);
         (self.step, self.time_s) = (step, time_s);
@@ -207,11 +208,11 @@ impl Simulation {
             counting,
             life,
             phase,
-            metrics,
+            metrics: _,
             stats: _,
             totals: _,
             coarser,
-            smooth_film,
+            mesh_errors,
             orbit: _,
             pace: _,
             way: _,
@@ -230,13 +231,12 @@ impl Simulation {
             .install(|| March::from_hertz(grid, &self.shape, 0.0, motion.nodes, self.flow));
         march.state = contact.clone();
         if let (Some(own), Some(other)) = (&mut self.life, life) {
-            own.take_reference(other);
+            own.take_base(other);
         }
         if let (Some(own), Some(other)) = (&mut self.counting, counting) {
             own.take_reference(other);
         }
-        (self.coarser, self.smooth_film) = (*coarser, *smooth_film);
-        self.metrics.errors = metrics.errors;
+        (self.coarser, self.mesh_errors) = (*coarser, *mesh_errors);
         Ok(HandedOver {
             march,
             drive: drive.clone(),

@@ -4,9 +4,10 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+use super::caution;
 use super::fatigue_stage::LifeStage;
 use super::summary::PitStart;
-use super::{LifeEstimate, Metrics, Simulation, Stats, Summary};
+use super::{Grounds, LifeEstimate, Metrics, Simulation, Stats, Summary};
 use crate::physics::cycles::BodyId;
 use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
 
@@ -17,7 +18,7 @@ struct Entry {
     way: f64,
     /// Its length, in a.
     span: f64,
-    values: [f64; 8],
+    values: [f64; 9],
     /// Greatest effective stress: value, depth, x.
     stress: Option<[f64; 3]>,
 }
@@ -87,6 +88,7 @@ impl Totals {
                 m.load_error,
                 m.mass_error,
                 m.load_n,
+                m.contact_load_ratio,
             ],
             stress,
         });
@@ -107,6 +109,13 @@ impl Totals {
         self.recent.iter().filter_map(|e| e.stress).max_by(by_value)
     }
 
+    /// Adds what cautions need of the steps.
+    pub(super) fn ground(&self, grounds: &mut Grounds) {
+        grounds.steps_not_converged = self.not_converged;
+        grounds.p_max_greatest_pa = self.greatest(2);
+        grounds.sigma_eff_greatest_pa = self.greatest_stress().map(|stress| stress[0]);
+    }
+
     fn least(&self, k: usize) -> f64 {
         let values = self.recent.iter().map(|e| e.values[k]);
         values.reduce(f64::min).unwrap_or(0.0)
@@ -125,6 +134,7 @@ pub(super) fn summary(
     counters: Stats,
 ) -> Summary {
     let m = sim.metrics();
+    let size = sim.size_now();
     let stress = totals.greatest_stress();
     let stage = sim.life.as_ref();
     Summary {
@@ -136,16 +146,18 @@ pub(super) fn summary(
         steps_not_converged: totals.not_converged,
         wall_s: 0.0,
         steps_per_s: None,
-        a_m: sim.plan.hertz.a_m,
-        p_hertz_pa: sim.plan.hertz.p_max_pa,
+        a_m: sim.plan.hertz.a_m * size,
+        p_hertz_pa: sim.plan.hertz.p_max_pa * size,
         h_central_m: totals.mean(0),
         h_min_m: totals.mean(1),
         p_max_pa: totals.mean(2),
         p_max_greatest_pa: totals.greatest(2),
         h_min_least_m: totals.least(1),
         regime: m.regime,
-        cautions: Vec::new(),
+        cautions: caution::list(m, &sim.grounds()),
+        lambda_ratio: m.lambda_ratio,
         contact_ratio: totals.mean(3),
+        contact_load_ratio: totals.mean(8),
         load_n: totals.mean(7),
         load_error: totals.greatest(5),
         mass_error: totals.greatest(6),
@@ -197,6 +209,9 @@ pub(super) fn summary(
         error_h_central_m: None,
         error_h_min_m: None,
         error_p_max_pa: None,
+        error_contact_ratio: None,
+        error_contact_load_ratio: None,
+        error_friction_coefficient: None,
         error_ln_life: None,
         life_extrapolated: None,
         h_central_extrapolated_m: None,
@@ -206,9 +221,10 @@ pub(super) fn summary(
 /// Where the pit of a body starts.
 fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
     let counting = sim.counting.as_ref()?;
-    let pit = counting.pit(body)?;
+    let size = sim.size_now();
+    let pit = counting.pit(body, size)?;
     let depth = *sim.stress.as_ref()?.depths().get(pit.depth)?;
-    let length = counting.map(body)?.0.spec().length;
+    let length = counting.map(body, size)?.0.spec().length;
     Some(PitStart {
         depth_m: sim.door.m_from_x(depth),
         place_m: super::fill::place_m(sim, pit.place, length),
@@ -225,8 +241,9 @@ fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
     Some(sim.door.m_from_x(depths[k]))
 }
 
-/// a_ISO beside the result, from the scene's load ratio and its film parameter.
+/// a_ISO beside the result, from λ and e_C C_u/P at the load P of now.
 fn a_iso(sim: &Simulation) -> Option<f64> {
-    let lambda = sim.plan.film?.lambda_ratio?;
-    a_iso_radial_ball(kappa_from_lambda(lambda), sim.iso_load_ratio?)
+    let m = sim.metrics();
+    let load_ratio = sim.iso_load_ratio? * sim.plan.force_n / m.load_n;
+    a_iso_radial_ball(kappa_from_lambda(m.lambda_ratio?), load_ratio)
 }

@@ -1,10 +1,11 @@
 //! What is looked at after each step: traction, stress, counts, life, scalars.
 
 use super::counting::contacts;
+use super::fatigue_stage::Now;
 use super::measure::{Fields, Measured, measure};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
-use super::{Follow, Knob, LifeEstimate, LubricationRegime};
+use super::{Follow, Knob, LifeEstimate};
 use crate::physics::cycles::BodyId;
 use crate::solve::march::Flow;
 use crate::solve::traction::TractionLaw;
@@ -128,8 +129,7 @@ impl Simulation {
 
     pub(super) fn measure(&mut self) -> Measured {
         let law = self.law_now();
-        let load = self.drive.get(self.door.load_knob()).now / self.plan.force_n;
-        let scale = self.door.size_ratio(load);
+        let scale = self.size_now();
         let state = &self.march.state;
         self.traction.resize(self.march.grid.len(), 0.0);
         let fields = Fields {
@@ -144,7 +144,9 @@ impl Simulation {
     }
 
     pub(super) fn publish(&mut self, attempted: &Attempted, measured: &Measured) {
+        self.publish_lubrication(measured);
         let has_stress = self.stage_has_stress();
+        let a_m = self.plan.hertz.a_m * self.size_now();
         let door = &self.door;
         let m = &mut self.metrics;
         m.converged = attempted.converged;
@@ -161,30 +163,14 @@ impl Simulation {
         (m.slide_roll, m.slide_roll_target) = (s.now, self.wanted.get(Knob::SlideRoll).target);
         (m.load_n, m.load_target_n) = (force.now, self.wanted.get(load).target);
         m.entrainment_m_s = door.heading.sign() * self.drive.get(Knob::EntrainmentMS).now;
-        m.amplitude_1_m = self.drive.get(Knob::Amplitude1M).now;
-        m.amplitude_2_m = self.drive.get(Knob::Amplitude2M).now;
         m.p_max_pa = door.pa_from_p(measured.p_max);
-        m.h_central_m = door.m_from_h(measured.h_central);
-        m.h_min_m = door.m_from_h(measured.h_min);
-        m.h_mean_m = door.m_from_h(measured.h_mean);
-        m.contact_ratio = measured.contact_ratio;
-        m.contact_load_ratio = measured.contact_load_ratio;
-        let flows = self.regime.flow_now(door, &self.drive) != Flow::Dry;
-        m.regime = LubricationRegime::of(flows, m.contact_load_ratio);
         m.friction_coefficient = measured.friction.abs();
-        let rq = (m.amplitude_1_m * self.composite[0]).hypot(m.amplitude_2_m * self.composite[1]);
-        // Smooth film at the knobs' present values, scaled by the exponents of a regression.
-        let speed = m.entrainment_m_s / (0.5 * (self.plan.speeds_m_s[0] + self.plan.speeds_m_s[1]));
-        let film =
-            door.m_from_h(self.smooth_film) * door.film_ratio(speed, m.load_n / self.plan.force_n);
-        m.lambda_ratio = (rq > 0.0 && film > 0.0).then(|| film / rq);
         if let Some(stress) = self.stress.as_ref().filter(|_| has_stress) {
             let peak = stress.slice.peak;
             m.sigma_eff_max_pa = Some(door.pa_from_p(peak.value));
             m.sigma_eff_max_depth_m = Some(door.m_from_x(peak.z));
             m.sigma_eff_max_x_m = Some(door.place_m(peak.x));
         }
-        let a_m = self.plan.hertz.a_m * door.size_ratio(m.load_n / self.plan.force_n);
         let n = contacts(
             &self.plan,
             a_m,
@@ -206,12 +192,13 @@ impl Simulation {
     }
 
     pub(super) fn life_estimate(&self) -> Option<LifeEstimate> {
-        self.life.as_ref()?.estimate(
-            [self.metrics.n_body_1, self.metrics.n_body_2],
-            self.metrics.slide_roll,
-            self.counting.as_ref(),
-            self.stress_error,
-        )
+        let now = Now {
+            n: [self.metrics.n_body_1, self.metrics.n_body_2],
+            slide_roll: self.metrics.slide_roll,
+            size: self.size_now(),
+            stress_error: self.stress_error,
+        };
+        self.life.as_ref()?.estimate(&now, self.counting.as_ref())
     }
 }
 

@@ -258,6 +258,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         h_min_m: 4.0e-9,
         h_mean_m: H_CENTRAL,
         lambda_ratio: Some(1.1),
+        film_to_roughness: None,
         contact_ratio: 0.03 + 0.01 * wobble,
         contact_load_ratio: 0.05 + 0.012 * wobble,
         regime: LubricationRegime::Mixed,

@@ -305,6 +305,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         h_min_m: f64::from(deepest),
         h_mean_m: 2.2e-7,
         lambda_ratio: (rough > 0.0).then(|| 1.08 / rough),
+        film_to_roughness: None,
         contact_ratio: touching / (0.196 * frame.film_m.len() as f64),
         contact_load_ratio: 0.12,
         regime: LubricationRegime::Mixed,

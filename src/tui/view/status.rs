@@ -110,10 +110,12 @@ fn quality(app: &App, frame: &Frame) -> Words {
         ),
     };
     let (regime, role) = regime(metrics);
-    let lambda = sig_or_dash(metrics.lambda_ratio, 2);
+    let lambda = metrics
+        .lambda_ratio
+        .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
     let mut words = vec![
         residual,
-        (format!("{regime} λ {lambda}"), role),
+        (format!("{regime}{lambda}"), role),
         (
             format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
             Role::Text,
@@ -177,7 +179,7 @@ fn tiny(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// Who carries the load.
+/// Who carries the load, and how good that is.
 fn regime(metrics: &Metrics) -> (&'static str, Role) {
     let role = match metrics.regime {
         LubricationRegime::FullFilm => Role::Good,

@@ -14,19 +14,17 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let cautions = app.cautions();
     let Some(first) = cautions.first() else {
-        let word = if app.life().is_some() {
-            "no cautions (i: model)"
-        } else {
-            ""
-        };
-        put(row, 0, &Line::styled(word, theme.style(Role::Dim)), buffer);
         return;
     };
     let more = match cautions.len() - 1 {
         0 => String::new(),
         more => format!(" +{more} i"),
     };
-    let mark = theme.pick("⚠ ", "! ");
+    let (mark, role) = match first.code {
+        // What every scene leaves out is no alarm.
+        CautionCode::ElasticOnly => ("", Role::Dim),
+        _ => (theme.pick("⚠ ", "! "), Role::Warn),
+    };
     let room = usize::from(row.width).saturating_sub(more.len() + 2);
     let text = ascii_text(theme, &first.text);
     let text = if text.chars().count() <= room {
@@ -35,7 +33,7 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
         name(first).to_owned()
     };
     let line = Line::from(vec![
-        Span::styled(format!("{mark}{text}"), theme.style(Role::Warn)),
+        Span::styled(format!("{mark}{text}"), theme.style(role)),
         Span::styled(more, theme.style(Role::Key)),
     ]);
     put(row, 0, &line, buffer);
@@ -44,11 +42,16 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
 /// A caution in a few letters.
 fn name(caution: &Caution) -> &'static str {
     match caution.code {
+        CautionCode::NotConverged => "not converged",
         CautionCode::BeyondYield => "beyond yield",
+        CautionCode::Dry => "dry",
+        CautionCode::FilmBelowMolecule => "film < molecule",
         CautionCode::MeshFilm => "coarse mesh",
+        CautionCode::StandingBody => "a body stands",
         CautionCode::ModelRange => "models differ",
         CautionCode::NotSettled => "not settled",
-        CautionCode::FilmBelowMolecule => "film < molecule",
-        CautionCode::StandingBody => "a body stands",
+        CautionCode::NoLife => "no life",
+        CautionCode::StrengthUnknown => "yield unknown",
+        CautionCode::ElasticOnly => "elastic, no wear",
     }
 }
