@@ -319,3 +319,36 @@ fn every_knob_moves_every_number_as_the_engine_has_it() {
         );
     }
 }
+
+/// A pinned life and the present one are compared in one unit, whatever their loads: against the loading cycles of two
+/// cold runs, which a calibration point makes absolute.
+#[test]
+fn a_pinned_comparison_is_the_ratio_of_two_cold_lives() {
+    let mut own = scene();
+    let life = own.life.as_mut().unwrap();
+    (life.calibration_cycles, life.calibration_pressure_pa) = (Some(1e8), Some(2e9));
+    let mut bench = Bench::new(&own);
+    bench.settle();
+    let load = Knob::ALL.iter().position(|knob| *knob == Knob::ForceN);
+    bench.press(&[
+        Action::Pin,
+        Action::Choose(load.unwrap()),
+        Action::TurnFar(4),
+    ]);
+    let force_n = bench.app.target(Knob::ForceN);
+    bench.settle();
+    let shown = bench.app.against_pinned().unwrap();
+    let cold = |force_n: f64| {
+        let mut scene = own.clone();
+        (scene.load.force_n, scene.load.hertz_pressure_pa) = (Some(force_n), None);
+        let mut bench = Bench::new(&scene);
+        bench.settle();
+        bench.frame.metrics.life.unwrap().detail.cycles.unwrap()
+    };
+    let expected = cold(force_n) / cold(own.force_n());
+    println!(
+        "{force_n:.0} N against 800 N: {shown:.3e} on the screen, {expected:.3e} by two cold runs"
+    );
+    assert!(force_n > 2.0 * own.force_n() && expected < 0.05);
+    assert!((shown / expected).ln().abs() < 0.1, "{shown} {expected}");
+}

@@ -8,7 +8,7 @@ use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
 use crate::study::sweep::Along;
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
-use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
+use crate::tui::units::{bytes, seconds, sig};
 use crate::tui::view::{Areas, Density, ascii_text, put, put_right};
 use crate::tui::wiring::RecorderActivity;
 
