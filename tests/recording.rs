@@ -119,7 +119,7 @@ impl Contents {
     fn values(&self, entity: &str) -> BTreeMap<i64, Vec<f64>> {
         let value = |pair: &[u8]| {
             let half = u16::from_le_bytes([pair[0], pair[1]]);
-            let (exponent, digits) = (i32::from(half >> 10 & 0x1f), f64::from(half & 0x3ff));
+            let (exponent, digits) = (i32::from((half >> 10) & 0x1f), f64::from(half & 0x3ff));
             let size = match exponent {
                 0 => digits * 2.0_f64.powi(-24),
                 31 => f64::NAN,

@@ -48,7 +48,7 @@ pub(crate) fn spawn() -> Result<SocketAddr, Failure> {
     command.args(["--port", &port.to_string(), "--bind", "127.0.0.1"]);
     command.args(["--memory-limit", VIEWER_MEMORY, "--hide-welcome-screen"]);
     leave_alone(&mut command);
-    let words = Words::new();
+    let mut words = Words::new();
     if let Some(file) = words.as_ref().and_then(|words| words.file.try_clone().ok()) {
         command.stderr(file);
     }
@@ -56,7 +56,7 @@ pub(crate) fn spawn() -> Result<SocketAddr, Failure> {
         .spawn()
         .map_err(|error| Failure::output(miette!("the viewer could not be started: {error}")))?;
     let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-    wait_for(&mut child, address, words)?;
+    wait_for(&mut child, address, words.as_mut())?;
     Ok(address)
 }
 
@@ -74,7 +74,7 @@ impl Words {
         let file = File::options()
             .read(true)
             .append(true)
-            .create(true)
+            .create_new(true)
             .open(&path)
             .ok()?;
         Some(Self { file, path })
@@ -127,12 +127,12 @@ fn leave_alone(_command: &mut Command) {}
 fn wait_for(
     child: &mut Child,
     address: SocketAddr,
-    mut words: Option<Words>,
+    words: Option<&mut Words>,
 ) -> Result<(), Failure> {
     let until = Instant::now() + START;
     while TcpStream::connect_timeout(&address, LOOK).is_err() {
         if let Ok(Some(status)) = child.try_wait() {
-            let said = words.as_mut().map(Words::read).unwrap_or_default();
+            let said = words.map(Words::read).unwrap_or_default();
             let said = if said.is_empty() {
                 said
             } else {

@@ -23,7 +23,8 @@ pub(crate) struct ToCome {
     film: f64,
     /// Amplitudes of body 1 and 2, m.
     pub(crate) amplitude_m: [f64; 2],
-    /// Pressure of crests that are pressed flat, Pa; 0 where the first frame tells, because they grow no more.
+    /// Pressure of crests that are pressed flat, Pa; 0 where the first frame tells, because a film separates them and
+    /// they grow no more.
     crest_pa: f64,
     /// Greatest traction over pressure: limiting shear of the oil or boundary friction; 0: not known.
     friction: f64,
@@ -65,7 +66,8 @@ impl ToCome {
             .iter()
             .zip(now_m)
             .any(|(&most, now)| most > 1.001 * now);
-        let crest_pa = scene.filter(|_| grows).map_or(0.0, |scene| {
+        let touch = m.contact_load_ratio > 0.0;
+        let crest_pa = scene.filter(|_| grows || touch).map_or(0.0, |scene| {
             let surfaces = scene.surfaces().into_iter().zip(amplitude_m);
             let slope = surfaces.map(|(surface, amplitude_m)| {
                 let [k_x, k_y] = surface.wavenumbers_per_m();
@@ -123,10 +125,7 @@ impl Ranges {
         let metrics = &first.metrics;
         let round = |value: f64, (_, per_si): (&str, f64)| nice_up(value * per_si) / per_si;
         let greatest_pa = (1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa);
-        let pressure_pa = round(
-            (to_come.size * greatest_pa).max(1.1 * to_come.crest_pa),
-            GPA,
-        );
+        let pressure_pa = round((to_come.size * greatest_pa).max(to_come.crest_pa), GPA);
         // The film range starts from what the middle of the contact is like in the mean (the film at the
         // origin goes up and down with every crest); the bath around the contact is ten to a hundred times
         // thicker.
@@ -153,9 +152,14 @@ impl Ranges {
             traction_pa: round(traction, MPA),
             roughness_m: round(rough_1.max(rough_2), UM),
             // One frame does not tell what others hold. Below a spike of pressure the effective stress
-            // reaches about 0.5 of it and the shear 0.2 of it (a line contact's, in its own size), and
-            // the spikes' range is known.
-            effective_pa: round((1.05 * effective).max(0.38 * pressure_pa), GPA),
+            // reaches about 0.56 of it and the shear 0.2 of it (a line contact's, in its own size), and
+            // the spikes' range is known, with room where it is that of the first frame.
+            effective_pa: round(
+                (1.05 * effective)
+                    .max(0.38 * pressure_pa)
+                    .max(0.56 * to_come.crest_pa),
+                GPA,
+            ),
             shear_pa: round((1.05 * shear).max(0.15 * pressure_pa), GPA),
             rough: [0, 1].map(|body| rough[body] > 0.0 || to_come.rough[body]),
         }

@@ -64,7 +64,7 @@ fn write(from: &Path, to: &Path, more: Vec<Chunk>) -> Result<(), String> {
         places: HashMap::new(),
     };
     for message in messages {
-        binder.take(message.map_err(|error| words(&error))?)?;
+        binder.take(&message.map_err(|error| words(&error))?)?;
     }
     binder.end()?;
     for chunk in more {
@@ -112,17 +112,17 @@ impl Binder {
     }
 
     /// A message of the old file. What holds for ever stays as it is, and where it is: before what it explains.
-    fn take(&mut self, message: LogMsg) -> Result<(), String> {
-        let LogMsg::ArrowMsg(store, arrow) = &message else {
-            return self.append(&message);
+    fn take(&mut self, message: &LogMsg) -> Result<(), String> {
+        let LogMsg::ArrowMsg(store, arrow) = message else {
+            return self.append(message);
         };
         if store.is_blueprint() {
-            return self.append(&message);
+            return self.append(message);
         }
         self.store.get_or_insert_with(|| store.clone());
         let chunk = Chunk::from_arrow_msg(arrow).map_err(|error| error.to_string())?;
         if chunk.is_static() || chunk.num_rows() == 0 {
-            return self.append(&message);
+            return self.append(message);
         }
         self.take_rows(store.clone(), &chunk)
     }

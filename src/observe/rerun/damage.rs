@@ -118,8 +118,8 @@ impl Block {
             colours: Colormap::Magma,
         };
         let style = Points2D::update_fields()
-            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
-            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
+            .with_radii([Radius::new_ui_points(0.0), Radius::new_ui_points(5.0)])
+            .with_colors([faded(WHITE, 255), faded(GREEN, 255)])
             .with_show_labels(true)
             .with_draw_order(26.0);
         stream.log_static(worst_point(entity), &style)?;
@@ -169,7 +169,7 @@ impl Block {
         let crossed = 100.0 * damage.filled as f64 / self.columns as f64;
         let not_yet = if damage.filled < self.columns {
             format!(
-                "; {} % of it has crossed, the rest is not drawn",
+                "\n{} % of it has crossed; the rest is not drawn",
                 sig(crossed, 2)
             )
         } else {
@@ -180,12 +180,11 @@ impl Block {
             sig(damage.pit_damage, 3),
             sig(damage.pit_depth_m * UM, 3),
         );
-        // In the middle below, where it hides little and is not cut off.
-        let label_at = [0.5 * WIDTH, 0.86 * HEIGHT].map(|v| v as f32);
+        // In the middle below, where it hides little and is not cut off. A worst point below the picture has no dot.
+        let label_at = [0.5 * WIDTH, 0.84 * HEIGHT].map(|v| v as f32);
         let pit = Points2D::update_fields()
-            // Of a worst point below the picture only the label is shown.
-            .with_positions([at.unwrap_or(label_at), label_at])
-            .with_labels([String::new(), label]);
+            .with_positions(std::iter::once(label_at).chain(at))
+            .with_labels([label, String::new()]);
         stream.log(&worst_point(self.entity), &pit)
     }
 }

@@ -58,12 +58,7 @@ pub(super) fn send(stream: &Stream, shown: &Shown) -> Result<(), ObserveError> {
         .with_state(PanelState::Collapsed)
         .with_timeline(STEP)
         .with_play_state(PlayState::Following)
-        // What grows is followed; what is whole is played again and again.
-        .with_loop_mode(if shown.live {
-            LoopMode::Off
-        } else {
-            LoopMode::All
-        })
+        .with_loop_mode(loop_mode(shown.live))
         .with_fps(15.0);
     let blueprint = Blueprint::new(Tabs::new(tabs))
         .with_auto_layout(false)
@@ -77,6 +72,11 @@ pub(super) fn send(stream: &Stream, shown: &Shown) -> Result<(), ObserveError> {
             format!("its layout could not be made: {error}"),
         )
     })
+}
+
+/// What grows is followed and never jumps back; what is whole is played again and again.
+fn loop_mode(live: bool) -> LoopMode {
+    if live { LoopMode::Off } else { LoopMode::All }
 }
 
 fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
@@ -112,7 +112,7 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     if let Some(plot) = &shown.slice {
         let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT, slice::HERTZ];
         lower.push(views.plot(
-            "Effective stress below body 1",
+            "Effective stress below body 1, a row per depth",
             &contents,
             plot,
             Margin::Legend,
@@ -175,7 +175,7 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     }
     if let Some(plot) = &shown.slice {
         all.push(views.plot(
-            "Orthogonal shear stress",
+            "Orthogonal shear stress, a row per depth",
             &[slice::TAU_XZ, slice::HERTZ],
             plot,
             Margin::Legend,
@@ -242,7 +242,10 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
 fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let left = Vertical::new([
         life_series(views),
-        views.series("Its factors, log10 (they add up)", &["life/log10_factors"]),
+        views.series(
+            "Its factors, log10 (they add up; load apart)",
+            &["life/log10_factors"],
+        ),
     ]);
     let middle = Vertical::new([
         views.series(
@@ -368,4 +371,15 @@ fn send_with(
     };
     recording.send_blueprint(messages, activation);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_live_does_not_loop() {
+        assert_eq!(loop_mode(true), LoopMode::Off);
+        assert_eq!(loop_mode(false), LoopMode::All);
+    }
 }

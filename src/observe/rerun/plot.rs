@@ -193,7 +193,8 @@ impl Hertz {
             return Ok(());
         }
         let (a, b) = (frame.a_m * MM, frame.b_m * MM);
-        let high = -frame.y_min_m * MM;
+        // Of a line a stretch that lies inside of every picture, those of a part of the domain too.
+        let high = 1.2 * b;
         let strips: Vec<Vec<[f64; 2]>> = match frame.kind {
             ContactKind::Point => vec![
                 (0..=96)

@@ -385,7 +385,7 @@ mod tests {
 
     /// IEEE 754 binary16.
     fn value_of(half: u16) -> f64 {
-        let (exponent, digits) = (i32::from(half >> 10 & 0x1f), f64::from(half & 0x3ff));
+        let (exponent, digits) = (i32::from((half >> 10) & 0x1f), f64::from(half & 0x3ff));
         let size = match exponent {
             0 => digits * 2.0_f64.powi(-24),
             _ => (1024.0 + digits) * 2.0_f64.powi(exponent - 25),

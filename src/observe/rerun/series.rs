@@ -88,18 +88,24 @@ static GROUPS: [Group; 26] = [
     Group {
         entity: "series/cautions",
         lines: &[
-            ("beyond yield", VERMILION),
-            ("film by the mesh", ORANGE),
+            ("not converged", VERMILION),
+            ("beyond yield", ORANGE),
+            ("no oil flows", GREY),
+            ("film below a molecule", BLUE),
+            ("mesh error of the film", GREEN),
+            ("a body stands", PURPLE),
             ("models differ", OLIVE),
             ("not settled", SKY),
-            ("film below a molecule", BLUE),
-            ("a body stands", PURPLE),
         ],
         values: |frame, out| {
             let from = out.len();
-            out.resize(from + 6, 0.0);
-            for caution in frame.cautions() {
-                out[from + place(caution.code)] = 1.0;
+            out.resize(from + 8, 0.0);
+            for line in frame
+                .cautions()
+                .iter()
+                .filter_map(|caution| line(caution.code))
+            {
+                out[from + line] = 1.0;
             }
         },
     },
@@ -254,15 +260,18 @@ fn regime(regime: LubricationRegime) -> f64 {
     }
 }
 
-/// Line of a caution in its group.
-fn place(code: CautionCode) -> usize {
+/// Line of a caution in its group; none for what holds for the whole run.
+fn line(code: CautionCode) -> Option<usize> {
     match code {
-        CautionCode::BeyondYield => 0,
-        CautionCode::MeshFilm => 1,
-        CautionCode::ModelRange => 2,
-        CautionCode::NotSettled => 3,
-        CautionCode::FilmBelowMolecule => 4,
-        CautionCode::StandingBody => 5,
+        CautionCode::NotConverged => Some(0),
+        CautionCode::BeyondYield => Some(1),
+        CautionCode::Dry => Some(2),
+        CautionCode::FilmBelowMolecule => Some(3),
+        CautionCode::MeshFilm => Some(4),
+        CautionCode::StandingBody => Some(5),
+        CautionCode::ModelRange => Some(6),
+        CautionCode::NotSettled => Some(7),
+        CautionCode::NoLife | CautionCode::StrengthUnknown | CautionCode::ElasticOnly => None,
     }
 }
 

@@ -174,7 +174,7 @@ fn plot_box(g: Geometry, depths: &Depths) -> PlotBox {
         y: [0.0, height],
         x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
         left_ticks: depths.ticks(height),
-        x_title: "x, mm   (depth stretched: a row for each depth computed)".into(),
+        x_title: "x, mm".into(),
         titles: vec![(0.13, "depth z, µm".into(), WHITE)],
         ..PlotBox::default()
     }

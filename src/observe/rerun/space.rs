@@ -8,14 +8,15 @@
 mod fixed;
 mod hung;
 
-use rerun::{Arrows3D, Color, Points3D};
+use rerun::{Arrows3D, Color, Points3D, Radius};
 
-use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, packed};
+use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, for_text, packed};
 use super::depths::Depths;
 use super::geometry::Geometry;
 use super::mesh::{COARSE, FINE, Window};
 use super::stream::Stream;
 use super::waiting::Sheet;
+use crate::math::number::sig;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, number};
 use crate::sim::{Frame, Metrics};
@@ -258,13 +259,12 @@ impl Space {
         if point.body == 1 && x.abs() <= 1.45 * self.geometry.a {
             let z = self.levels.slice - point.depth_m * MM;
             // A little in front of the cut, or the slice would hide half of it.
-            places = vec![[x as f32, (-0.03 * self.geometry.a) as f32, z as f32]; 2];
+            places = vec![[x as f32, (-0.03 * self.geometry.a) as f32, z as f32]; 3];
             let stress = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
-            colours = vec![Color::from(GREEN), Color::from(stress)];
-            labels = vec![
-                format!("{:.2} GPa", point.effective_pa * GPA.1),
-                String::new(),
-            ];
+            // Rim, dot, and what carries the label in a colour that can be read.
+            colours = [GREEN, stress, for_text(GREEN)].map(Color::from).to_vec();
+            let label = format!("{} GPa", sig(point.effective_pa * GPA.1, 3));
+            labels = vec![String::new(), String::new(), label];
         }
         let dot = Points3D::update_fields()
             .with_positions(places)
@@ -288,18 +288,22 @@ impl Space {
         let a = self.geometry.a;
         let [x, y] = [-1.45 * a, -0.15 * a];
         let levels = [self.levels.body_1, self.levels.body_2];
-        let arrows = Arrows3D::from_vectors(
-            speeds.map(|speed| [(0.7 * a * speed / u.abs()) as f32, 0.0, 0.0]),
-        )
-        .with_origins(levels.map(|z| [x as f32, y as f32, z as f32]))
-        .with_radii([(0.022 * a) as f32])
-        .with_colors([Color::from(SKY), Color::from(ORANGE)])
-        .with_labels([
-            format!("U1 = {:.2} m/s", speeds[0]),
-            format!("U2 = {:.2} m/s", speeds[1]),
-        ])
+        let lengths = speeds.map(|speed| 0.7 * a * speed / u.abs());
+        let arrows = Arrows3D::from_vectors(lengths.map(|length| [length as f32, 0.0, 0.0]))
+            .with_origins(levels.map(|z| [x as f32, y as f32, z as f32]))
+            .with_radii([(0.022 * a) as f32])
+            .with_colors([Color::from(SKY), Color::from(ORANGE)]);
+        stream.log(&format!("{SPACE}/surface_speeds"), &arrows)?;
+        let places = lengths.into_iter().zip(levels);
+        let labels = Points3D::new(places.map(|(length, z)| {
+            let middle = x + 0.5 * length;
+            [middle as f32, y as f32, z as f32]
+        }))
+        .with_radii([Radius::new_scene_units(0.0)])
+        .with_colors([SKY, ORANGE].map(|colour| Color::from(for_text(colour))))
+        .with_labels([1, 2].map(|body| format!("U{body} = {} m/s", sig(speeds[body - 1], 3))))
         .with_show_labels(true);
-        stream.log(&format!("{SPACE}/surface_speeds"), &arrows)
+        stream.log(&format!("{SPACE}/surface_speeds/labels"), &labels)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::math::number::{seconds, sig, sig_or_dash};
 use crate::observe::scales::number;
 use crate::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
 use crate::scene::ContactKind;
-use crate::sim::{Frame, LifeEstimate};
+use crate::sim::{Caution, CautionCode, Frame, LifeEstimate};
 
 pub(super) const ABOUT: &str = "text/about";
 pub(super) const SCENE_TOML: &str = "text/scene_toml";
@@ -115,16 +115,13 @@ fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
     if let Some(life) = &m.life {
         push_life(&mut text, life);
     }
-    if !m.converged {
-        let residual = sig(m.residual, 2);
-        let _ = writeln!(
-            text,
-            "**This step did not converge: residual {residual}.**\n"
-        );
+    // The weightiest first; the last one holds for every run, and the numbers come before it.
+    let cautions = frame.cautions();
+    let always = |caution: &&Caution| caution.code == CautionCode::ElasticOnly;
+    for caution in cautions.iter().filter(|caution| !always(caution)) {
+        let _ = writeln!(text, "- {}", caution.text);
     }
-    for caution in frame.cautions() {
-        let _ = writeln!(text, "**Caution:** {}\n", caution.text);
-    }
+    text.push('\n');
     push_table(&mut text, frame);
     for (
         entity,
@@ -139,6 +136,9 @@ fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
             text,
             "| above the colours | {entity}: {above} nodes, up to {greatest} {unit} |"
         );
+    }
+    for caution in cautions.iter().filter(always) {
+        let _ = writeln!(text, "\n{}", caution.text);
     }
     text
 }

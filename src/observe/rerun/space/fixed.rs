@@ -37,7 +37,7 @@ impl Space {
             .with_colors([Color::from([90, 255, 250])]);
         stream.log_static(SPOTS, &spots)?;
         let point = Points3D::update_fields()
-            .with_radii([0.075, 0.055].map(|r| (r * self.geometry.a) as f32))
+            .with_radii([0.075, 0.055, 0.0].map(|r| (r * self.geometry.a) as f32))
             .with_show_labels(true);
         stream.log_static(POINT, &point)
     }
