@@ -509,7 +509,7 @@ fn another_surface_under_the_same_name_is_another_scene() {
     let file = format!("--set=body_2.surface.file={}", map.display());
     let scene = [
         "--set=body_2.surface.kind=height_map",
-        "--set=body_2.surface.pixel_m=5e-5",
+        "--set=body_2.surface.pixel_m=4e-4",
         "--set=body_2.surface.unit_m=1e-9",
         &file,
     ];

@@ -12,6 +12,7 @@ mod cadence;
 mod centre_line;
 mod colour;
 mod damage;
+mod destination;
 mod file;
 mod gathered;
 mod geometry;

@@ -22,8 +22,7 @@ use super::text;
 use super::trace::Trace;
 use crate::observe::scales::Ranges;
 use crate::observe::{
-    NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
-    RunEventKind,
+    ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent, RunEventKind,
 };
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
@@ -31,9 +30,6 @@ use crate::sim::{Frame, Stage};
 /// The maps of the second tab and of damage are recorded in every so-many-th picture: they cost as much as all
 /// the others, and for looking at textures and at what collects slowly half the pace does.
 const BESIDE_EVERY: u64 = 2;
-
-/// What is sent to a viewer that has not answered yet, bytes: far less than the library lets wait before it blocks.
-const UNANSWERED: u64 = 8 * 1024 * 1024;
 
 /// Writes a recording.
 pub struct Recorder {
@@ -92,7 +88,7 @@ impl Recorder {
     /// The file that is written now: the recording's own, or beside it where it will replace another; `None`: a
     /// viewer's.
     pub fn path(&self) -> Option<PathBuf> {
-        self.stream.file().map(RecordingFile::path)
+        self.stream.to().file().map(RecordingFile::path)
     }
 
     fn on(stream: Stream, record: &Record) -> Self {
@@ -146,10 +142,11 @@ impl Recorder {
 impl Recorder {
     /// Whether enough was sent to a viewer that has not answered.
     fn is_unheard(&self) -> bool {
-        let sent = self.views.as_ref().map_or(0, |views| {
-            self.frames.saturating_mul(frame_bytes(views.geometry))
-        });
-        !self.stream.has_answered() && sent > UNANSWERED
+        let frame = |views: &Views| frame_bytes(views.geometry);
+        let sent = self
+            .frames
+            .saturating_mul(self.views.as_ref().map_or(0, frame));
+        self.stream.to().is_deaf(sent)
     }
 
     /// Hands what waits on to the file or the viewer.
@@ -310,7 +307,7 @@ impl Observer for Recorder {
             self.send_on()?;
         }
         self.stream.check()?;
-        if let Some(file) = self.stream.file() {
+        if let Some(file) = self.stream.to().file() {
             file.hold();
         }
         self.frames += 1;
@@ -358,21 +355,8 @@ impl Observer for Recorder {
             text::log_line(&self.stream, &last, TextLogLevel::INFO)?;
         }
         self.stream.close()?;
-        let is_heard = self.stream.has_answered();
-        let note = match (self.stream.file(), is_heard) {
-            (Some(_), _) if self.frames == 0 => NOTHING_CAME,
-            (None, false) => "the viewer never answered",
-            (None, true) if self.unsent > 0 => "the viewer was closed",
-            _ => "",
-        };
-        Ok(ObserverReport {
-            output: self.stream.output(),
-            frames: if is_heard { self.frames } else { 0 },
-            skipped: self.unsent + if is_heard { 0 } else { self.frames },
-            bytes: self.stream.bytes(),
-            note: note.to_owned(),
-            queue: None,
-        })
+        let (stream, frames) = (&self.stream, self.frames);
+        Ok(stream.to().report(stream.output(), frames, self.unsent))
     }
 }
 
