@@ -210,6 +210,7 @@ impl Placed {
     }
 
     /// Where it is written: its name, or beside the file that it will replace.
+    #[cfg(feature = "rerun")]
     pub(super) fn at(&self) -> &Path {
         &self.at
     }
