@@ -9,7 +9,6 @@ use rerun::TextLogLevel;
 
 use self::views::Views;
 use super::file::RecordingFile;
-use super::geometry::Geometry;
 use super::live::Live;
 use super::moment::Moment;
 use super::stream::Stream;
