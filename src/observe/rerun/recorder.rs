@@ -194,6 +194,10 @@ impl Observer for Recorder {
         Ok(())
     }
 
+    fn kept(&self) -> Option<u64> {
+        self.views.as_ref().map(|views| views.pictures)
+    }
+
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
         if self.stream.is_gone() {
             return Ok(());
