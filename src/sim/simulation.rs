@@ -158,6 +158,10 @@ impl Simulation {
                     .motion
                     .dt_s(&self.work.solver.grid, &self.door, &self.state.drive);
             let held = Attempted::held(&self.state.metrics, self.state.motion.nodes);
+            // The contact rests, the bodies do not: material points cross it.
+            let s = self.state.drive.get(Knob::SlideRoll).now;
+            let grid = &self.work.solver.grid;
+            self.state.motion.travel(grid, held.nodes, s);
             self.watch(&held);
             self.state.way += held.nodes * self.work.solver.grid.dx;
         } else {
