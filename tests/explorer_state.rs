@@ -64,7 +64,7 @@ fn turning_a_knob_sends_it_and_moves_the_formula_at_once() {
         panic!("{commands:?}");
     };
     assert!((value - 0.55).abs() < 1e-12);
-    assert_eq!(app.leading(), Leading::Formula);
+    assert_eq!(app.leading(), Leading::Scaled);
     // No frame came between, and yet the life that leads fell by the ratio of the counts.
     let count = |s: f64| 1.0 + 4.4 * s / (1.0 - 0.5 * s);
     let expected = simulated * count(0.5) / count(0.55);
@@ -86,7 +86,7 @@ fn the_simulation_takes_over_when_it_has_settled_there() {
         ..State::default()
     };
     play(&mut app, 97..=99, &way);
-    assert_eq!(app.leading(), Leading::Formula);
+    assert_eq!(app.leading(), Leading::Scaled);
     let arrived = State {
         slide_roll: 0.75,
         slide_roll_target: 0.75,

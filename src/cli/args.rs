@@ -34,7 +34,11 @@ Examples:
   asperity view demonstration.rrd                          the recording in the Rerun viewer
 
 Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not converge (they are named);
-3 the run stalled; 4 an output failed.";
+3 the run stalled; 4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP) before its end.
+
+Outputs: a file that is there is replaced (--force) only by one that is whole; until then the new one lies beside it,
+as NAME.part-PID-N.ENDING, which is what a killed run leaves. Results are the same bit for bit on any number of
+threads and on every CPU with the same vector units; between kinds of CPU they differ by rounding (about 1e-7).";
 
 const SWEEP_ABOUT: &str = "\
 Run many cases of a scene; write one table with a row for each, and plots.
@@ -46,8 +50,12 @@ or, with combine = \"list\", vary together. Instead of [vary], [gear] follows a 
 
 Cases that differ only in S or an amplitude start from each other's final state, in chains of at most [chain] longest
 cases; a chain begins cold. The file alone determines the chains, and shards are made of whole chains, so the table is
-the same byte for byte whatever --shard, --threads and interruptions. Every case is written whole or not at all:
-after an interruption --resume continues.";
+the same byte for byte whatever --shard, --threads and interruptions, on machines of one kind: CPUs with other vector
+units differ by rounding (about 1e-7). Every case is written whole or not at all: after an interruption --resume
+continues.
+
+A folder is taken that is empty or that a sweep has marked (sweep.digest); --force takes away the sweep's own files in
+it and no others.";
 
 const SWEEP_EXAMPLES: &str = "\
 Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.
@@ -64,13 +72,13 @@ Examples:
   asperity sweep fzg_c --show points             R, U1, U2, S, load, p_h, film along the path; no simulation
 
 Exit codes: 0 all converged; 1 bad input; 2 some cases did not converge; 3 some stalled, or cases are missing;
-4 an output failed.";
+4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP).";
 
 /// The whole command line.
 #[derive(Debug, Parser)]
 #[command(
     name = "asperity",
-    version,
+    version = asperity::files::VERSION,
     about = ABOUT,
     long_about = LONG_ABOUT,
     after_long_help = EXAMPLES,

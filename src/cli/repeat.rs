@@ -41,7 +41,7 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
             "{error}"
         ))
     })?;
-    let program = concat!("asperity ", env!("CARGO_PKG_VERSION"));
+    let program = asperity::files::PROGRAM;
     if recorded.program != program {
         let _ = writeln!(
             std::io::stderr(),

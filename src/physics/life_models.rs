@@ -97,26 +97,39 @@ impl LifeModel {
         }
     }
 
-    /// Exponent s of life against the Hertz pressure of the smooth contact with the same radii, `N ∝ p_h^{−s}`;
-    /// `None` where a limit breaks the power law. `sides` is the number of directions in which the contact
-    /// grows with the pressure: 2 for a point, 1 for a line.
-    pub fn pressure_exponent(self, law: LifeLaw, sides: f64) -> Option<f64> {
-        let (c, e) = (law.stress_exponent, law.weibull_slope);
+    /// Exponent g of J in fixed units against the size of a smooth contact with the same radii, whose pressure and
+    /// widths grow alike: `J ∝ r^g` (of a limit it is the exponent without it). `sides` is the number of directions in
+    /// which the contact grows with the pressure: 2 for a point, 1 for a line; `swept`: J of a length of track.
+    pub fn growth(self, law: LifeLaw, sides: f64, swept: bool) -> f64 {
         let depth = 1.0;
+        let lengths = if swept { sides } else { sides + depth };
         match self {
-            Self::Zaretsky => Some(c + (sides + depth) / e),
-            // V ∝ width · z0: the length of the track does not change.
+            Self::Zaretsky => law.integral_exponent() + lengths,
             Self::LundbergPalmgren { depth_exponent, .. } => {
-                Some((c + sides - 1.0 + depth - depth_exponent) / e)
+                law.stress_exponent + depth - depth_exponent
             }
-            Self::IoannidesHarris {
-                depth_exponent,
-                limit: 0.0,
-                ..
-            } => Some((c + sides + depth - depth_exponent) / e),
-            Self::IoannidesHarris { .. } => None,
-            Self::DangVan { .. } | Self::Findley { .. } => Some(c),
+            Self::IoannidesHarris { depth_exponent, .. } => {
+                law.stress_exponent + lengths - depth_exponent
+            }
+            Self::DangVan { .. } | Self::Findley { .. } => law.integral_exponent(),
         }
+    }
+
+    /// Exponent of the stressed volume's width, which cancels from relative lives at one load and is therefore not
+    /// in J: Lundberg and Palmgren's V ∝ width · z0, and the length of the track does not change.
+    pub fn width(self, sides: f64) -> f64 {
+        match self {
+            Self::LundbergPalmgren { .. } => sides - 1.0,
+            _ => 0.0,
+        }
+    }
+
+    /// Exponent s of life against the Hertz pressure of the smooth contact with the same radii, `N ∝ p_h^{−s}`;
+    /// `None` where a limit breaks the power law. `sides` as in [`LifeModel::growth`].
+    pub fn pressure_exponent(self, law: LifeLaw, sides: f64) -> Option<f64> {
+        let limited = matches!(self, Self::IoannidesHarris { limit, .. } if limit != 0.0);
+        let exponent = (self.growth(law, sides, false) + self.width(sides)) / law.weibull_slope;
+        (!limited).then_some(exponent)
     }
 }
 

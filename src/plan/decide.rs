@@ -7,37 +7,52 @@ use super::{
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Rheology, Scene, Spread, Surface};
+use crate::scene::{ContactKind, EyringFlow, Rheology, Scene, Spread, Surface};
 
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     if let Some(line) = scene.line_point() {
-        let (central_m, rq_m) = (line.moes_central_m(), scene.composite_rq_m());
-        return Some(FilmPlan {
+        let central_m = line.moes_central_m();
+        let film = FilmPlan {
             groups: line.groups(),
             central_m,
             others: OtherFilms::DowsonHigginson {
                 minimum_m: line.dowson_higginson_minimum_m(),
             },
             central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
-            lambda_ratio: (rq_m > 0.0).then(|| central_m / rq_m),
+            lambda_ratio: None,
+            radii_ratio: 0.0,
             valleys: valleys(scene),
-        });
+            eyring_flow: eyring_flow(scene),
+        };
+        return Some(with_lambda(film, scene));
     }
     let point = scene.operating_point()?;
     let central_m = film_regression::nijenbanning_central_m(&point);
-    let hamrock_dowson_central_m = film_regression::hamrock_dowson_central_m(&point);
-    let rq_m = scene.composite_rq_m();
-    Some(FilmPlan {
+    let film = FilmPlan {
         groups: point.groups(),
         central_m,
         others: OtherFilms::HamrockDowson {
-            central_m: hamrock_dowson_central_m,
+            central_m: film_regression::hamrock_dowson_central_m(&point),
             minimum_m: film_regression::hamrock_dowson_minimum_m(&point),
         },
         central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
-        lambda_ratio: (rq_m > 0.0).then(|| hamrock_dowson_central_m / rq_m),
+        lambda_ratio: None,
+        radii_ratio: point.rx_m / point.ry_m,
         valleys: valleys(scene),
-    })
+        eyring_flow: eyring_flow(scene),
+    };
+    Some(with_lambda(film, scene))
+}
+
+fn with_lambda(mut film: FilmPlan, scene: &Scene) -> FilmPlan {
+    film.lambda_ratio = film.lambda(scene.composite_rq_m());
+    film
+}
+
+fn eyring_flow(scene: &Scene) -> Option<EyringFlow> {
+    let oil = scene.lubricant.as_ref();
+    oil.filter(|oil| oil.rheology == Rheology::Eyring)
+        .map(|oil| oil.eyring_flow)
 }
 
 fn valleys(scene: &Scene) -> Valleys {

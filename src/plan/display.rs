@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{LINE_ROWS, LifePlan, March, OtherFilms, Plan, Symmetry, WavePlan};
-use crate::scene::{ContactKind, CycleBasis, Spread, VolumeIntegral};
+use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread, VolumeIntegral};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -178,6 +178,10 @@ impl Plan {
             }
             _ => format!("dry contact ({rows})"),
         }];
+        let film = self.film.filter(|film| film.flows());
+        if let Some(flow) = film.and_then(|film| film.eyring_flow) {
+            lines.push(flow_text(flow).to_owned());
+        }
         lines.push("traction on both bodies, friction coefficient".to_owned());
         if let Some(traction) = self.traction_deflection {
             lines.push(format!(
@@ -250,6 +254,18 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
         "damage of {bodies} over depth and along the surface, by material points on y = 0"
     ));
     lines
+}
+
+/// What the pressure's flow meets in Eyring oil, in words.
+fn flow_text(flow: EyringFlow) -> &'static str {
+    match flow {
+        EyringFlow::Secant => {
+            "Eyring oil: flow by one effective viscosity in both directions (secant)"
+        }
+        EyringFlow::AlongAcross => {
+            "Eyring oil: flow along the sliding by the tangent of its law, across by the secant"
+        }
+    }
 }
 
 fn every(steps: u64) -> String {

@@ -7,6 +7,7 @@ mod cost;
 mod decide;
 mod display;
 mod domain;
+mod film;
 mod life;
 mod surfaces;
 mod warning;
@@ -19,7 +20,7 @@ pub use warning::{LeftOut, PlanError, Warning};
 
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Record, Scene, StressMeasure};
+use crate::scene::{ContactKind, EyringFlow, Record, Scene, StressMeasure};
 
 /// Everything that is decided before the first step.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,11 +90,14 @@ pub struct FilmPlan {
     pub others: OtherFilms,
     /// Central film in a²/Rx.
     pub central: f64,
-    /// Central film (point: by Hamrock and Dowson; line: by Moes) over the composite root-mean-square
-    /// roughness; `None`: smooth.
+    /// λ of the scene ([`FilmPlan::lambda`]); `None`: smooth.
     pub lambda_ratio: Option<f64>,
+    /// Rx/Ry; 0 for a line.
+    pub radii_ratio: f64,
     /// Whether the oil between the bodies can leave.
     pub valleys: Valleys,
+    /// What the pressure's flow meets in sheared oil; `None`: the oil is Newtonian.
+    pub eyring_flow: Option<EyringFlow>,
 }
 
 /// Whether oil between crests that touch can leave by the valleys of one of the surfaces.
@@ -129,14 +133,6 @@ pub enum Valleys {
 pub const MOLECULE_M: f64 = 4e-10;
 
 impl FilmPlan {
-    /// The same with a central film so many times as thick.
-    #[must_use]
-    pub fn times(mut self, ratio: f64) -> Self {
-        self.central_m *= ratio;
-        self.central *= ratio;
-        self
-    }
-
     /// Whether it is at least one layer of molecules thick ([`MOLECULE_M`]).
     pub fn is_film(&self) -> bool {
         self.central_m >= MOLECULE_M

@@ -88,6 +88,7 @@ const BODY: &[Key] = &[
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
     key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file"),
+    key("digest", "", Text(16), Optional("the file is taken as it is"), "digest of the file's numbers: a file of another is refused; written by the program"),
     key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
     key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean subtracted), or once (mean of the rim subtracted, tapered to 0)"),
     key("unit_m", "m", Number(1e-12, 1e3), Defaulted, "height that a value of 1 stands for"),
@@ -156,6 +157,7 @@ pub const SECTIONS: &[Section] = &[
             key("density_law", "", Choice(&["incompressible", "dowson_higginson", "venner_lubrecht"]), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law with other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
             key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
             key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
+            key("eyring_flow", "", Choice(&["secant", "along_across"]), Defaulted, "viscosity that the pressure's flow meets in sheared oil: one for both directions (secant of Eyring's law), or its tangent along the sliding and its secant across; read when rheology = \"eyring\""),
             key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),
             key("cavitation", "", Choice(&["reynolds", "jfo"]), Defaulted, "how the film ruptures"),
         ],
@@ -326,7 +328,7 @@ impl Key {
         }
         let of_map = matches!(
             self.name,
-            "file" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
+            "file" | "digest" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
         );
         match (kind, self.name) {
             (Some("smooth"), _) => None,

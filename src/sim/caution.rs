@@ -1,25 +1,46 @@
 //! What a reader must know before trusting a result: a code for scripts, a sentence with numbers for people.
+//!
+//! ```text
+//! beyond_yield   p_max > H or σ_eff > Y of the body that carries less, as far as it is known        greatest of the last passage
+//! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
+//! model_range    greatest over least life of the choices > 2
+//! ```
+//! One list for the screen, the summary and the report text. It is made only when asked for.
 
 use serde::{Deserialize, Serialize};
 
-use super::Frame;
+use super::{Frame, LifeEstimate, Metrics};
+use crate::math::number::sig;
+use crate::physics::strength::Strength;
+use crate::plan::MOLECULE_M;
+use crate::scene::StressMeasure;
 
 /// Kind of caution, as scripts read it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CautionCode {
+    /// A step did not converge.
+    NotConverged,
     /// Pressure or stress beyond what the material carries elastically.
     BeyondYield,
+    /// No oil flows.
+    Dry,
+    /// The film is thinner than a layer of oil molecules.
+    FilmBelowMolecule,
     /// The mesh costs a good part of the film.
     MeshFilm,
+    /// A body stands (|S| = 2) and is left out of the life.
+    StandingBody,
     /// Models and cycle bases differ by a large factor.
     ModelRange,
     /// The average still moves, or does not cover a period of the present conditions yet.
     NotSettled,
-    /// The film is thinner than a layer of oil molecules.
-    FilmBelowMolecule,
-    /// A body stands (|S| = 2) and is left out of the life.
-    StandingBody,
+    /// The scene computes no life.
+    NoLife,
+    /// A body is not steel: what it carries is not known.
+    StrengthUnknown,
+    /// What the model leaves out; always the last.
+    ElasticOnly,
 }
 
 /// A caution: its code, and a sentence with numbers.
@@ -31,9 +52,317 @@ pub struct Caution {
     pub text: String,
 }
 
+/// What cautions rest on beside the scalars of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Grounds {
+    /// Steps of the passage so far.
+    pub steps: u64,
+    /// Those that did not converge.
+    pub steps_not_converged: u64,
+    /// Greatest pressure of the last passage (or period), Pa.
+    pub p_max_greatest_pa: f64,
+    /// Greatest effective stress of it, Pa.
+    pub sigma_eff_greatest_pa: Option<f64>,
+    /// Measure of the effective stress; `None`: no stress is computed.
+    pub measure: Option<StressMeasure>,
+    /// What body 1 and 2 carry; `None`: not known.
+    pub strength: [Option<Strength>; 2],
+    /// Smooth central film by formula at the knobs' present values, m; `None`: no oil.
+    pub film_m: Option<f64>,
+    /// Whether oil flows.
+    pub flows: bool,
+    /// Relative error of the smooth central film by the mesh at those values; `None`: no flow.
+    pub mesh_film: Option<f64>,
+    /// Whether the scene computes a life.
+    pub has_life: bool,
+}
+
+/// Error of the film by the mesh that is worth a word.
+const MESH_WORTH_A_WORD: f64 = 0.05;
+/// Factor between models that is.
+const RANGE_WORTH_A_WORD: f64 = 2.0;
+
 impl Frame {
     /// What to know before trusting this frame's numbers, the weightiest first.
     pub fn cautions(&self) -> Vec<Caution> {
-        Vec::new()
+        list(&self.metrics, &self.grounds)
+    }
+}
+
+/// What to know before trusting the numbers of a step and of the passage that it ends, the weightiest first.
+pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
+    let mut list = Vec::new();
+    let mut say = |code: CautionCode, text: Option<String>| {
+        list.extend(text.map(|text| Caution { code, text }));
+    };
+    say(CautionCode::NotConverged, not_converged(m, grounds));
+    say(CautionCode::BeyondYield, pressure_beyond(grounds));
+    say(CautionCode::BeyondYield, stress_beyond(grounds));
+    say(CautionCode::Dry, dry(grounds));
+    say(CautionCode::FilmBelowMolecule, below_molecule(grounds));
+    say(CautionCode::MeshFilm, mesh_film(grounds));
+    say(CautionCode::StandingBody, standing(m, grounds));
+    say(CautionCode::ModelRange, model_range(m.life.as_ref()));
+    say(CautionCode::NotSettled, not_settled(m, grounds));
+    say(CautionCode::NoLife, no_life(grounds));
+    say(CautionCode::StrengthUnknown, strength_unknown(grounds));
+    say(CautionCode::ElasticOnly, Some(elastic_only(grounds)));
+    list
+}
+
+fn gpa(value_pa: f64) -> String {
+    format!("{} GPa", sig(value_pa * 1e-9, 2))
+}
+
+fn nm(value_m: f64) -> String {
+    format!("{} nm", sig(value_m * 1e9, 2))
+}
+
+fn not_converged(m: &Metrics, grounds: &Grounds) -> Option<String> {
+    let (n, all) = (grounds.steps_not_converged, grounds.steps);
+    if n > 0 {
+        return Some(format!("{n} of {all} steps did not converge"));
+    }
+    let residual = || {
+        let left = sig(m.residual, 2);
+        format!("this step did not converge: residual {left}")
+    };
+    (!m.converged && all > 0).then(residual)
+}
+
+/// The lesser of what both bodies carry, as far as it is known.
+fn weaker(grounds: &Grounds, of: impl Fn(Strength) -> f64) -> Option<f64> {
+    let known = grounds.strength.into_iter().flatten().map(of);
+    known.reduce(f64::min)
+}
+
+fn pressure_beyond(grounds: &Grounds) -> Option<String> {
+    let hardness = weaker(grounds, |strength| strength.hardness_pa)?;
+    let p = grounds.p_max_greatest_pa;
+    (p > hardness).then(|| {
+        format!(
+            "greatest pressure {} is beyond what hardened steel carries (about {}, its hardness): asperities would flow",
+            gpa(p),
+            gpa(hardness)
+        )
+    })
+}
+
+fn stress_beyond(grounds: &Grounds) -> Option<String> {
+    let (stress, measure) = grounds.sigma_eff_greatest_pa.zip(grounds.measure)?;
+    // Greatest shear by Tresca; octahedral shear is √2/3 of von Mises.
+    let share = match measure {
+        StressMeasure::VonMises => 1.0,
+        StressMeasure::MaxShear => 0.5,
+        StressMeasure::Octahedral => std::f64::consts::SQRT_2 / 3.0,
+    };
+    let limit = share * weaker(grounds, |strength| strength.yield_pa)?;
+    (stress > limit).then(|| {
+        format!(
+            "greatest {} stress {} is beyond yield of hardened steel (about {}): the material would flow there",
+            measure.name(),
+            gpa(stress),
+            gpa(limit)
+        )
+    })
+}
+
+fn dry(grounds: &Grounds) -> Option<String> {
+    grounds
+        .film_m
+        .is_none()
+        .then(|| "dry: the scene has no lubricant, so no film and no λ".to_owned())
+}
+
+fn below_molecule(grounds: &Grounds) -> Option<String> {
+    let film_m = grounds.film_m.filter(|film_m| *film_m < MOLECULE_M)?;
+    let solved = if grounds.flows {
+        "oil that is shut in carries load all the same, but is no fluid any more"
+    } else {
+        "solved dry"
+    };
+    Some(format!(
+        "the smooth film by formula, {}, is less than a layer of oil molecules ({}): {solved}",
+        nm(film_m),
+        nm(MOLECULE_M)
+    ))
+}
+
+fn mesh_film(grounds: &Grounds) -> Option<String> {
+    let error = grounds
+        .mesh_film
+        .filter(|error| *error > MESH_WORTH_A_WORD)?;
+    Some(if error < 1.0 {
+        format!(
+            "the mesh costs about {} % of the smooth central film at these settings; more grid.nodes make it less",
+            sig(100.0 * error, 2)
+        )
+    } else {
+        "the mesh is too coarse for the film at these settings, which may vanish; grid.nodes"
+            .to_owned()
+    })
+}
+
+fn standing(m: &Metrics, grounds: &Grounds) -> Option<String> {
+    if !grounds.has_life || m.entrainment_m_s == 0.0 {
+        return None;
+    }
+    let (body, other) = match (m.n_body_1, m.n_body_2) {
+        (None, Some(_)) => (1, 2),
+        (Some(_), None) => (2, 1),
+        _ => return None,
+    };
+    Some(format!(
+        "body {body} stands (S = {}): its loading cycle never ends, so it is left out, and the life is body {other}'s; it          rises again here for no other reason",
+        sig(m.slide_roll, 3)
+    ))
+}
+
+fn model_range(life: Option<&LifeEstimate>) -> Option<String> {
+    let detail = life?.detail;
+    let (low, high) = (detail.spread_low, detail.spread_high);
+    let factor = high / low;
+    (detail.variants > 1 && factor >= RANGE_WORTH_A_WORD).then(|| {
+        format!(
+            "the choice of cycle basis, integral and model moves the life from {} to {}, a factor of {}",
+            sig(low, 2),
+            sig(high, 2),
+            sig(factor, 2)
+        )
+    })
+}
+
+fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
+    let settled = m.life.is_some_and(|life| life.settled);
+    (grounds.has_life && !settled).then(|| {
+        "the average does not cover a whole period of these conditions yet: it still moves"
+            .to_owned()
+    })
+}
+
+fn no_life(grounds: &Grounds) -> Option<String> {
+    (!grounds.has_life).then(|| "no life in this scene: it has no [life]".to_owned())
+}
+
+fn strength_unknown(grounds: &Grounds) -> Option<String> {
+    let bodies = match grounds.strength {
+        [Some(_), Some(_)] => return None,
+        [None, Some(_)] => "body 1 is",
+        [Some(_), None] => "body 2 is",
+        [None, None] => "both bodies are",
+    };
+    Some(format!(
+        "{bodies} not steel: what they carry before they flow or break is not judged"
+    ))
+}
+
+fn elastic_only(grounds: &Grounds) -> String {
+    let initiation = if grounds.has_life {
+        ", initiation only; c and e are assumptions"
+    } else {
+        ""
+    };
+    format!("no wear, isothermal, elastic{initiation}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::strength::HARDENED_STEEL;
+    use crate::sim::{LifeDetail, LifeEstimate};
+
+    /// A step of a rough pair of steel rollers with nothing to complain of.
+    fn sound() -> (Metrics, Grounds) {
+        let metrics = Metrics {
+            converged: true,
+            entrainment_m_s: 1.0,
+            n_body_1: Some(3.0),
+            n_body_2: Some(2.0),
+            life: Some(LifeEstimate {
+                settled: true,
+                ..LifeEstimate::default()
+            }),
+            ..Metrics::default()
+        };
+        let grounds = Grounds {
+            steps: 100,
+            p_max_greatest_pa: 3e9,
+            sigma_eff_greatest_pa: Some(2e9),
+            measure: Some(StressMeasure::VonMises),
+            strength: [Some(HARDENED_STEEL); 2],
+            film_m: Some(1e-7),
+            flows: true,
+            mesh_film: Some(0.02),
+            has_life: true,
+            ..Grounds::default()
+        };
+        (metrics, grounds)
+    }
+
+    fn codes(m: &Metrics, grounds: &Grounds) -> Vec<CautionCode> {
+        list(m, grounds).into_iter().map(|one| one.code).collect()
+    }
+
+    #[test]
+    fn a_sound_step_leaves_the_general_line_alone() {
+        let (m, grounds) = sound();
+        assert_eq!(codes(&m, &grounds), [CautionCode::ElasticOnly]);
+    }
+
+    #[test]
+    fn each_ground_has_its_caution_with_its_number() {
+        use CautionCode::{
+            BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife, NotConverged,
+            NotSettled, StandingBody, StrengthUnknown,
+        };
+        type Spoil = fn(&mut Metrics, &mut Grounds);
+        let table: [(CautionCode, &str, Spoil); 12] = [
+            (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
+            (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
+            (BeyondYield, "7.5 GPa", |_, g| {
+                g.sigma_eff_greatest_pa = Some(7.5e9);
+            }),
+            (BeyondYield, "1.3 GPa", |_, g| {
+                g.measure = Some(StressMeasure::MaxShear);
+                g.sigma_eff_greatest_pa = Some(1.3e9);
+            }),
+            (Dry, "no lubricant", |_, g| {
+                (g.film_m, g.flows, g.mesh_film) = (None, false, None);
+            }),
+            (FilmBelowMolecule, "0.20 nm", |_, g| g.film_m = Some(2e-10)),
+            (MeshFilm, "9.8 %", |_, g| g.mesh_film = Some(0.098)),
+            (StandingBody, "body 1 stands (S = 2.00)", |m, _| {
+                (m.n_body_1, m.slide_roll) = (None, 2.0);
+            }),
+            (ModelRange, "factor of 28", |m, _| {
+                let detail = LifeDetail {
+                    spread_low: 0.025,
+                    spread_high: 0.70,
+                    variants: 40,
+                    ..LifeDetail::default()
+                };
+                m.life = m.life.map(|life| LifeEstimate { detail, ..life });
+            }),
+            (NotSettled, "period", |m, _| {
+                m.life = m.life.map(|life| LifeEstimate {
+                    settled: false,
+                    ..life
+                });
+            }),
+            (NoLife, "no life", |m, g| {
+                (m.life, g.has_life) = (None, false)
+            }),
+            (StrengthUnknown, "body 2", |_, g| g.strength[1] = None),
+        ];
+        for (code, words, spoil) in table {
+            let (mut m, mut grounds) = sound();
+            spoil(&mut m, &mut grounds);
+            let all = list(&m, &grounds);
+            let [first, last] = &all[..] else {
+                panic!("{code:?}: {all:?}");
+            };
+            assert_eq!((first.code, last.code), (code, CautionCode::ElasticOnly));
+            assert!(first.text.contains(words), "{}", first.text);
+        }
     }
 }

@@ -29,6 +29,10 @@ pub(super) struct Counting {
     profiles: [[Profile; 2]; 2],
     /// Greatest damage of one passage of the smooth contact, by ranges and by peaks.
     reference: [f64; 2],
+    /// Size of that contact over the scene's.
+    reference_size: f64,
+    /// c: damage grows as its power with the size, and with it the pressure.
+    exponent: f64,
     basis: DamageBasis,
 }
 
@@ -87,12 +91,14 @@ impl Counting {
             shown: None,
             profiles: [0, 1].map(|_| [profile.clone(), profile.clone()]),
             reference: [1.0; 2],
+            reference_size: 1.0,
+            exponent: spec.exponent,
             basis: spec.basis,
         }
     }
 
-    /// Takes the smooth contact: its worst point is the unit of damage.
-    pub(super) fn set_reference(&mut self, stress: &StressStage, exponent: f64) {
+    /// Takes the smooth contact of `size` times the scene's: its worst point is the unit of damage.
+    pub(super) fn set_reference(&mut self, stress: &StressStage, size: f64) {
         let slice = stress.slice_in(BodyId::One);
         let nx = self.row.len().max(1);
         let range = |row: &[f32]| {
@@ -101,12 +107,13 @@ impl Counting {
         };
         let ranges = slice.sxz.chunks_exact(nx).map(range).fold(0.0, f32::max);
         let peak = slice.effective.iter().fold(0.0, |a: f32, b| a.max(*b));
-        self.reference = [ranges, peak].map(|s| f64::from(s).powf(exponent));
+        self.reference = [ranges, peak].map(|s| f64::from(s).powf(self.exponent));
+        self.reference_size = size;
     }
 
     /// Takes over the unit of damage of counts of the same contact.
     pub(super) fn take_reference(&mut self, other: &Self) {
-        self.reference = other.reference;
+        (self.reference, self.reference_size) = (other.reference, other.reference_size);
     }
 
     /// Makes the room again that a copy or a file does not keep.
@@ -116,15 +123,17 @@ impl Counting {
         }
     }
 
-    /// Whether the counts were made on `grid` with so many depths, and nothing in them points astray.
-    pub(super) fn fits(&self, grid: &Grid, depths: usize) -> bool {
+    /// Whether counts that were saved are of the same make, with so many depths, and nothing in them points astray.
+    pub(super) fn fits(&self, saved: &Self, depths: usize) -> bool {
         let whole = |profile: &Profile| {
             profile.counted.len() == depths && profile.equivalent.len() == depths
         };
-        self.row.len() == grid.nx
-            && self.shown_depth < depths.max(1)
-            && self.profiles.iter().flatten().all(whole)
-            && self.trackers.iter().all(MaterialTracker::is_sound)
+        let mut trackers = self.trackers.iter().zip(&saved.trackers);
+        self.row.len() == saved.row.len()
+            && self.basis == saved.basis
+            && saved.shown_depth < depths.max(1)
+            && saved.profiles.iter().flatten().all(whole)
+            && trackers.all(|(own, saved)| own.fits(saved))
     }
 
     /// Forgets all counts; the bodies have moved by `travelled` (in a).
@@ -222,16 +231,17 @@ impl Counting {
         profile.known.map(|()| &profile.counted[..])
     }
 
-    /// Damage map of a body, and the damage of the smooth contact's worst point.
-    pub(super) fn map(&self, body: BodyId) -> Option<(&DamageMap, f64)> {
-        let unit = self.reference[basis_index(self.basis)];
+    /// Damage map of a body, and the damage of the worst point of the smooth contact of `size` times the scene's.
+    pub(super) fn map(&self, body: BodyId, size: f64) -> Option<(&DamageMap, f64)> {
+        let growth = (size / self.reference_size).powf(self.exponent);
+        let unit = self.reference[basis_index(self.basis)] * growth;
         let map = self.trackers[body.index()].map()?;
         (unit > 0.0).then_some((map, unit))
     }
 
     /// Where the pit of a body starts, with its damage over that of the smooth contact.
-    pub(super) fn pit(&self, body: BodyId) -> Option<Pit> {
-        let (map, unit) = self.map(body)?;
+    pub(super) fn pit(&self, body: BodyId, size: f64) -> Option<Pit> {
+        let (map, unit) = self.map(body, size)?;
         let pit = map.pit()?;
         Some(Pit {
             damage: pit.damage / unit,

@@ -1,6 +1,6 @@
 //! What the passage costs: mean life integrals of the scene's model and of the variants beside it.
 //!
-//! The reference is the same scene smooth, frictionless, with S = 0, computed in the start-up;
+//! The reference is the same scene smooth, frictionless, with S = 0, at the load and speed of now (`reference.rs`);
 //! n_ref = 1. A body's life is counted in its own loading cycles, and the weaker body gives the life of the
 //! scene unless it names one. As a system both bodies are compared in time, as equal discs:
 //! `L = [½ Σ (N_i U/|U_i|)^{−e}]^{−1/e}` relative to the two bodies of the reference.
@@ -8,45 +8,52 @@
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
-use super::frame::{LifeDetail, LifeEstimate};
+use super::frame::{LifeDetail, LifeEstimate, Repeat};
+use super::reference::Calibration;
+use super::settling::Settling;
 use super::stress_stage::StressStage;
 use super::variant::{Shared, Variant, models};
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::{LifeFactors, LifeLaw};
-use crate::physics::life_models::{CycleProfile, LifeModel, calibrated_reference};
+use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
 use crate::scene::{BodyChoice, ContactKind, CycleBasis, Life, Scene, Spread, VolumeIntegral};
-use crate::solve::life::{Coverage, Shares, Sweep, factors};
+use crate::solve::life::{Shares, Sweep, factors};
 use crate::solve::stress::{Loading, StressLaw};
 
-/// Loading cycles of the smooth contact, where the scene gives a point of them.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-struct Calibration {
-    cycles: f64,
-    /// p_cal/p_h.
-    pressure_ratio: f64,
-    /// Life at the scene's survival over that at the point's.
-    survival_ratio: f64,
-    /// Directions in which the contact grows with the pressure.
-    sides: f64,
+/// Conditions of an estimate.
+pub(super) struct Now {
+    /// Contacts of both bodies; `None`: the body stands.
+    pub(super) n: [Option<f64>; 2],
+    /// S.
+    pub(super) slide_roll: f64,
+    /// Hertz half-width over the scene's.
+    pub(super) size: f64,
+    /// Relative error of stress.
+    pub(super) stress_error: f64,
 }
 
 /// Life models under way.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct LifeStage {
-    law: LifeLaw,
+    pub(super) law: LifeLaw,
     asked: Life,
     /// The scene's model first.
-    variants: Vec<Variant>,
-    laws: Vec<StressLaw>,
-    sweep: Sweep,
+    pub(super) variants: Vec<Variant>,
+    pub(super) laws: Vec<StressLaw>,
+    pub(super) sweep: Sweep,
     scratch: Shares,
-    depths: Vec<f64>,
-    /// Wavelength along x of the mating crests, a; infinite: none.
-    wavelengths: [f64; 2],
-    calibration: Option<Calibration>,
-    /// Cycles of the smooth contact at the scene's load.
-    reference_cycles: Option<f64>,
+    pub(super) depths: Vec<f64>,
+    /// Wavelength along x of the mating crests, a.
+    wavelengths: [Option<f64>; 2],
+    pub(super) calibration: Option<Calibration>,
+    /// Directions in which the contact grows with the pressure.
+    pub(super) sides: f64,
+    /// Hertz half-width, over the scene's, for which the reference was computed.
+    pub(super) reference_size: f64,
+    /// Cycles of the smooth contact of that size.
+    pub(super) reference_cycles: Option<f64>,
+    settling: Settling,
 }
 
 impl LifeStage {
@@ -74,16 +81,10 @@ impl LifeStage {
             cycles,
             pressure_ratio: p_pa / p_h,
             survival_ratio: law.survival_ratio(asked.survival, asked.calibration_survival),
-            sides: match scene.kind() {
-                ContactKind::Point => 2.0,
-                ContactKind::Line => 1.0,
-            },
         });
         let wavelength = |body: BodyId| {
-            let wave = plan.waves[body.mate().index()];
-            wave.map_or(f64::INFINITY, |wave| {
-                1.0 / (wave.crests_per_m * plan.hertz.a_m)
-            })
+            let wave = plan.waves[body.mate().index()].filter(|wave| wave.crests_per_m > 0.0);
+            wave.map(|wave| 1.0 / (wave.crests_per_m * plan.hertz.a_m))
         };
         Some(Self {
             law,
@@ -95,13 +96,14 @@ impl LifeStage {
             depths,
             wavelengths: BodyId::BOTH.map(wavelength),
             calibration,
+            sides: match scene.kind() {
+                ContactKind::Point => 2.0,
+                ContactKind::Line => 1.0,
+            },
+            reference_size: 1.0,
             reference_cycles: None,
+            settling: Settling::new(law, scene.numerics.tolerance),
         })
-    }
-
-    /// c.
-    pub(super) fn stress_exponent(&self) -> f64 {
-        self.law.stress_exponent
     }
 
     /// Life at the scene's probability of survival over that at 50 %. The relative life is the same at
@@ -128,7 +130,7 @@ impl LifeStage {
     }
 
     /// Passes over the surface loaded last and hands its sums to every model.
-    fn each(
+    pub(super) fn each(
         &mut self,
         stress: &mut StressStage,
         mut take: impl FnMut(&mut Variant, &mut StressStage, &mut Shared),
@@ -145,23 +147,6 @@ impl LifeStage {
         }
     }
 
-    /// Takes the smooth contact as the reference.
-    pub(super) fn set_reference(&mut self, stress: &mut StressStage) {
-        self.each(stress, |variant, stress, shared| {
-            variant.set_reference(stress, shared);
-        });
-        self.sweep.restart();
-        self.reference_cycles = self.calibrate(stress);
-    }
-
-    /// Takes over the reference of a stage that [`Self::fits`].
-    pub(super) fn take_reference(&mut self, other: &Self) {
-        for (own, other) in self.variants.iter_mut().zip(&other.variants) {
-            own.take_reference(other);
-        }
-        self.reference_cycles = other.reference_cycles;
-    }
-
     /// Makes the room again that a copy or a file does not keep.
     pub(super) fn make_room(&mut self) {
         for variant in &mut self.variants {
@@ -172,7 +157,9 @@ impl LifeStage {
     /// Whether a stage that was saved is of the same make as this one.
     pub(super) fn fits(&self, saved: &Self) -> bool {
         let (depths, rows) = (self.depths.len(), self.sweep.of(Loading::ALL[0]).len());
-        self.asked == saved.asked
+        self.law == saved.law
+            && self.calibration == saved.calibration
+            && self.asked == saved.asked
             && self.laws == saved.laws
             && self.depths == saved.depths
             && saved.sweep.is_sound(rows)
@@ -185,6 +172,11 @@ impl LifeStage {
                 .all(|(a, b)| a.fits(b))
     }
 
+    /// Whether a stage that was saved was made for the same crests.
+    pub(super) fn same_waves(&self, saved: &Self) -> bool {
+        self.wavelengths == saved.wavelengths
+    }
+
     /// Takes the mean over a way of `period` (in a) from now on.
     pub(super) fn set_period(&mut self, period: f64) {
         for variant in &mut self.variants {
@@ -194,11 +186,23 @@ impl LifeStage {
 
     /// Forgets the phases seen: they belong to other conditions. The mean is over a way of `period` (in a).
     pub(super) fn restart(&mut self, period: f64) {
+        self.clear();
+        self.set_period(period);
+    }
+
+    /// Forgets the phases seen.
+    pub(super) fn clear(&mut self) {
         self.sweep.restart();
         for variant in &mut self.variants {
             variant.restart();
         }
-        self.set_period(period);
+        self.settling.restart();
+    }
+
+    /// Whether the average may be called settled, after a sample without anything of a ramp in it.
+    pub(super) fn judge(&mut self, stress_error: f64, repeat: Option<Repeat>) {
+        let meter = self.variants[0].meter();
+        self.settling.judge(meter, stress_error, repeat);
     }
 
     /// Takes the surface loaded last, which stands for a `way` (in a).
@@ -229,79 +233,49 @@ impl LifeStage {
         }
     }
 
-    /// Cycles of the smooth contact at the scene's load, from the calibration point.
-    fn calibrate(&mut self, stress: &mut StressStage) -> Option<f64> {
-        let point = self.calibration?;
-        let model = self.variants[0].model;
-        let cycles = point.cycles * point.survival_ratio;
-        if let Some(exponent) = model.pressure_exponent(self.law, point.sides) {
-            let ratio = point.pressure_ratio;
-            return Some(calibrated_reference(cycles, ratio, 1.0, exponent));
-        }
-        // A limit breaks the power law: the integral once more with the limit in units of the point's
-        // pressure. It grows with p^{c + 3 − h} (line: c + 2 − h), like the model without a limit.
-        let LifeModel::IoannidesHarris { depth_exponent, .. } = model else {
-            return None;
-        };
-        let mut law = self.laws[0];
-        law.limit /= point.pressure_ratio;
-        stress.volume(&[law]);
-        let shares = stress.sums().layers(Loading::Normal(BodyId::One), 0);
-        let weighted = shares.iter().zip(&self.depths);
-        let ln_point = crate::math::ln_sum::ln_sum(
-            weighted.map(|(ln, z)| (1.0, ln + model.ln_depth_weight(*z))),
-        );
-        let growth = self.law.stress_exponent + point.sides + 1.0 - depth_exponent;
-        let ln_reference = self.variants[0].ln_reference(BodyId::One, VolumeIntegral::Snapshot);
-        let ln = ln_point + growth * point.pressure_ratio.ln() - ln_reference;
-        ln.is_finite()
-            .then(|| cycles * (ln / self.law.weibull_slope).exp())
-    }
-
-    /// The estimate for the contacts `n` of both bodies, slide-to-roll ratio `s` and the relative error of
-    /// stress.
-    pub(super) fn estimate(
-        &self,
-        n: [Option<f64>; 2],
-        s: f64,
-        counting: Option<&Counting>,
-        stress_error: f64,
-    ) -> Option<LifeEstimate> {
+    /// The estimate for the conditions of now.
+    pub(super) fn estimate(&self, now: &Now, counting: Option<&Counting>) -> Option<LifeEstimate> {
         let (basis, form) = (self.asked.cycles, self.asked.volume);
         let scene = &self.variants[0];
-        let lives = self.lives(scene, (basis, form), n, counting)?;
+        let lives = self.lives(scene, (basis, form), now, counting)?;
         let (body, f) = self.governing(lives)?;
-        let (low, high) = self.law.band(f.relative, stress_error);
+        let (low, high) = self.law.band(f.relative, now.stress_error);
+        let wander = self.settling.wander().exp();
+        let (low, high) = (low / wander, high * wander);
         let other = |form| {
-            let lives = self.lives(scene, (basis, form), n, counting)?;
+            let lives = self.lives(scene, (basis, form), now, counting)?;
             lives[body.index()].map(|f| f.relative)
         };
-        let spread = self.spread(n, counting, f.relative);
+        let spread = self.spread(now, counting, f.relative);
         let shares = scene.shares(form)?;
+        let ln_unit = self.growth(scene, form) * now.size.ln();
+        let cycles_now = self.cycles_ratio(now.size / self.reference_size);
         Some(LifeEstimate {
-            i_ref: scene.ln_reference(body, form).exp(),
-            i_mean: shares.ln(Loading::Full(body)).exp(),
+            i_ref: (self.ln_reference(scene, (body, form), now.size) - ln_unit).exp(),
+            i_mean: (shares.ln(Loading::Full(body)) - ln_unit).exp(),
             phases: scene.meter().samples(),
             cycle_factor: f.cycle,
             stress_factor: f.stress,
             peak_factor: f.peak,
             traction_factor: f.traction,
-            load_factor: 1.0,
+            load_factor: self.load_factor(scene, (body, form), now.size),
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
-            settled: scene.meter().coverage() == Coverage::Settled,
+            settled: self.settling.has_settled(),
             detail: LifeDetail {
                 model: Some(self.asked.model),
                 body: body.index() as u8 + 1,
                 life_body: lives.map(|f| f.map(|f| f.relative)),
-                life_system: self.system(lives, s),
+                life_system: self.system(lives, now.slide_roll),
                 life_snapshot: other(VolumeIntegral::Snapshot),
                 life_swept: other(VolumeIntegral::Swept),
                 spread_low: spread.0,
                 spread_high: spread.1,
                 variants: spread.2,
-                cycles: self.reference_cycles.map(|cycles| cycles * f.relative),
+                cycles: self
+                    .reference_cycles
+                    .map(|cycles| cycles * cycles_now * f.relative),
             },
         })
     }
@@ -312,13 +286,13 @@ impl LifeStage {
         &self,
         variant: &Variant,
         (basis, form): (CycleBasis, VolumeIntegral),
-        n: [Option<f64>; 2],
+        now: &Now,
         counting: Option<&Counting>,
     ) -> Option<[Option<LifeFactors>; 2]> {
         let shares = variant.shares(form)?;
         Some(BodyId::BOTH.map(|body| {
-            let profile = self.profile(body, basis, n[body.index()]?, counting)?;
-            let ln_reference = variant.ln_reference(body, form);
+            let profile = self.profile(body, basis, now.n[body.index()]?, counting)?;
+            let ln_reference = self.ln_reference(variant, (body, form), now.size);
             let f = factors(self.law, shares, body, ln_reference, profile, &self.depths);
             f.relative.is_finite().then_some(f)
         }))
@@ -335,7 +309,7 @@ impl LifeStage {
             CycleBasis::Global => Some(CycleProfile::Global(n)),
             CycleBasis::Depth => Some(CycleProfile::Depth {
                 n,
-                wavelength: self.wavelengths[body.index()],
+                wavelength: self.wavelengths[body.index()].unwrap_or(f64::INFINITY),
             }),
             CycleBasis::Peaks | CycleBasis::Ranges => counting?.profile(body, basis),
         }
@@ -367,12 +341,7 @@ impl LifeStage {
     }
 
     /// Least and greatest life over the variants, cycle bases and forms of the integral, and how many.
-    fn spread(
-        &self,
-        n: [Option<f64>; 2],
-        counting: Option<&Counting>,
-        life: f64,
-    ) -> (f64, f64, u32) {
+    fn spread(&self, now: &Now, counting: Option<&Counting>, life: f64) -> (f64, f64, u32) {
         let (mut low, mut high, mut count) = (life, life, 0);
         if self.asked.spread == Spread::Off {
             return (low, high, 1);
@@ -380,7 +349,7 @@ impl LifeStage {
         for variant in &self.variants {
             for form in [VolumeIntegral::Snapshot, VolumeIntegral::Swept] {
                 for basis in CycleBasis::ALL {
-                    let lives = self.lives(variant, (basis, form), n, counting);
+                    let lives = self.lives(variant, (basis, form), now, counting);
                     if let Some((_, f)) = lives.and_then(|lives| self.governing(lives)) {
                         (low, high) = (low.min(f.relative), high.max(f.relative));
                         count += 1;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::LubricationRegime;
+use super::{Grounds, LubricationRegime};
 use crate::scene::{ContactKind, LifeModel};
 
 /// Which part of a run a frame belongs to.
@@ -81,6 +81,8 @@ pub struct Frame {
     pub damage: [Option<DamageBlock>; 2],
     /// Scalars.
     pub metrics: Metrics,
+    /// What [`Frame::cautions`] rest on beside them.
+    pub grounds: Grounds,
 }
 
 /// Stress of body 1 in a plane: index `row * width + i`.
@@ -213,12 +215,16 @@ pub struct Metrics {
     pub p_max_pa: f64,
     /// Film thickness at the origin, m.
     pub h_central_m: f64,
-    /// Least film thickness inside the Hertz ellipse, m.
+    /// Least thickness of the film under pressure, the constriction at the exit and the sides included, m.
     pub h_min_m: f64,
     /// Mean film over the central part (r < 2a/3), m.
     pub h_mean_m: f64,
-    /// Smooth film over the composite root-mean-square roughness; `None` for smooth surfaces.
+    /// λ: the smooth central film by formula at the speed and load of this step, over the composite root-mean-square
+    /// roughness ([`crate::plan::FilmPlan::lambda`]); `None` for smooth surfaces and without oil.
     pub lambda_ratio: Option<f64>,
+    /// Simulated mean film of the central part over the same roughness; `None` for smooth surfaces.
+    #[serde(default)]
+    pub film_to_roughness: Option<f64>,
     /// Part of the Hertz ellipse's area that is in contact; of a line part of its width.
     pub contact_ratio: f64,
     /// Part of the load that contacts carry.
@@ -228,13 +234,17 @@ pub struct Metrics {
     pub regime: LubricationRegime,
     /// |carried - asked|/asked.
     pub load_error: f64,
-    /// Σ|film equation's residual| over the mass in the pressurised zone; the next step takes it over.
+    /// Σ|film equation's residual| over the mass in the pressurised zone; the next step takes it over. Of a dry step the
+    /// greatest gap or overlap of touching nodes, over the film that p_h on one node makes.
     pub film_error: f64,
     /// The part of that which no step takes over: mass lost or made.
     pub mass_error: f64,
     /// Deepest overlap of the surfaces in a step that did not converge, or at an edge of the domain, where
     /// contact is cut off (a step that is then not called converged), m; else 0.
     pub overlap_m: f64,
+    /// What `residual` and `film_error` may be.
+    #[serde(default)]
+    pub asked: [f64; 2],
     /// Friction force over load, positive.
     pub friction_coefficient: f64,
     /// Greatest effective stress in the slice (or volume), Pa.
@@ -261,7 +271,8 @@ pub struct Metrics {
 
 /// Relative errors by the mesh as far as the start-up shows them: what the smooth contact changed from the
 /// last but one grid to the last (all of it, as in a run's own estimate), and for the pressure what ripples
-/// of few nodes lose, (2π/n)²/12 of a ripple as high as the mean.
+/// of few nodes lose, (2π/n)²/12 of a ripple as high as the mean. Where knobs have left the scene's speed or load the
+/// films' errors follow the plan's mesh rule, the pressure's (ΔX/a)².
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct MeshErrors {
     /// Of the central film.
@@ -297,11 +308,12 @@ pub struct Repeat {
     pub repeats: bool,
 }
 
-/// Relative life (reference: smooth, frictionless, S = 0, same load and geometry) and its factors:
+/// Relative life (reference: smooth, frictionless, S = 0, load, speed and geometry of now) and its factors:
 /// `life_relative = cycle_factor * stress_factor`, `stress_factor = peak_factor * traction_factor`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct LifeEstimate {
-    /// Volume integral of the reference, in Pa^(c e) m^3 scaled by p_h^(c e) a^3; of a line per length, a^2.
+    /// Volume integral of the reference, in Pa^(c e) m^3 scaled by p_h^(c e) a^3 at the load of now; of a line per
+    /// length, a^2.
     pub i_ref: f64,
     /// Same integral, mean over the phases seen so far (last full passage period).
     pub i_mean: f64,
@@ -321,11 +333,12 @@ pub struct LifeEstimate {
     pub load_factor: f64,
     /// Relative life.
     pub life_relative: f64,
-    /// Lower end of the band from the discretisation error.
+    /// Lower end of the band: of the discretisation error, and of what a mean without a common period still wanders.
     pub life_relative_low: f64,
     /// Upper end of the band.
     pub life_relative_high: f64,
-    /// Whether a full period has been averaged since the last knob change.
+    /// Whether no step of a ramp, or of what the ramp left in the film, is in the average, and the average has stopped
+    /// moving within its own band.
     pub settled: bool,
     /// Both bodies, other forms, other models.
     pub detail: LifeDetail,

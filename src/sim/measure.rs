@@ -13,7 +13,7 @@ pub(super) struct Measured {
     pub(super) p_max: f64,
     /// H at the origin.
     pub(super) h_central: f64,
-    /// Least H inside the Hertz ellipse.
+    /// Least H under pressure.
     pub(super) h_min: f64,
     /// Mean H within two thirds of the ellipse.
     pub(super) h_mean: f64,
@@ -119,13 +119,15 @@ fn sum_row(
         sums.load += p[i];
         sums.drag += q[i];
         sums.p_max = sums.p_max.max(p[i]);
+        if p[i] > 0.0 {
+            sums.h_min = sums.h_min.min(h[i]);
+        }
         let touches = law.is_contact(p[i], h[i]);
         if touches {
             sums.touching += p[i];
         }
         let r2 = (grid.x(i) / a).powi(2) + y * y;
         if r2 <= 1.0 {
-            sums.h_min = sums.h_min.min(h[i]);
             sums.contact += f64::from(u8::from(touches));
             if r2 <= 4.0 / 9.0 {
                 sums.film += h[i];

@@ -7,6 +7,7 @@ mod drive;
 mod error;
 mod fatigue_stage;
 mod fill;
+mod fitness;
 mod follow;
 mod frame;
 mod knob;
@@ -15,7 +16,10 @@ mod measure;
 mod motion;
 mod orbit;
 mod pace;
+mod present;
+mod reference;
 mod regime;
+mod settling;
 mod setup;
 mod simulation;
 mod start_up;
@@ -29,8 +33,8 @@ mod totals;
 mod variant;
 mod watching;
 
-pub use caution::{Caution, CautionCode};
-pub use error::{SimError, StepError};
+pub use caution::{Caution, CautionCode, Grounds};
+pub use error::{SimError, StepError, Unsolved};
 pub use frame::{
     DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,
     PassedPeak, Repeat, Rhythm, Stage, StressPlane, StressSlice,

@@ -1,7 +1,7 @@
 //! Which equation a step is solved by: flow in a film, or contact without one.
 //!
 //! ```text
-//! h_c(U, w) = h_c(scene) (U/U_scene)^0.67 (w/w_scene)^−0.067     central film of the smooth contact by formula
+//! h_c(U, w)                          central film of the smooth contact by formula (plan::FilmPlan::at)
 //! flow  where h_c ≥ one layer of oil molecules (plan::MOLECULE_M) or oil cannot leave,  else  none: P ≥ 0, H ≥ 0, P H = 0
 //! ```
 //! Asked at every step with the knobs as they are, so that a speed that is turned down ends in the dry contact and
@@ -10,9 +10,11 @@
 use super::door::Door;
 use super::drive::Drive;
 use super::knob::Knob;
+use super::motion::Motion;
 use crate::plan::{FilmPlan, Plan};
 use crate::solve::march::Flow;
 use crate::solve::newton::Tolerance;
+use crate::solve::traction::TractionLaw;
 
 /// The rule, and the tolerances on both sides of it.
 #[derive(Debug, Clone, Copy)]
@@ -44,19 +46,42 @@ impl Regime {
         }
     }
 
-    /// Flow at an entrainment speed and a load.
-    pub(super) fn flow_at(&self, door: &Door, speed_m_s: f64, force: f64) -> Flow {
-        let ratio = || door.film_ratio(speed_m_s / self.speed_m_s, force / self.force);
-        match self.film {
-            Some(film) if film.times(ratio()).flows() => self.wet,
-            _ => Flow::Dry,
-        }
+    /// The smooth film by formula at the knobs' present values; `None`: the scene has no oil.
+    pub(super) fn film_now(&self, door: &Door, drive: &Drive) -> Option<FilmPlan> {
+        let now = |knob| drive.get(knob).now;
+        let speed = now(Knob::EntrainmentMS) / self.speed_m_s;
+        let load = now(door.load_knob()) / self.force;
+        self.film.map(|film| film.at(speed, load))
     }
 
     /// Flow at the knobs' present values.
     pub(super) fn flow_now(&self, door: &Door, drive: &Drive) -> Flow {
+        match self.film_now(door, drive) {
+            Some(film) if film.flows() => self.wet,
+            _ => Flow::Dry,
+        }
+    }
+
+    /// The traction law at the knobs' present values: of the film, if there is one, and of contact. `law` is that of the
+    /// scene's oil.
+    pub(super) fn law_now(
+        &self,
+        law: &TractionLaw,
+        door: &Door,
+        drive: &Drive,
+        motion: &Motion,
+    ) -> TractionLaw {
         let now = |knob| drive.get(knob).now;
-        self.flow_at(door, now(Knob::EntrainmentMS), now(door.load_knob()))
+        let (s, u) = (now(Knob::SlideRoll), now(Knob::EntrainmentMS));
+        let mut law = *law;
+        law.direction = if s == 0.0 { 0.0 } else { s.signum() };
+        if let Some(film) = &mut law.film {
+            film.rate = motion.shear_rate * (s * u).abs();
+        }
+        match self.flow_now(door, drive) {
+            Flow::Dry => law.without_film(),
+            Flow::Film | Flow::MassConserving => law,
+        }
     }
 
     /// Tolerance of a step.

@@ -12,32 +12,41 @@ use super::{Caution, LubricationRegime, Rhythm, Stats};
 pub struct Summary {
     /// Preset or file.
     pub scene: String,
-    /// Whether every step converged.
+    /// Whether every step that was made converged.
     pub converged: bool,
+    /// Whether somebody ended it before it had done all that was asked for.
+    #[serde(default)]
+    pub stopped: bool,
     /// Time steps after the start-up.
     pub steps: u64,
+    /// How many the whole run has by its plan; `None`: it has no end of its own (the explorer).
+    #[serde(default)]
+    pub steps_planned: Option<u64>,
     /// Those that did not converge.
     pub steps_not_converged: u64,
     /// Time taken, s.
     pub wall_s: f64,
     /// Steps a second in the passage, outputs included.
     pub steps_per_s: Option<f64>,
-    /// Hertz half-width along x, m.
+    /// Hertz half-width along x at the load of the last step, m.
     pub a_m: f64,
-    /// Maximum Hertz pressure, Pa.
+    /// Maximum Hertz pressure at that load, Pa.
     pub p_hertz_pa: f64,
     /// Film thickness at the origin, m.
     pub h_central_m: f64,
-    /// Least film of a step inside the Hertz ellipse, m: the mean over the steps.
+    /// Least film of a step under pressure, m: the mean over the steps.
     pub h_min_m: f64,
     /// Greatest pressure of a step, Pa: the mean over the steps.
     pub p_max_pa: f64,
     /// Greatest pressure of all those steps, Pa.
     #[serde(default)]
     pub p_max_greatest_pa: f64,
-    /// Least film of all those steps inside the Hertz ellipse, m.
+    /// Least film of all those steps under pressure, m.
     #[serde(default)]
     pub h_min_least_m: f64,
+    /// λ of the last step: smooth central film by formula over the composite root-mean-square roughness.
+    #[serde(default)]
+    pub lambda_ratio: Option<f64>,
     /// Lubrication regime of the last step.
     #[serde(default)]
     pub regime: LubricationRegime,
@@ -46,6 +55,9 @@ pub struct Summary {
     pub cautions: Vec<Caution>,
     /// Part of the Hertz ellipse in contact.
     pub contact_ratio: f64,
+    /// Part of the load that contacts carry.
+    #[serde(default)]
+    pub contact_load_ratio: f64,
     /// Load asked for, N; of a line per metre of length, N/m.
     pub load_n: f64,
     /// |carried - asked|/asked, the greatest of the mean's steps.
@@ -74,7 +86,7 @@ pub struct Summary {
     pub peak_factor: Option<f64>,
     /// Part of the stress factor due to traction.
     pub traction_factor: Option<f64>,
-    /// What the load, speed and radii of now cost against those that the scene began with, on the smooth contact:
+    /// What the load and speed of now cost against those that the scene began with, on the smooth contact:
     /// `life_relative * load_factor` compares lives at different loads.
     #[serde(default)]
     pub load_factor: Option<f64>,
@@ -147,6 +159,15 @@ pub struct Summary {
     pub error_h_min_m: Option<f64>,
     /// Same of `p_max_pa`, Pa.
     pub error_p_max_pa: Option<f64>,
+    /// Same of `contact_ratio`.
+    #[serde(default)]
+    pub error_contact_ratio: Option<f64>,
+    /// Same of `contact_load_ratio`.
+    #[serde(default)]
+    pub error_contact_load_ratio: Option<f64>,
+    /// Same of `friction_coefficient`.
+    #[serde(default)]
+    pub error_friction_coefficient: Option<f64>,
     /// Same of ln `life_relative`; with it, the ends of life's band are `life_relative * exp(-+ error)`.
     pub error_ln_life: Option<f64>,
     /// `life_relative` extrapolated to no spacing and no time step from the run and its companion on half the

@@ -4,9 +4,10 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+use super::caution;
 use super::fatigue_stage::LifeStage;
 use super::summary::PitStart;
-use super::{LifeEstimate, Metrics, Simulation, Stats, Summary};
+use super::{Grounds, LifeEstimate, Metrics, Simulation, Stats, Summary};
 use crate::physics::cycles::BodyId;
 use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
 
@@ -17,7 +18,7 @@ struct Entry {
     way: f64,
     /// Its length, in a.
     span: f64,
-    values: [f64; 8],
+    values: [f64; 9],
     /// Greatest effective stress: value, depth, x.
     stress: Option<[f64; 3]>,
 }
@@ -32,25 +33,15 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    /// With memory for `most` steps.
-    pub(super) fn new(most: f64) -> Self {
-        Self {
-            recent: VecDeque::with_capacity(most.ceil() as usize + 2),
-            ..Self::default()
-        }
+    /// Makes the memory for `most` steps, which a copy or a file does not keep.
+    pub(super) fn make_room(&mut self, most: usize) {
+        let room = (most + 2).saturating_sub(self.recent.len());
+        self.recent.reserve_exact(room);
     }
 
-    /// Takes up what was saved, with the room that this one has.
-    pub(super) fn take(&mut self, saved: Self) {
-        let Self {
-            recent,
-            window,
-            way,
-            not_converged,
-        } = saved;
+    /// Forgets the steps so far, but not those that failed.
+    pub(super) fn restart(&mut self) {
         self.recent.clear();
-        self.recent.extend(recent);
-        (self.window, self.way, self.not_converged) = (window, way, not_converged);
     }
 
     /// Takes a step that ended at `way` (in a); keeps what the last `window` (in a) touches.
@@ -82,6 +73,7 @@ impl Totals {
                 m.load_error,
                 m.mass_error,
                 m.load_n,
+                m.contact_load_ratio,
             ],
             stress,
         });
@@ -102,6 +94,13 @@ impl Totals {
         self.recent.iter().filter_map(|e| e.stress).max_by(by_value)
     }
 
+    /// Adds what cautions need of the steps.
+    pub(super) fn ground(&self, grounds: &mut Grounds) {
+        grounds.steps_not_converged = self.not_converged;
+        grounds.p_max_greatest_pa = self.greatest(2);
+        grounds.sigma_eff_greatest_pa = self.greatest_stress().map(|stress| stress[0]);
+    }
+
     fn least(&self, k: usize) -> f64 {
         let values = self.recent.iter().map(|e| e.values[k]);
         values.reduce(f64::min).unwrap_or(0.0)
@@ -120,25 +119,30 @@ pub(super) fn summary(
     counters: Stats,
 ) -> Summary {
     let m = sim.metrics();
+    let size = sim.size_now();
     let stress = totals.greatest_stress();
-    let stage = sim.life.as_ref();
+    let stage = sim.state.life.as_ref();
     Summary {
         scene: String::new(),
         converged: totals.not_converged == 0,
+        stopped: false,
         steps: sim.passage_steps(),
+        steps_planned: None,
         steps_not_converged: totals.not_converged,
         wall_s: 0.0,
         steps_per_s: None,
-        a_m: sim.plan.hertz.a_m,
-        p_hertz_pa: sim.plan.hertz.p_max_pa,
+        a_m: sim.plan.hertz.a_m * size,
+        p_hertz_pa: sim.plan.hertz.p_max_pa * size,
         h_central_m: totals.mean(0),
         h_min_m: totals.mean(1),
         p_max_pa: totals.mean(2),
         p_max_greatest_pa: totals.greatest(2),
         h_min_least_m: totals.least(1),
         regime: m.regime,
-        cautions: Vec::new(),
+        cautions: caution::list(m, &sim.grounds()),
+        lambda_ratio: m.lambda_ratio,
         contact_ratio: totals.mean(3),
+        contact_load_ratio: totals.mean(8),
         load_n: totals.mean(7),
         load_error: totals.greatest(5),
         mass_error: totals.greatest(6),
@@ -190,6 +194,9 @@ pub(super) fn summary(
         error_h_central_m: None,
         error_h_min_m: None,
         error_p_max_pa: None,
+        error_contact_ratio: None,
+        error_contact_load_ratio: None,
+        error_friction_coefficient: None,
         error_ln_life: None,
         life_extrapolated: None,
         h_central_extrapolated_m: None,
@@ -198,10 +205,11 @@ pub(super) fn summary(
 
 /// Where the pit of a body starts.
 fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
-    let counting = sim.counting.as_ref()?;
-    let pit = counting.pit(body)?;
-    let depth = *sim.stress.as_ref()?.depths().get(pit.depth)?;
-    let length = counting.map(body)?.0.spec().length;
+    let counting = sim.state.counting.as_ref()?;
+    let size = sim.size_now();
+    let pit = counting.pit(body, size)?;
+    let depth = *sim.work.stress.as_ref()?.depths().get(pit.depth)?;
+    let length = counting.map(body, size)?.0.spec().length;
     Some(PitStart {
         depth_m: sim.door.m_from_x(depth),
         place_m: super::fill::place_m(sim, pit.place, length),
@@ -211,15 +219,16 @@ fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
 
 /// Depth from which on a crossing counts less than 1.5 cycles of signed shear.
 fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
-    let counts = sim.counting.as_ref()?.shear_counts(body)?;
-    let depths = sim.stress.as_ref()?.depths();
+    let counts = sim.state.counting.as_ref()?.shear_counts(body)?;
+    let depths = sim.work.stress.as_ref()?.depths();
     let last = counts.iter().rposition(|count| *count >= 1.5);
     let k = last.map_or(0, |k| (k + 1).min(depths.len() - 1));
     Some(sim.door.m_from_x(depths[k]))
 }
 
-/// a_ISO beside the result, from the scene's load ratio and its film parameter.
+/// a_ISO beside the result, from λ and e_C C_u/P at the load P of now.
 fn a_iso(sim: &Simulation) -> Option<f64> {
-    let lambda = sim.plan.film?.lambda_ratio?;
-    a_iso_radial_ball(kappa_from_lambda(lambda), sim.iso_load_ratio?)
+    let m = sim.metrics();
+    let load_ratio = sim.iso_load_ratio? * sim.plan.force_n / m.load_n;
+    a_iso_radial_ball(kappa_from_lambda(m.lambda_ratio?), load_ratio)
 }

@@ -21,9 +21,12 @@ pub(super) struct Variant {
     meter: LifeMeter,
     /// Greatest shares over all samples (models of one depth), or the swept integral.
     swept: Shares,
-    /// ln J of the reference, `[2 · body + form]`.
+    /// ln J of the reference of now, `[2 · body + form]`, in the scene's units.
     #[serde(with = "ln_list")]
     reference: Vec<f64>,
+    /// Same of the base: the conditions that the scene began with.
+    #[serde(with = "ln_list")]
+    base: Vec<f64>,
     /// Half range of shear, or risk, by depth of each body in the last sample, p_h (models of one depth).
     by_depth: [Vec<f32>; 2],
 }
@@ -49,6 +52,7 @@ impl Variant {
             meter: LifeMeter::new(depths, period, capacity),
             swept: Shares::new(depths),
             reference: vec![f64::NEG_INFINITY; 4],
+            base: vec![f64::NEG_INFINITY; 4],
             by_depth: [vec![0.0; depths], vec![0.0; depths]],
         }
     }
@@ -61,17 +65,29 @@ impl Variant {
             self.reference[at] = shared.scratch.ln(Loading::Normal(body));
             self.reference[at + 1] = self.swept.ln(Loading::Normal(body));
         }
+        self.base.clone_from(&self.reference);
         self.restart();
     }
 
-    /// Takes over the reference of a stage of the same make.
-    pub(super) fn take_reference(&mut self, other: &Self) {
+    /// Begins with the base of a variant of the same make.
+    pub(super) fn take_base(&mut self, other: &Self) {
+        self.base.clone_from(&other.base);
+        self.reference.clone_from(&other.base);
+    }
+
+    /// Takes the reference of `other`, a variant of the same make, for the one of now; the base stays.
+    pub(super) fn move_reference(&mut self, other: &Self) {
         self.reference.clone_from(&other.reference);
     }
 
-    /// ln J of the reference.
+    /// ln J of the reference of now.
     pub(super) fn ln_reference(&self, body: BodyId, form: VolumeIntegral) -> f64 {
         self.reference[2 * body.index() + form_index(form)]
+    }
+
+    /// ln J of the base.
+    pub(super) fn ln_base(&self, body: BodyId, form: VolumeIntegral) -> f64 {
+        self.base[2 * body.index() + form_index(form)]
     }
 
     /// Makes the room again that a copy or a file does not keep.
@@ -89,9 +105,9 @@ impl Variant {
         let depths = self.by_depth[0].len();
         self.model == saved.model
             && self.law == saved.law
-            && saved.meter.is_sound(depths)
+            && self.meter.fits(&saved.meter)
             && saved.swept.is_sound(depths)
-            && saved.reference.len() == 4
+            && [&saved.reference, &saved.base].map(Vec::len) == [4; 2]
             && saved.by_depth.iter().all(|list| list.len() == depths)
     }
 

@@ -49,12 +49,14 @@ pub enum Effect {
 pub struct Pinned {
     /// Relative life (same-load reference).
     pub life_relative: f64,
-    /// Life on the scale of the scene's load: what is compared.
-    pub life_comparable: f64,
+    /// What its load costs against the scene's; lives are compared with it.
+    pub load_factor: f64,
     /// Which number was pinned.
     pub leading: Leading,
     /// S.
     pub slide_roll: f64,
+    /// Load, N; of a line N/m.
+    pub load_n: f64,
     /// Hertz pressure, Pa.
     pub p_hertz_pa: f64,
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::physics::estimate::{Anchor, OperatingPoint};
+use crate::physics::estimate::OperatingPoint;
 use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::study::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
@@ -140,13 +140,9 @@ impl App {
             load_n: metrics.load_n,
             amplitude_1_m: metrics.amplitude_1_m,
             amplitude_2_m: metrics.amplitude_2_m,
+            entrainment_m_s: metrics.entrainment_m_s,
         };
-        self.anchor = Some(Anchor {
-            at,
-            cycle_factor: life.cycle_factor,
-            peak_factor: life.peak_factor,
-            traction_factor: life.traction_factor,
-        });
+        self.drop_anchor(&at, &life);
     }
 
     fn keep(&mut self, frame: Arc<Frame>) {

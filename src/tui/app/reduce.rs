@@ -1,6 +1,7 @@
 //! What an action does.
 
 use crate::run::Command;
+use crate::sim::Knob;
 use crate::tui::action::{Action, KEYS};
 use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pace, Pinned, Zoom};
 use crate::tui::dial::Life;
@@ -223,17 +224,18 @@ impl App {
     }
 
     fn pin(&mut self) {
-        let Some(life_relative) = self.leading_life() else {
+        let lives = self.leading_life().zip(self.leading_factors());
+        let Some((life_relative, factors)) = lives else {
             self.say("nothing to pin yet: there is no life estimate");
             return;
         };
-        let p_hertz_pa = self.estimate.p_hertz_pa;
         self.pinned = Some(Pinned {
             life_relative,
-            life_comparable: self.comparable(life_relative, p_hertz_pa),
+            load_factor: factors.load,
             leading: self.leading(),
-            slide_roll: self.dials[0].target,
-            p_hertz_pa,
+            slide_roll: self.target(Knob::SlideRoll),
+            load_n: self.load_n(),
+            p_hertz_pa: self.estimate.p_hertz_pa,
         });
     }
 

@@ -4,6 +4,7 @@ mod counts;
 mod mechanisms;
 mod number;
 mod scale;
+mod validity;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -20,7 +21,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         theme,
         areas,
         areas.life,
-        title(theme, "", "relative life"),
+        title(theme, "", number::name(app, areas)),
         buffer,
     );
     let inner = if areas.density == Density::Full {
@@ -45,6 +46,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         rows.skip();
     }
     number::figure(app, &mut rows, buffer);
+    validity::line(app, rows.take(1), buffer);
     scale::scale(app, &mut rows, buffer);
     if roomy {
         number::model(app, rows.take(1), buffer);
@@ -106,6 +108,6 @@ impl Rows {
 fn simulated(app: &App, style: Style) -> Style {
     match app.leading() {
         Leading::Simulated => style,
-        Leading::Formula => style.add_modifier(Modifier::DIM),
+        Leading::Scaled | Leading::Formula => style.add_modifier(Modifier::DIM),
     }
 }

@@ -159,6 +159,16 @@ fn ascii_keys(app: &App, keys: &str) -> String {
 pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let mut lines = Vec::new();
+    let cautions = app.cautions();
+    if !cautions.is_empty() {
+        lines.push(Line::styled("Cautions", theme.style(Role::Warn)));
+        lines.extend(
+            cautions
+                .iter()
+                .map(|caution| Line::raw(format!("  {}", ascii_text(theme, &caution.text)))),
+        );
+        lines.push(Line::default());
+    }
     if !app.setup.left_out.is_empty() {
         lines.push(Line::styled(
             "Not modelled or not needed",

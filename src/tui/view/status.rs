@@ -4,11 +4,11 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use crate::sim::{Frame, Metrics, Rhythm, Stage};
+use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
 use crate::study::sweep::Along;
 use crate::tui::app::{App, ErrandKind, Trouble, Unconverged};
 use crate::tui::theme::Role;
-use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
+use crate::tui::units::{bytes, seconds, sig};
 use crate::tui::view::{Areas, Density, ascii_text, knobs, overlay, put, put_right};
 use crate::tui::wiring::RecorderActivity;
 
@@ -114,10 +114,12 @@ fn quality(app: &App, frame: &Frame) -> Words {
         Some(trouble) => (not_converged(app, trouble), Role::Bad),
     };
     let (regime, role) = regime(metrics);
-    let lambda = sig_or_dash(metrics.lambda_ratio, 2);
+    let lambda = metrics
+        .lambda_ratio
+        .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
     let mut words = vec![
         residual,
-        (format!("{regime} λ {lambda}"), role),
+        (format!("{regime}{lambda}"), role),
         (
             format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
             Role::Text,
@@ -179,15 +181,14 @@ fn tiny(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// Who carries the load: the film, both, or the asperities.
+/// Who carries the load, and how good that is.
 fn regime(metrics: &Metrics) -> (&'static str, Role) {
-    if metrics.contact_ratio <= 0.0 {
-        ("full film", Role::Good)
-    } else if metrics.contact_load_ratio < 0.9 {
-        ("mixed", Role::Warn)
-    } else {
-        ("boundary", Role::Bad)
-    }
+    let role = match metrics.regime {
+        LubricationRegime::FullFilm => Role::Good,
+        LubricationRegime::Mixed => Role::Warn,
+        LubricationRegime::Boundary | LubricationRegime::Dry => Role::Bad,
+    };
+    (metrics.regime.name(), role)
 }
 
 fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {

@@ -1,0 +1,131 @@
+//! What lives are relative to: the smooth, frictionless contact at S = 0, at the load and speed of now.
+//!
+//! ```text
+//! I_ref(now)  = I_ref(where it was computed) r^g            r: ratio of Hertz half-widths, g: LifeModel::growth
+//! load_factor = [I_ref(base)/I_ref(now)]^{1/e}              both in the scene's units
+//! ```
+//! The start-up computes it for the load and speed that the scene begins with, the base. On the way to others it grows
+//! as Hertz contacts do.
+
+use serde::{Deserialize, Serialize};
+
+use super::fatigue_stage::LifeStage;
+use super::stress_stage::StressStage;
+use super::variant::Variant;
+use crate::physics::cycles::BodyId;
+use crate::physics::life_models::calibrated_reference;
+use crate::scene::VolumeIntegral;
+use crate::solve::stress::Loading;
+
+/// Loading cycles of the smooth contact, where the scene gives a point of them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Calibration {
+    /// Cycles of the point.
+    pub(super) cycles: f64,
+    /// p_cal/p_h.
+    pub(super) pressure_ratio: f64,
+    /// Life at the scene's survival over that at the point's.
+    pub(super) survival_ratio: f64,
+}
+
+impl LifeStage {
+    /// Takes the smooth contact as the reference, and as the base.
+    pub(super) fn set_reference(&mut self, stress: &mut StressStage) {
+        self.reference_size = 1.0;
+        self.measure_reference(stress);
+    }
+
+    /// Takes the smooth contact of `size` times the scene's as the reference of now; the base, and what has been
+    /// sampled, stay.
+    pub(super) fn move_reference(&mut self, stress: &mut StressStage, size: f64) {
+        let mut blank = self.clone();
+        blank.reference_size = size;
+        blank.measure_reference(stress);
+        for (own, blank) in self.variants.iter_mut().zip(&blank.variants) {
+            own.move_reference(blank);
+        }
+        (self.reference_size, self.reference_cycles) = (size, blank.reference_cycles);
+    }
+
+    fn measure_reference(&mut self, stress: &mut StressStage) {
+        self.clear();
+        self.each(stress, |variant, stress, shared| {
+            variant.set_reference(stress, shared);
+        });
+        self.sweep.restart();
+        self.reference_cycles = self.calibrate(stress);
+    }
+
+    /// Begins with the base of a stage that [`Self::fits`].
+    pub(super) fn take_base(&mut self, other: &Self) {
+        for (own, other) in self.variants.iter_mut().zip(&other.variants) {
+            own.take_base(other);
+        }
+        // Cycles at the base by the same law as they were carried on from there.
+        let back = self.cycles_ratio(1.0 / other.reference_size);
+        self.reference_size = 1.0;
+        self.reference_cycles = other.reference_cycles.map(|cycles| cycles * back);
+    }
+
+    /// Cycles of the smooth contact of the reference, from the calibration point.
+    fn calibrate(&mut self, stress: &mut StressStage) -> Option<f64> {
+        let point = self.calibration?;
+        let model = self.variants[0].model;
+        let cycles = point.cycles * point.survival_ratio;
+        let ratio = point.pressure_ratio / self.reference_size;
+        if let Some(exponent) = model.pressure_exponent(self.law, self.sides) {
+            return Some(calibrated_reference(cycles, ratio, 1.0, exponent));
+        }
+        // A limit breaks the power law: the integral once more with the limit in units of the point's
+        // pressure. It grows like the model without a limit.
+        let mut law = self.laws[0];
+        law.limit /= ratio;
+        stress.volume(&[law]);
+        let shares = stress.sums().layers(Loading::Normal(BodyId::One), 0);
+        let weighted = shares.iter().zip(&self.depths);
+        let ln_point = crate::math::ln_sum::ln_sum(
+            weighted.map(|(ln, z)| (1.0, ln + model.ln_depth_weight(*z))),
+        );
+        let growth = model.growth(self.law, self.sides, false);
+        let ln_reference = self.variants[0].ln_reference(BodyId::One, VolumeIntegral::Snapshot);
+        let ln = ln_point + growth * ratio.ln() - ln_reference;
+        ln.is_finite()
+            .then(|| cycles * (ln / self.law.weibull_slope).exp())
+    }
+
+    /// What a growth of the smooth contact by `ratio` does to its life.
+    pub(super) fn cycles_ratio(&self, ratio: f64) -> f64 {
+        let model = self.variants[0].model;
+        let growth = model.growth(self.law, self.sides, false) + model.width(self.sides);
+        ratio.powf(-growth / self.law.weibull_slope)
+    }
+
+    /// ln J of the reference for a contact of `size` times the scene's.
+    pub(super) fn ln_reference(
+        &self,
+        variant: &Variant,
+        (body, form): (BodyId, VolumeIntegral),
+        size: f64,
+    ) -> f64 {
+        let ratio = size / self.reference_size;
+        variant.ln_reference(body, form) + self.growth(variant, form) * ratio.ln()
+    }
+
+    pub(super) fn growth(&self, variant: &Variant, form: VolumeIntegral) -> f64 {
+        let swept = form == VolumeIntegral::Swept;
+        variant.model.growth(self.law, self.sides, swept)
+    }
+
+    /// Life of the smooth contact of `size` times the scene's over its life at the base.
+    pub(super) fn load_factor(
+        &self,
+        variant: &Variant,
+        (body, form): (BodyId, VolumeIntegral),
+        size: f64,
+    ) -> f64 {
+        let width = variant.model.width(self.sides) * size.ln();
+        let ln_now = self.ln_reference(variant, (body, form), size) + width;
+        self.law
+            .integral_factor(variant.ln_base(body, form), ln_now)
+    }
+}
