@@ -32,6 +32,7 @@ impl Simulation {
     }
 
     fn measure_stress(&mut self, measured: &Measured) {
+        let stress_error = self.stress_error_now();
         let Some(stress) = &mut self.stress else {
             return;
         };
@@ -43,7 +44,6 @@ impl Simulation {
         let due = self.phase == Phase::Passage && self.way >= self.next_volume - 1e-9;
         let flushed = self.motion.is_flushed();
         let repeat = self.metrics.repeat;
-        let stress_error = self.stress_error;
         self.pool.install(|| {
             stress.slice(p, q, measured.friction);
             if let Some(life) = &mut self.life
@@ -196,7 +196,7 @@ impl Simulation {
             n: [self.metrics.n_body_1, self.metrics.n_body_2],
             slide_roll: self.metrics.slide_roll,
             size: self.size_now(),
-            stress_error: self.stress_error,
+            stress_error: self.stress_error_now(),
         };
         self.life.as_ref()?.estimate(&now, self.counting.as_ref())
     }

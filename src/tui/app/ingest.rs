@@ -19,8 +19,6 @@ const PAST_FRAMES: usize = 96;
 const HISTORY: usize = 1024;
 /// Wall time over which the speed of the run is averaged.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
-/// How long a step that did not converge stays on the screen.
-const FAILURE_WINDOW: Duration = Duration::from_secs(3);
 /// How long a knob that was set here is not overruled by what a frame says of its target.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -44,9 +42,6 @@ impl App {
             self.trace.push(point, frame.a_m);
         }
         self.take_rate(&frame);
-        self.verdicts.push_back((self.now, frame.metrics.converged));
-        let now = self.now;
-        self.verdicts.retain(|(at, _)| *at + FAILURE_WINDOW >= now);
         self.take_life(&frame);
         self.waves.push(&frame);
         self.keep(frame);

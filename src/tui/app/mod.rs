@@ -95,8 +95,6 @@ pub struct App {
     message: Option<(String, Duration)>,
     now: Duration,
     rate: VecDeque<(Duration, u64)>,
-    /// Whether the frames of the last seconds converged.
-    verdicts: VecDeque<(Duration, bool)>,
     /// When each knob was last set from here.
     set_at: Vec<Option<Duration>>,
     /// A fault panel that was read and closed.
@@ -152,7 +150,6 @@ impl App {
             message: None,
             now: Duration::ZERO,
             rate: VecDeque::new(),
-            verdicts: VecDeque::new(),
             set_at: vec![None; dials.len()],
             fault_read: false,
             dials,
@@ -202,13 +199,6 @@ impl App {
         let (first, last) = (self.rate.front()?, self.rate.back()?);
         let seconds = last.0.checked_sub(first.0)?.as_secs_f64();
         (seconds > 0.0).then(|| last.1.saturating_sub(first.1) as f64 / seconds)
-    }
-
-    /// How many frames of the last seconds did not converge, of how many; `None`: all did. A failure stays on the
-    /// screen for so long, so that it can be read.
-    pub fn failures(&self) -> Option<(usize, usize)> {
-        let failed = self.verdicts.iter().filter(|(_, good)| !good).count();
-        (failed > 0).then_some((failed, self.verdicts.len()))
     }
 
     /// Where a knob is going, as the screen has it.

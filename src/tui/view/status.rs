@@ -8,7 +8,7 @@ use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
 use crate::study::sweep::Along;
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
-use crate::tui::units::{bytes, seconds, sig};
+use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
 use crate::tui::view::{Areas, Density, ascii_text, put, put_right};
 use crate::tui::wiring::RecorderActivity;
 
@@ -24,7 +24,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             write(app, area, row, &words, buffer);
             row += 1;
             words = quality(app, frame);
-        } else if frame.metrics.converged && app.failures().is_none() {
+        } else if frame.metrics.converged {
             words.extend(quality(app, frame));
         } else {
             // What is wrong stands first: the rest may not fit.
@@ -98,24 +98,22 @@ fn progress(app: &App, frame: &Frame) -> Words {
 
 fn quality(app: &App, frame: &Frame) -> Words {
     let metrics = &frame.metrics;
-    let residual = match (metrics.converged, app.failures()) {
-        (true, None) => (format!("residual {:.0e}", metrics.residual), Role::Text),
-        (true, Some((failed, all))) => (
-            format!("converged, but {failed} of the last {all} frames not"),
-            Role::Warn,
-        ),
-        (false, _) => (
-            format!(" NOT CONVERGED: {} ", unmet(app, metrics)),
+    let residual = if metrics.converged {
+        (format!("residual {:.0e}", metrics.residual), Role::Text)
+    } else {
+        (
+            format!(
+                " NOT CONVERGED residual {:.1e} after {} retries ",
+                metrics.residual, metrics.retries
+            ),
             Role::Bad,
-        ),
+        )
     };
     let (regime, role) = regime(metrics);
-    let lambda = metrics
-        .lambda_ratio
-        .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
+    let lambda = sig_or_dash(metrics.lambda_ratio, 2);
     let mut words = vec![
         residual,
-        (format!("{regime}{lambda}"), role),
+        (format!("{regime} λ {lambda}"), role),
         (
             format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
             Role::Text,
@@ -144,23 +142,6 @@ fn quality(app: &App, frame: &Frame) -> Words {
         words.truncate(4);
     }
     words
-}
-
-/// What a step that did not converge has left: not every one fails by its residual.
-fn unmet(app: &App, metrics: &Metrics) -> String {
-    let tolerance = app.setup.scene.numerics.tolerance;
-    let retries = match metrics.retries {
-        0 => String::new(),
-        n => format!(" after {n} retries"),
-    };
-    if metrics.overlap_m > 0.0 && metrics.residual <= tolerance {
-        let overlap = app.units.film().show(metrics.overlap_m, 2);
-        format!("bodies overlap by {overlap}{retries}")
-    } else if metrics.residual > tolerance {
-        format!("residual {:.1e}{retries}", metrics.residual)
-    } else {
-        format!("film error {:.1e}{retries}", metrics.film_error)
-    }
 }
 
 /// The letter of what a sweep goes along.
