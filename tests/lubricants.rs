@@ -91,7 +91,7 @@ fn jfo_keeps_the_mass_behind_the_rupture() {
             assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
             march.commit(1.0);
         }
-        let grid = &march.grid;
+        let grid = &march.solver.grid;
         let flux = |i: usize| -> f64 {
             let rows = grid.interior_rows();
             rows.map(|j| grid.weight(j) * march.state.history.mass_1[j * grid.nx + i])

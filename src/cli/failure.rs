@@ -191,7 +191,7 @@ impl From<CheckpointError> for Failure {
     fn from(error: CheckpointError) -> Self {
         Self::input(miette!(
             code = "state",
-            help = "a run goes on with the scene and settings that it was saved with; only --passages and outputs may differ",
+            help = "a run continues with the scene and settings that it was saved with; only --passages and outputs may differ",
             "{error}"
         ))
     }

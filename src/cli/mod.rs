@@ -78,7 +78,7 @@ fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
 #[cfg(not(feature = "tui"))]
 fn explore(_args: &RunArgs, _engine: Engine) -> Result<u8, Failure> {
     Err(Failure::input(miette::miette!(
-        help = "asperity run computes the same without a screen; a build with the default features has one",
+        help = "asperity run computes the same without a screen; a build with the default features has the explorer",
         "this program was built without the feature tui, so it has no explorer"
     )))
 }

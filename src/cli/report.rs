@@ -335,11 +335,10 @@ pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {
     }
     for step in outcome.unconverged.iter().take(NAMED) {
         list.push(format!(
-            "step {} at t = {:.4e} s did not converge: residual {:.2e}, {:.2e} of the film unbalanced{}",
+            "step {} at t = {:.4e} s did not converge: {}{}",
             step.step,
             step.time_s,
-            step.residual,
-            step.film_error,
+            step.unsolved,
             match 1e9 * step.overlap_m {
                 nm if nm > 0.0 => format!(", surfaces overlap by {nm:.2} nm"),
                 _ => String::new(),

@@ -57,7 +57,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     if report.stopped {
         let (done, all) = (progress.done.load(Ordering::Relaxed), sweep.len());
         tell(&format!(
-            "stopped with {done} of {all} cases; they are kept, --resume goes on"
+            "stopped with {done} of {all} cases; they are kept, --resume continues"
         ));
         return Ok(STOPPED);
     }
@@ -86,7 +86,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         if report.computed == sweep.len() {
             let cold_s = began.elapsed().as_secs_f64();
             print(&format!(
-                "by the clock, {threads} threads, writing included: sweep {sweep_s:.1} s, cold {cold_s:.1} s: {:.2} times \
+                "wall time on {threads} threads, writing included: sweep {sweep_s:.1} s, cold {cold_s:.1} s: {:.2} times \
                  faster\n",
                 cold_s / sweep_s
             ))?;
@@ -215,7 +215,7 @@ fn comparison(sweep: &Sweep, against: &Against) -> String {
     );
     let _ = writeln!(
         text,
-        "greatest departure from cold: life {:.2} %, central film {:.2} %",
+        "greatest difference from cold: life {:.2} %, central film {:.2} %",
         100.0 * against.worst(0),
         100.0 * against.worst(1)
     );
@@ -262,7 +262,7 @@ fn with_bar<T: Send>(
     match result {
         Ok(result) => Ok(result?),
         Err(_) => Err(Failure::stalled(miette::miette!(
-            "a worker broke off; finished cases are kept, --resume goes on"
+            "a worker failed; finished cases are kept, --resume continues"
         ))),
     }
 }

@@ -19,7 +19,7 @@ mod queue;
 mod ramp;
 #[cfg(feature = "rerun")]
 pub mod rerun;
-mod scales;
+pub(crate) mod scales;
 mod table;
 
 use std::sync::Arc;
@@ -167,6 +167,10 @@ pub trait Observer: Send {
     /// Frames that it could not keep up with so far.
     fn skipped(&self) -> u64 {
         0
+    }
+    /// Frames whose pictures it has kept, where that is fewer than it was given.
+    fn kept(&self) -> Option<u64> {
+        None
     }
     /// Nothing has come for a second (a queue calls it): what is held back may go on.
     ///

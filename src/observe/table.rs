@@ -230,6 +230,7 @@ impl Row {
             film_error,
             mass_error,
             overlap_m,
+            asked: _,
             friction_coefficient,
             sigma_eff_max_pa,
             sigma_eff_max_depth_m,

@@ -71,6 +71,14 @@ impl Rainflow {
         }
     }
 
+    /// Whether a counter that was saved is of the same make as this one, and holds no more than it can.
+    pub fn fits(&self, saved: &Self) -> bool {
+        self.turning.gate() == saved.turning.gate()
+            && (self.ends, self.capacity) == (saved.ends, saved.capacity)
+            && saved.stack.len() <= self.capacity + 2
+            && saved.ring.len() <= self.capacity + 3
+    }
+
     /// Makes the room again that a copy or a file does not keep.
     pub fn make_room(&mut self) {
         let room = |list: &mut Vec<f64>, most: usize| {

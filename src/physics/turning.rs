@@ -48,6 +48,11 @@ impl Turning {
         }
     }
 
+    /// The gate.
+    pub fn gate(&self) -> f64 {
+        self.gate
+    }
+
     /// Starts a new history.
     pub fn reset(&mut self) {
         self.heading = Heading::Empty;

@@ -6,7 +6,7 @@
 //! ```
 //! Numbers are written with as many digits as read back to the same bits.
 
-use std::io::Write as _;
+use std::io::{Read as _, Write as _};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,8 @@ use crate::scene::Scene;
 use crate::sim::State;
 
 const MAGIC: &str = "asperity state 1 ";
+/// Digits of the digest.
+const DIGITS: usize = 16;
 /// Longest file that is read, bytes: ten times the state of the finest grid.
 const LONGEST: u64 = 20 << 30;
 
@@ -64,31 +66,44 @@ impl Checkpoint {
             path: path.display().to_string(),
             reason,
         };
-        let size = std::fs::metadata(path)
-            .map_err(|e| failed(e.to_string()))?
-            .len();
-        if size > LONGEST {
+        let io = |error: std::io::Error| failed(error.to_string());
+        let about = std::fs::metadata(path).map_err(io)?;
+        if !about.is_file() {
+            // Opening a pipe may wait for ever, and reading a device may never end.
+            return Err(failed("no regular file".to_owned()));
+        }
+        if about.len() > LONGEST {
             return Err(failed("longer than any state".to_owned()));
         }
-        let text = std::fs::read_to_string(path).map_err(|e| failed(e.to_string()))?;
-        let (head, body) = text.split_once('\n').unwrap_or_default();
-        let Some(digest) = head.strip_prefix(MAGIC) else {
+        let mut file = std::fs::File::open(path).map_err(io)?;
+        let mut head = vec![0; MAGIC.len() + DIGITS + 1];
+        let whole = file.read_exact(&mut head);
+        let head = String::from_utf8_lossy(&head);
+        let digest = head
+            .strip_prefix(MAGIC)
+            .and_then(|rest| rest.strip_suffix('\n'));
+        let Some(digest) = digest.filter(|_| whole.is_ok()) else {
             return Err(failed("no state of this version of asperity".to_owned()));
         };
+        let mut body = String::new();
+        let mut rest = file.take(LONGEST);
+        rest.read_to_string(&mut body).map_err(io)?;
         if digest != format!("{:016x}", fnv(body.as_bytes())) {
             return Err(failed(
                 "cut short or changed: its digest is wrong".to_owned(),
             ));
         }
-        serde_json::from_str(body).map_err(|error| failed(error.to_string()))
+        serde_json::from_str(&body).map_err(|error| failed(error.to_string()))
     }
 
     /// Writes it to an open file.
     ///
     /// # Errors
-    /// When the disk says no.
+    /// When the disk says no, or when what would be written could not be read again.
     pub fn write(&self, file: &mut std::fs::File) -> std::io::Result<()> {
         let body = serde_json::to_string(self)?;
+        // JSON has no infinity: better no state, and told, than one that nothing can load.
+        serde_json::from_str::<Self>(&body)?;
         writeln!(file, "{MAGIC}{:016x}", fnv(body.as_bytes()))?;
         file.write_all(body.as_bytes())?;
         file.sync_all()

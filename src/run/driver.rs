@@ -16,7 +16,7 @@ use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind, SetBy};
 use crate::scene::{Event, Scene};
-use crate::sim::{Frame, Knob, SimError, Stage, State};
+use crate::sim::{Frame, Knob, LubricationRegime, SimError, Stage, State, Unsolved};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
@@ -358,8 +358,13 @@ impl Driver {
             self.unconverged.push(Unconverged {
                 step: sim.passage_steps(),
                 time_s: sim.time_s(),
-                residual,
-                film_error: metrics.film_error,
+                unsolved: Unsolved {
+                    residual,
+                    residual_asked: metrics.asked[0],
+                    film_error: metrics.film_error,
+                    film_error_asked: metrics.asked[1],
+                    dry: metrics.regime == LubricationRegime::Dry,
+                },
                 overlap_m: metrics.overlap_m,
             });
         }

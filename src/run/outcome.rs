@@ -2,7 +2,7 @@
 
 use crate::observe::{ObserveError, ObserverReport, SetBy};
 use crate::run::{Checkpoint, Command};
-use crate::sim::{SimError, StepError, Summary};
+use crate::sim::{SimError, StepError, Summary, Unsolved};
 
 /// A command that took effect, with the step before which it did: scene and log replay the run.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,10 +26,8 @@ pub struct Unconverged {
     pub step: u64,
     /// Simulated time, s.
     pub time_s: f64,
-    /// Residual reached: last change of pressure.
-    pub residual: f64,
-    /// Share of the film that is left unbalanced.
-    pub film_error: f64,
+    /// What is left of its equations, and what was asked.
+    pub unsolved: Unsolved,
     /// Deepest overlap of the surfaces, m.
     pub overlap_m: f64,
 }

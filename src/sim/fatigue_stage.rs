@@ -44,8 +44,8 @@ pub(super) struct LifeStage {
     pub(super) sweep: Sweep,
     scratch: Shares,
     pub(super) depths: Vec<f64>,
-    /// Wavelength along x of the mating crests, a; infinite: none.
-    wavelengths: [f64; 2],
+    /// Wavelength along x of the mating crests, a.
+    wavelengths: [Option<f64>; 2],
     pub(super) calibration: Option<Calibration>,
     /// Directions in which the contact grows with the pressure.
     pub(super) sides: f64,
@@ -83,10 +83,8 @@ impl LifeStage {
             survival_ratio: law.survival_ratio(asked.survival, asked.calibration_survival),
         });
         let wavelength = |body: BodyId| {
-            let wave = plan.waves[body.mate().index()];
-            wave.map_or(f64::INFINITY, |wave| {
-                1.0 / (wave.crests_per_m * plan.hertz.a_m)
-            })
+            let wave = plan.waves[body.mate().index()].filter(|wave| wave.crests_per_m > 0.0);
+            wave.map(|wave| 1.0 / (wave.crests_per_m * plan.hertz.a_m))
         };
         Some(Self {
             law,
@@ -159,7 +157,9 @@ impl LifeStage {
     /// Whether a stage that was saved is of the same make as this one.
     pub(super) fn fits(&self, saved: &Self) -> bool {
         let (depths, rows) = (self.depths.len(), self.sweep.of(Loading::ALL[0]).len());
-        self.asked == saved.asked
+        self.law == saved.law
+            && self.calibration == saved.calibration
+            && self.asked == saved.asked
             && self.laws == saved.laws
             && self.depths == saved.depths
             && saved.sweep.is_sound(rows)
@@ -170,6 +170,11 @@ impl LifeStage {
                 .iter()
                 .zip(&saved.variants)
                 .all(|(a, b)| a.fits(b))
+    }
+
+    /// Whether a stage that was saved was made for the same crests.
+    pub(super) fn same_waves(&self, saved: &Self) -> bool {
+        self.wavelengths == saved.wavelengths
     }
 
     /// Takes the mean over a way of `period` (in a) from now on.
@@ -304,7 +309,7 @@ impl LifeStage {
             CycleBasis::Global => Some(CycleProfile::Global(n)),
             CycleBasis::Depth => Some(CycleProfile::Depth {
                 n,
-                wavelength: self.wavelengths[body.index()],
+                wavelength: self.wavelengths[body.index()].unwrap_or(f64::INFINITY),
             }),
             CycleBasis::Peaks | CycleBasis::Ranges => counting?.profile(body, basis),
         }

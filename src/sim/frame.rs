@@ -234,13 +234,17 @@ pub struct Metrics {
     pub regime: LubricationRegime,
     /// |carried - asked|/asked.
     pub load_error: f64,
-    /// Σ|film equation's residual| over the mass in the pressurised zone; the next step takes it over.
+    /// Σ|film equation's residual| over the mass in the pressurised zone; the next step takes it over. Of a dry step the
+    /// greatest gap or overlap of touching nodes, over the film that p_h on one node makes.
     pub film_error: f64,
     /// The part of that which no step takes over: mass lost or made.
     pub mass_error: f64,
     /// Deepest overlap of the surfaces in a step that did not converge, or at an edge of the domain, where
     /// contact is cut off (a step that is then not called converged), m; else 0.
     pub overlap_m: f64,
+    /// What `residual` and `film_error` may be.
+    #[serde(default)]
+    pub asked: [f64; 2],
     /// Friction force over load, positive.
     pub friction_coefficient: f64,
     /// Greatest effective stress in the slice (or volume), Pa.

@@ -7,6 +7,7 @@ mod drive;
 mod error;
 mod fatigue_stage;
 mod fill;
+mod fitness;
 mod follow;
 mod frame;
 mod knob;
@@ -33,7 +34,7 @@ mod variant;
 mod watching;
 
 pub use caution::{Caution, CautionCode, Grounds};
-pub use error::{SimError, StepError};
+pub use error::{SimError, StepError, Unsolved};
 pub use frame::{
     DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,
     PassedPeak, Repeat, Rhythm, Stage, StressPlane, StressSlice,

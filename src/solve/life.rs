@@ -120,13 +120,18 @@ impl LifeMeter {
         }
     }
 
-    /// Whether a meter that was read from a file has as many depths everywhere.
-    pub fn is_sound(&self, depths: usize) -> bool {
-        let all = self.phases.iter().chain(&self.spare).map(|p| &p.shares);
-        all.chain([&self.mean])
-            .all(|shares| shares.is_sound(depths))
-            && self.marks.len() <= 2 * MARKS_KEPT
-            && self.marks.len().is_multiple_of(2)
+    /// Whether a meter that was saved is of the same make as this one, with as many depths everywhere.
+    pub fn fits(&self, saved: &Self) -> bool {
+        let depths = self.mean.depths;
+        let all = saved.phases.iter().chain(&saved.spare);
+        let mut shares = all.map(|p| &p.shares).chain([&saved.mean]);
+        self.capacity == saved.capacity
+            && saved.phases.len() + saved.spare.len() == self.capacity + 1
+            && saved.phases.iter().all(|phase| phase.span > 0.0)
+            && saved.period > 0.0
+            && shares.all(|shares| shares.is_sound(depths))
+            && saved.marks.len() <= 2 * MARKS_KEPT
+            && saved.marks.len().is_multiple_of(2)
     }
 
     /// Makes the room again that a copy or a file does not keep.

@@ -109,6 +109,16 @@ struct Point {
 }
 
 impl Point {
+    /// Whether a point that was saved is of the same make as this one.
+    fn fits(&self, saved: &Self) -> bool {
+        let all = |own: &[History], saved: &[History]| {
+            own.len() == saved.len() && own.iter().zip(saved).all(|(own, saved)| own.fits(saved))
+        };
+        self.pressure.fits(&saved.pressure)
+            && all(&self.shear, &saved.shear)
+            && all(&self.effective, &saved.effective)
+    }
+
     fn histories(&mut self) -> impl Iterator<Item = &mut History> {
         std::iter::once(&mut self.pressure)
             .chain(&mut self.shear)
@@ -194,16 +204,26 @@ impl MaterialTracker {
         self.trace.reserve_exact(room);
     }
 
-    /// Whether a tracker that was read from a file can be used.
-    pub fn is_sound(&self) -> bool {
-        let depths = self.spec.depths;
-        let whole = |p: &Point| p.shear.len() == depths && p.effective.len() == depths;
-        !self.points.is_empty()
-            && self.points.iter().all(whole)
-            && self.map.as_ref().is_none_or(|map| map.is_sound(depths))
-            && self.oldest < self.trace.len().max(1)
-            && self.shown < self.points.len()
-            && self.spec.shown_depth < depths.max(1)
+    /// Whether a tracker that was saved is of the same make as this one, and nothing in it points astray.
+    pub fn fits(&self, saved: &Self) -> bool {
+        let spec = TrackerSpec {
+            shown_depth: saved.spec.shown_depth,
+            ..self.spec
+        };
+        let mut points = self.points.iter().zip(&saved.points);
+        spec == saved.spec
+            && spec.shown_depth < spec.depths.max(1)
+            && self.points.len() == saved.points.len()
+            && points.all(|(own, saved)| own.fits(saved))
+            && self.map.is_some() == saved.map.is_some()
+            && self
+                .map
+                .iter()
+                .zip(&saved.map)
+                .all(|(own, saved)| own.fits(saved))
+            && saved.trace.len() <= spec.trace.max(1)
+            && saved.oldest < saved.trace.len().max(1)
+            && saved.shown < saved.points.len()
     }
 
     /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are, and the

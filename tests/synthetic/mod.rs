@@ -266,6 +266,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         film_error: 1e-3 * (1.3 + wobble),
         mass_error: 2e-5 * (1.3 + wobble),
         overlap_m: 0.0,
+        asked: [1e-3, 1e-2],
         friction_coefficient: 0.052 + 0.002 * wobble,
         sigma_eff_max_pa: Some(sigma),
         sigma_eff_max_depth_m: Some(depth),

@@ -313,6 +313,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         film_error: 1.2e-3,
         mass_error: 3.3e-5,
         overlap_m: 0.0,
+        asked: [1e-3, 1e-2],
         friction_coefficient: 0.047,
         sigma_eff_max_pa: Some(1.12e9),
         sigma_eff_max_depth_m: Some(0.46 * frame.a_m),

@@ -10,9 +10,9 @@ pub(super) use crate::observe::ramp::Ramp;
 pub(super) const ORANGE: [u8; 3] = [230, 159, 0];
 pub(super) const SKY: [u8; 3] = [86, 180, 233];
 pub(super) const GREEN: [u8; 3] = [0, 158, 115];
-pub(super) const BLUE: [u8; 3] = [70, 130, 220];
-pub(super) const VERMILION: [u8; 3] = [213, 94, 0];
+
 pub(super) const PURPLE: [u8; 3] = [204, 121, 167];
+pub(super) const YELLOW: [u8; 3] = [240, 228, 66];
 pub(super) const WHITE: [u8; 3] = [235, 235, 235];
 pub(super) const GREY: [u8; 3] = [150, 155, 165];
 /// A colour as text has it: the viewer puts a sheet under labels, black or white by its theme and half transparent, so

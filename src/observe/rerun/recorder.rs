@@ -9,7 +9,6 @@ use rerun::TextLogLevel;
 
 use self::views::Views;
 use super::file::RecordingFile;
-use super::geometry::Geometry;
 use super::live::Live;
 use super::moment::Moment;
 use super::stream::Stream;
@@ -193,6 +192,10 @@ impl Observer for Recorder {
             text::log_line(&self.stream, &note, TextLogLevel::WARN)?;
         }
         Ok(())
+    }
+
+    fn kept(&self) -> Option<u64> {
+        self.views.as_ref().map(|views| views.pictures)
     }
 
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {

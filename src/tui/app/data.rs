@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::run::Command;
 use crate::scene::Scene;
+use crate::sim::Frame;
 use crate::study::sweep::Order;
 use crate::tui::app::Leading;
 use crate::tui::theme::Theme;
@@ -73,6 +74,44 @@ pub struct Ranges {
     pub stress_pa: f64,
     /// Shear of the material point to either side, Pa.
     pub shear_pa: f64,
+}
+
+/// A step that did not converge, and what of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trouble {
+    /// Which step.
+    pub step: u64,
+    /// What did not.
+    pub what: Unconverged,
+}
+
+/// What of a step did not converge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unconverged {
+    /// The pressure: its residual, and how often the step was tried again.
+    Pressure(f64, u32),
+    /// The film: the part that is not balanced.
+    Film(f64),
+    /// Surfaces overlap by so much, m: at nodes that did not converge, or where the domain cuts contact off.
+    Overlap(f64),
+}
+
+impl Trouble {
+    /// Of a frame's step, whose pressure was to converge to `tolerance`.
+    pub fn of(frame: &Frame, tolerance: f64) -> Self {
+        let metrics = &frame.metrics;
+        let what = if metrics.residual > tolerance {
+            Unconverged::Pressure(metrics.residual, metrics.retries)
+        } else if metrics.overlap_m > 0.0 {
+            Unconverged::Overlap(metrics.overlap_m)
+        } else {
+            Unconverged::Film(metrics.film_error)
+        };
+        Self {
+            step: frame.step,
+            what,
+        }
+    }
 }
 
 /// One point of the life's history.

@@ -7,7 +7,7 @@ use crate::physics::estimate::OperatingPoint;
 use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::study::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
-use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges};
+use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges, Trouble};
 use crate::tui::dial::{Dial, knob_target, knob_value};
 use crate::tui::units::nice_ceiling;
 
@@ -19,6 +19,8 @@ const PAST_FRAMES: usize = 96;
 const HISTORY: usize = 1024;
 /// Wall time over which the speed of the run is averaged.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
+/// How long a step that did not converge is told: single ones would flicker.
+const TOLD: Duration = Duration::from_secs(3);
 /// How long a knob that was set here is not overruled by what a frame says of its target.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -42,6 +44,10 @@ impl App {
             self.trace.push(point, frame.a_m);
         }
         self.take_rate(&frame);
+        if !frame.metrics.converged {
+            let trouble = Trouble::of(&frame, self.setup.scene.numerics.tolerance);
+            self.trouble = Some((trouble, self.now + TOLD));
+        }
         self.take_life(&frame);
         self.waves.push(&frame);
         self.keep(frame);
@@ -58,6 +64,15 @@ impl App {
                 self.trace.push(point, a_m);
             }
         }
+    }
+
+    /// What went wrong with a step of the last seconds, or with the one that is looked at.
+    pub fn trouble(&self) -> Option<Trouble> {
+        let tolerance = self.setup.scene.numerics.tolerance;
+        let shown = self.frame().filter(|frame| !frame.metrics.converged);
+        let shown = shown.map(|frame| Trouble::of(frame, tolerance));
+        let told = self.trouble.filter(|(_, until)| self.now < *until);
+        shown.or_else(|| told.filter(|_| self.back == 0).map(|(trouble, _)| trouble))
     }
 
     fn take_knobs(&mut self, frame: &Frame) {

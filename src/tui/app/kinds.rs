@@ -41,7 +41,7 @@ impl MapKind {
             Self::Pressure => "pressure",
             Self::Film => "film",
             Self::Fringes => "interferogram",
-            Self::Contact => "contact spots",
+            Self::Contact => "touching",
             Self::Roughness => "roughness",
             Self::Stress => "stress below",
             Self::PressureWaves => "pressure x-t",

@@ -31,7 +31,7 @@ use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
 use crate::tui::wiring::{Health, RunStatus, Shown};
 use curve::MeanFriction;
-pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Setup};
+pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Setup, Trouble, Unconverged};
 pub use held::PointNow;
 pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
@@ -95,6 +95,8 @@ pub struct App {
     message: Option<(String, Duration)>,
     now: Duration,
     rate: VecDeque<(Duration, u64)>,
+    /// The last step that did not converge, and until when it is told.
+    trouble: Option<(Trouble, Duration)>,
     /// When each knob was last set from here.
     set_at: Vec<Option<Duration>>,
     /// A fault panel that was read and closed.
@@ -117,7 +119,10 @@ impl App {
             map: MapKind::default(),
             zoom: Zoom::default(),
             quantity: PointQuantity::default(),
-            curve: Curve::default(),
+            curve: match setup.scene.life {
+                Some(_) => Curve::Life,
+                None => Curve::Friction,
+            },
             overlay: Overlay::default(),
             scroll: 0,
             pace: Pace::default(),
@@ -150,6 +155,7 @@ impl App {
             message: None,
             now: Duration::ZERO,
             rate: VecDeque::new(),
+            trouble: None,
             set_at: vec![None; dials.len()],
             fault_read: false,
             dials,
@@ -172,9 +178,13 @@ impl App {
         self.status = status;
     }
 
-    /// Shows a line for some seconds.
+    /// Shows a line for some seconds, a long one for longer.
     pub fn say(&mut self, text: impl Into<String>) {
-        self.message = Some((text.into(), self.now + Duration::from_secs(5)));
+        /// Letters read in a second, by one who must look for them first.
+        const LETTERS: u64 = 15;
+        let text = text.into();
+        let seconds = 4 + text.chars().count() as u64 / LETTERS;
+        self.message = Some((text, self.now + Duration::from_secs(seconds)));
     }
 
     /// The frame on the screen: the newest, one of the past, or one of the orbit that is replayed.

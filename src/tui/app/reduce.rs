@@ -87,7 +87,7 @@ impl App {
         let next = self.pixels().next();
         self.set_pixels(next);
         self.say(format!(
-            "map in {}, if the terminal has them (g: others)",
+            "map drawn in {}, if the terminal supports them (g: next)",
             next.name()
         ));
     }
@@ -144,7 +144,7 @@ impl App {
         let dial = &mut self.dials[place];
         if let Life::Dead(reason) = dial.life {
             let line = format!(
-                "{}: the surface is {reason}, there is nothing to turn",
+                "{}: the surface is {reason}, so there is nothing to turn",
                 dial.label
             );
             self.say(line);
@@ -212,13 +212,13 @@ impl App {
             return vec![Effect::Errand(errand)];
         }
         self.say(match errand {
-            ErrandKind::Record => "this run has no recorder to switch",
+            ErrandKind::Record => "this run is not recorded",
             ErrandKind::View => {
                 "no viewer is at hand; `asperity view FILE.rrd` says how to get one"
             }
-            ErrandKind::Save => "this scene cannot be saved from here",
-            ErrandKind::Write => "this run writes no files from here",
-            ErrandKind::Rebuild => "this run cannot be changed for another from here",
+            ErrandKind::Save => "scenes cannot be saved from here",
+            ErrandKind::Write => "nothing can be exported from here",
+            ErrandKind::Rebuild => "no other scene can be started from here",
         });
         Vec::new()
     }

@@ -44,7 +44,7 @@ impl App {
             self.overlay = Overlay::Scene;
             self.draft = Some(Draft::new(self.scene_now()));
         } else {
-            self.say("this run cannot be changed for another from here");
+            self.say("no other scene can be started from here");
         }
     }
 

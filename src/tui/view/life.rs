@@ -9,9 +9,11 @@ mod validity;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
+use ratatui::text::Line;
 
 use crate::tui::app::{App, Leading};
-use crate::tui::view::{Areas, Density, curve, panel, title};
+use crate::tui::theme::Role;
+use crate::tui::view::{Areas, Density, curve, panel, put, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
@@ -35,6 +37,10 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         area: inner,
         next: 0,
     };
+    if app.setup.scene.life.is_none() {
+        without_life(app, &mut rows, buffer);
+        return;
+    }
     let roomy = inner.height >= 20;
     if roomy {
         rows.skip();
@@ -53,6 +59,18 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     if app.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }
+    curve::render(app, rows.rest(), buffer);
+}
+
+/// A scene that asks for no life: it is not waited for.
+fn without_life(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+    let dim = app.theme.style(Role::Dim);
+    let words = ["no life in this scene:", "it has no [life] table"];
+    for text in words {
+        put(rows.take(1), 0, &Line::styled(text, dim), buffer);
+    }
+    rows.skip();
+    counts::counts(app, rows, buffer);
     curve::render(app, rows.rest(), buffer);
 }
 

@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
-use crate::sim::Frame;
+use crate::sim::{Frame, Stage};
 use crate::tui::action::Action;
 use crate::tui::app::{App, PointNow, PointQuantity};
 use crate::tui::theme::Role;
@@ -19,10 +19,15 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let inner = panel(theme, areas, areas.point, heading(app), buffer);
     let Some(frame) = app.frame() else { return };
     let Some(point) = app.point_now() else {
+        let text = match (frame.stage, &app.setup.scene.stress) {
+            (_, None) => "no stress is computed in this scene, so no material point is followed",
+            (Stage::StartUp, _) => "followed once the passage begins",
+            (Stage::Passage, _) => "no material point is followed",
+        };
         put(
             inner,
             0,
-            &Line::styled("no material point is followed", theme.style(Role::Dim)),
+            &Line::styled(text, theme.style(Role::Dim)),
             buffer,
         );
         return;
@@ -92,7 +97,9 @@ fn heading(app: &App) -> Line<'static> {
     };
     let mut line = title(theme, "p", name);
     if let Some(point) = app.point_now() {
-        let note = format!("body {} ", point.body);
+        let depth = app.units.length().show(point.depth_m, 2);
+        let note = format!("body {}, {depth} deep ", point.body);
+        let note = ascii_text(theme, &note);
         line.push_span(Span::styled("P ", theme.style(Role::Key)));
         line.push_span(Span::styled(note, theme.style(Role::Dim)));
     }
@@ -143,11 +150,6 @@ fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut 
             pressure.show(sample.effective_pa, 3),
             Role::Text,
         ),
-        (
-            "depth",
-            app.units.length().show(point.depth_m, 3),
-            Role::Text,
-        ),
     ];
     for (row, (name, value, role)) in lines.into_iter().enumerate() {
         let row = row as u16;
@@ -170,10 +172,7 @@ fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let range = range(app);
     let mut chart = Chart::new(plot, X_RANGE, range);
-    let pen = |role: Role, letter: char| Pen {
-        style: theme.style(role),
-        letter,
-    };
+    let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let quantity = app.quantity;
     let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
         samples

@@ -59,7 +59,8 @@ fn against(app: &App, row: Rect, buffer: &mut Buffer) {
 
 /// Whole decades that hold every end of a bar.
 fn waterfall_decades(factors: [Option<f64>; 4]) -> [f64; 2] {
-    let (mut decade, mut low, mut high) = (0.0, -1.0_f64, 0.0_f64);
+    // Four decades, as the scale of the life has: bars that rescale with every value cannot be compared.
+    let (mut decade, mut low, mut high) = (0.0, -4.0_f64, 0.0_f64);
     for factor in factors.into_iter().flatten() {
         decade += factor.max(1e-12).log10();
         low = low.min(decade.floor());

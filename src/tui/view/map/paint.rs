@@ -285,7 +285,7 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
     if kind == MapKind::Contact && bar.height >= 9 {
         let spot = Line::from(vec![
             Span::styled(theme.pick("█", "#"), theme.style(Role::Film)),
-            Span::styled("spot", dim),
+            Span::styled("touch", dim),
         ]);
         put(text, bar.height - 3, &spot, buffer);
     }
