@@ -8,7 +8,7 @@ use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
 use crate::study::sweep::Along;
 use crate::tui::app::{App, ErrandKind, Trouble, Unconverged};
 use crate::tui::theme::Role;
-use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
+use crate::tui::units::{bytes, seconds, sig};
 use crate::tui::view::{Areas, Density, ascii_text, knobs, overlay, put, put_right};
 use crate::tui::wiring::RecorderActivity;
 
@@ -114,10 +114,12 @@ fn quality(app: &App, frame: &Frame) -> Words {
         Some(trouble) => (not_converged(app, trouble), Role::Bad),
     };
     let (regime, role) = regime(metrics);
-    let lambda = sig_or_dash(metrics.lambda_ratio, 2);
+    let lambda = metrics
+        .lambda_ratio
+        .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
     let mut words = vec![
         residual,
-        (format!("{regime} λ {lambda}"), role),
+        (format!("{regime}{lambda}"), role),
         (
             format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
             Role::Text,

@@ -39,7 +39,7 @@ pub(super) struct Views {
     /// Bodies whose damage is mapped.
     damaged: [bool; 2],
     /// Frames whose fields were logged.
-    pictures: u64,
+    pub(super) pictures: u64,
 }
 
 impl Views {
