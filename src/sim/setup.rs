@@ -91,7 +91,7 @@ impl Simulation {
             },
             cuts: cuts(scene),
             iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
-            stress_error: stress_error(&plan),
+            stress_error: stress_error(&plan, [1.0; 2]),
             law: traction_law(scene, &door),
             composite: scene.surfaces().map(rms_share),
             grounds: grounds_of(scene),
@@ -347,10 +347,11 @@ fn traction_law(scene: &Scene, door: &Door) -> TractionLaw {
 
 /// Relative error of stress by sampling: that of Hertz's edge, measured at 64 nodes a half-width (4e-4 of
 /// the integral, a tenth of it in stress), and of the shortest wave, (2π/nodes)²/12 of a ripple as high as
-/// the mean. An estimate, not a bound.
-fn stress_error(plan: &Plan) -> f64 {
+/// the mean; of bodies without amplitude none. An estimate, not a bound.
+pub(super) fn stress_error(plan: &Plan, amplitudes_m: [f64; 2]) -> f64 {
     let wave = |nodes: f64| (std::f64::consts::TAU / nodes).powi(2) / 12.0;
-    let waves = plan.waves.iter().flatten();
+    let rough = plan.waves.iter().zip(amplitudes_m);
+    let waves = rough.filter_map(|(wave, amplitude_m)| wave.filter(|_| amplitude_m > 0.0));
     let worst = waves
         .flat_map(|w| w.nodes)
         .filter(|nodes| nodes.is_finite())
