@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::counting::Counting;
 use super::frame::{LifeDetail, LifeEstimate};
 use super::reference::Calibration;
+use super::smooth::Conditions;
 use super::stress_stage::StressStage;
 use super::variant::{Shared, Variant, models};
 use crate::physics::cycles::BodyId;
@@ -30,6 +31,8 @@ pub(super) struct Now {
     pub(super) size: f64,
     /// Relative error of stress.
     pub(super) stress_error: f64,
+    /// Whether the reference is that of the load and speed that the knobs go to.
+    pub(super) has_reference: bool,
 }
 
 /// Life models under way.
@@ -50,6 +53,8 @@ pub(super) struct LifeStage {
     pub(super) sides: f64,
     /// Hertz half-width, over the scene's, for which the reference was computed.
     pub(super) reference_size: f64,
+    /// Load and speed for which it was.
+    pub(super) reference_at: Conditions,
     /// Cycles of the smooth contact of that size.
     pub(super) reference_cycles: Option<f64>,
 }
@@ -101,6 +106,7 @@ impl LifeStage {
                 ContactKind::Line => 1.0,
             },
             reference_size: 1.0,
+            reference_at: Conditions::default(),
             reference_cycles: None,
         })
     }
@@ -245,7 +251,7 @@ impl LifeStage {
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
-            settled: scene.meter().coverage() == Coverage::Settled,
+            settled: now.has_reference && scene.meter().coverage() == Coverage::Settled,
             detail: LifeDetail {
                 model: Some(self.asked.model),
                 body: body.index() as u8 + 1,

@@ -20,6 +20,7 @@ mod reference;
 mod regime;
 mod setup;
 mod simulation;
+mod smooth;
 mod start_up;
 mod state;
 mod stats;

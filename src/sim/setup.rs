@@ -73,6 +73,7 @@ impl Simulation {
             watched: [0.0; 2],
             stress: stages.stress,
             life: stages.life,
+            smooth: None,
             shape,
             flow,
             regime,
@@ -95,7 +96,7 @@ impl Simulation {
             start_up_steps: (0, 1),
         };
         this.phase = Phase::Smooth {
-            left: this.smooth_steps(first),
+            left: this.smooth_steps(first, this.plan.has_flow()),
         };
         this.start_up_steps.1 = this.all_start_up_steps(first);
         let measured = this.measure();

@@ -21,6 +21,7 @@ use super::motion::Motion;
 use super::orbit::Orbit;
 use super::pace::{Pace, Stepping};
 use super::regime::Regime;
+use super::smooth::Smooth;
 use super::stepping::{Attempted, Mover};
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
@@ -65,6 +66,8 @@ pub struct Simulation {
     pub(super) cuts: Vec<Cut>,
     pub(super) iso_load_ratio: Option<f64>,
     pub(super) life: Option<LifeStage>,
+    /// On its way to the reference of now; `None`: that is known.
+    pub(super) smooth: Option<Box<Smooth>>,
     pub(super) stress_error: f64,
     pub(super) law: TractionLaw,
     pub(super) shape: Shape,
@@ -143,6 +146,7 @@ impl Simulation {
                 self.passage_step()
             }
             Phase::Develop { left } => {
+                self.step_smooth()?;
                 self.advance()?;
                 self.phase = Phase::Develop { left: left - 1 };
                 self.start_up_steps.0 += 1;
@@ -165,6 +169,7 @@ impl Simulation {
     }
 
     fn passage_step(&mut self) -> Result<(), StepError> {
+        self.step_smooth()?;
         let before = self.way;
         let held = matches!(self.plan.march, Marching::Steady { .. }) && self.motion.is_flushed();
         if held {
@@ -198,13 +203,7 @@ impl Simulation {
             }
             .advance(nodes)
         });
-        self.stats.newton_iterations += u64::from(attempted.newton);
-        self.stats.linear_iterations += u64::from(attempted.linear);
-        self.stats.ffts += attempted.ffts;
-        self.stats.retries += u64::from(attempted.retries);
-        self.stats.halved += u64::from(attempted.halvings > 0);
-        self.stats.safer += u64::from(attempted.safer);
-        self.stats.rejected += u64::from(attempted.rejected);
+        self.count(&attempted);
         if let Some(error) =
             attempted.fatal(self.time_s, self.regime.tolerance(self.march.flow).pressure)
         {
@@ -217,6 +216,17 @@ impl Simulation {
         self.pace
             .learn(stepping, attempted.path_error, attempted.nodes);
         Ok(())
+    }
+
+    /// Adds up the work of a step.
+    pub(super) fn count(&mut self, attempted: &Attempted) {
+        self.stats.newton_iterations += u64::from(attempted.newton);
+        self.stats.linear_iterations += u64::from(attempted.linear);
+        self.stats.ffts += attempted.ffts;
+        self.stats.retries += u64::from(attempted.retries);
+        self.stats.halved += u64::from(attempted.halvings > 0);
+        self.stats.safer += u64::from(attempted.safer);
+        self.stats.rejected += u64::from(attempted.rejected);
     }
 
     /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.

@@ -18,7 +18,7 @@ impl Simulation {
                 .pool
                 .install(|| March::refined(&self.march, grid, &self.shape, nodes, self.flow));
             self.phase = Phase::Smooth {
-                left: self.smooth_steps(next),
+                left: self.smooth_steps(next, self.plan.has_flow()),
             };
             return self.step_within();
         }
@@ -28,11 +28,12 @@ impl Simulation {
             h_min: (coarser.h_min / measured.h_min - 1.0).abs(),
             p_max: (coarser.p_max / measured.p_max - 1.0).abs() + self.stress_error,
         });
+        let base = self.base();
         if let (Some(stress), Some(life)) = (&mut self.stress, &mut self.life) {
             let (p, q) = (&self.march.state.pressure, &self.traction);
             self.pool.install(|| {
                 stress.slice(p, q, 0.0);
-                life.set_reference(stress);
+                life.set_reference(stress, base);
                 if let Some(counting) = &mut self.counting {
                     counting.set_reference(stress, 1.0);
                 }
@@ -67,9 +68,9 @@ impl Simulation {
     }
 
     /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, the
-    /// finer ones lose the error of interpolation. Without a film one solve is enough.
-    pub(super) fn smooth_steps(&self, nodes: usize) -> u64 {
-        if !self.plan.has_flow() {
+    /// finer ones lose the error of interpolation. Without flow one solve is enough.
+    pub(super) fn smooth_steps(&self, nodes: usize, flows: bool) -> u64 {
+        if !flows {
             return 2;
         }
         let length = self.plan.domain.x_max_a - self.plan.domain.x_min_a;
@@ -91,7 +92,7 @@ impl Simulation {
             .take_while(|nodes| *nodes <= finest)
             .map(|nodes| {
                 let dx = length / (nodes - 1) as f64;
-                self.smooth_steps(nodes) as f64 * self.motion.nodes * dx
+                self.smooth_steps(nodes, self.plan.has_flow()) as f64 * self.motion.nodes * dx
             })
             .sum()
     }
@@ -99,7 +100,7 @@ impl Simulation {
     pub(super) fn all_start_up_steps(&self, first: usize) -> u64 {
         let (mut nodes, mut total) = (first, 0);
         while nodes <= self.plan.domain.nodes {
-            total += self.smooth_steps(nodes);
+            total += self.smooth_steps(nodes, self.plan.has_flow());
             nodes = 2 * (nodes - 1) + 1;
         }
         let dx = self.plan.domain.dx_a();

@@ -18,6 +18,7 @@ use super::orbit::Orbit;
 use super::pace::Pace;
 use super::setup::{COARSEST, grid_of};
 use super::simulation::{Phase, Simulation};
+use super::smooth::{self, Smooth};
 use super::stepping::place_surfaces;
 use super::stress_stage::StressStage;
 use super::totals::Totals;
@@ -36,6 +37,7 @@ pub struct State {
     watched: [f64; 2],
     counting: Option<Counting>,
     life: Option<LifeStage>,
+    smooth: Option<smooth::State>,
     phase: Phase,
     metrics: Metrics,
     stats: Stats,
@@ -86,6 +88,7 @@ impl Simulation {
             row_sums: _,
             counting,
             life,
+            smooth,
             stress_error: _,
             law: _,
             shape: _,
@@ -119,6 +122,7 @@ impl Simulation {
             watched: *watched,
             counting: counting.clone(),
             life: life.clone(),
+            smooth: smooth.as_deref().map(Smooth::save),
             phase: *phase,
             metrics: metrics.clone(),
             stats: *stats,
@@ -150,6 +154,7 @@ impl Simulation {
             watched,
             counting,
             life,
+            smooth,
             phase,
             metrics,
             stats,
@@ -188,6 +193,7 @@ impl Simulation {
         (self.pace, self.way, self.next_volume) = (pace, way, next_volume);
         (self.step, self.time_s) = (step, time_s);
         self.start_up_steps = start_up_steps;
+        self.restore_smooth(smooth);
         self.see_again();
         Ok(())
     }
@@ -207,6 +213,7 @@ impl Simulation {
             watched: _,
             counting,
             life,
+            smooth: _,
             phase,
             metrics: _,
             stats: _,
@@ -231,7 +238,7 @@ impl Simulation {
             .install(|| March::from_hertz(grid, &self.shape, 0.0, motion.nodes, self.flow));
         march.state = contact.clone();
         if let (Some(own), Some(other)) = (&mut self.life, life) {
-            own.take_base(other);
+            own.take_base(other, self.regime.base());
         }
         if let (Some(own), Some(other)) = (&mut self.counting, counting) {
             own.take_reference(other);
@@ -253,6 +260,11 @@ impl Simulation {
             &self.motion,
             &self.door,
         );
+        self.slice_again();
+    }
+
+    /// The slices below the run's own contact.
+    pub(super) fn slice_again(&mut self) {
         let measured = self.measure();
         let on_fine = self.march.grid.nx == self.plan.domain.nodes;
         if on_fine && self.stage_has_stress() {
@@ -295,6 +307,11 @@ impl Simulation {
             || state.life.is_some() != self.life.is_some()
         {
             return refuse("it was saved with other stages for stress and life");
+        }
+        if let Some(smooth) = &state.smooth
+            && !smooth.fits(&self.plan, self.door.b_over_a)
+        {
+            return refuse("its smooth contact does not fill a grid");
         }
         if let (Some(own), Some(saved)) = (&self.life, &state.life)
             && !own.fits(saved)

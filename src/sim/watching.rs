@@ -189,6 +189,7 @@ impl Simulation {
             slide_roll: self.metrics.slide_roll,
             size: self.size_now(),
             stress_error: self.stress_error,
+            has_reference: self.has_reference_of_now(),
         };
         self.life.as_ref()?.estimate(&now, self.counting.as_ref())
     }

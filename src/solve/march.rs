@@ -107,6 +107,17 @@ impl March {
     /// A Hertz contact with film `h_central` on `grid`; `nodes` is the usual step; `flow` whether there
     /// is a film at all.
     pub fn from_hertz(grid: Grid, shape: &Shape, h_central: f64, nodes: f64, flow: Flow) -> Self {
+        Self::from_hertz_of_size(grid, shape, (1.0, h_central), nodes, flow)
+    }
+
+    /// The same where half-widths and pressure are `size` times the units.
+    pub fn from_hertz_of_size(
+        grid: Grid,
+        shape: &Shape,
+        (size, h_central): (f64, f64),
+        nodes: f64,
+        flow: Flow,
+    ) -> Self {
         let mut this = Self::empty(grid, shape, nodes, flow);
         let grid = &this.grid;
         let pressure = &mut this.state.pressure;
@@ -114,7 +125,7 @@ impl March {
             let y = grid.y(j) / shape.b_over_a;
             for i in 1..grid.nx - 1 {
                 let r2 = grid.x(i).powi(2) + y * y;
-                pressure[j * grid.nx + i] = (1.0 - r2).max(0.0).sqrt();
+                pressure[j * grid.nx + i] = (size * size - r2).max(0.0).sqrt();
             }
         }
         let film = &mut this.state.film;
