@@ -6,8 +6,9 @@
 //! ## Floors
 //! Imports go downward only (`tests/architecture.rs` reads them):
 //!
-//! `math < physics < scene < plan < solve < sim < observe < run < study < tui < cli/main`
+//! `files < math < physics < scene < plan < solve < sim < observe < run < study < tui < cli/main`
 //!
+//! * [`files`]: plain files read, whole files written, digests, which program wrote them.
 //! * [`math`]: grids, fixed-order sums, planned FFTs, convolution. No contact words.
 //! * [`physics`]: closed forms: Hertz, fluid laws, waviness, film regressions, stress, fatigue.
 //! * [`scene`]: what the user asked, in SI, validated.
@@ -30,6 +31,7 @@ macro_rules! dispatched {
     };
 }
 
+pub mod files;
 pub mod math;
 pub mod observe;
 pub mod physics;

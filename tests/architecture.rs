@@ -4,8 +4,9 @@
 use std::path::Path;
 
 /// From the cellar to the roof. A file may import its own floor and those before it.
-const FLOORS: [&str; 11] = [
-    "math", "physics", "scene", "plan", "solve", "sim", "observe", "run", "study", "tui", "cli",
+const FLOORS: [&str; 12] = [
+    "files", "math", "physics", "scene", "plan", "solve", "sim", "observe", "run", "study", "tui",
+    "cli",
 ];
 /// Crates and the only folder that may name them.
 const ROOMS: [(&str, &str); 4] = [

@@ -402,7 +402,7 @@ fn an_interrupt_ends_cleanly_with_what_was_made() {
         .unwrap()
         .read_to_string(&mut stderr)
         .unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(0), "{stderr}");
+    assert_eq!(child.wait().unwrap().code(), Some(5), "{stderr}");
     assert!(stdout.contains("stopped by the user"), "{stdout}");
     assert!(stderr.contains("stopped by the user"), "{stderr}");
     let text = std::fs::read_to_string(&table).unwrap();

@@ -20,10 +20,10 @@ const DOMAIN: (f64, f64, f64) = (-2.5, 1.5, 2.0);
 
 /// Puts transverse waves of amplitude `amplitude` and length `w` where the body is after `way`.
 fn roughen(march: &mut March, amplitude: f64, w: f64, way: f64) {
-    let grid = &march.grid;
-    for (n, gap) in march.gap.iter_mut().enumerate() {
+    let grid = &march.solver.grid;
+    for (n, gap) in march.solver.gap.iter_mut().enumerate() {
         let x = grid.x(n % grid.nx);
-        *gap = march.macroscopic[n] - amplitude * (TAU * (x - way) / w).cos();
+        *gap = march.solver.macroscopic[n] - amplitude * (TAU * (x - way) / w).cos();
     }
 }
 
@@ -48,7 +48,7 @@ fn harmonics(
 ) -> Harmonics {
     let (mut march, ladder) = case.steady_by_ladder(nodes, |_| {});
     assert_eq!(ladder.not_converged, 0, "{ladder:?}");
-    let dx = march.grid.dx;
+    let dx = march.solver.grid.dx;
     let amplitude = share * central(&march);
     let period = w / speed;
     let steps = (period / dx).round() as usize;
@@ -58,12 +58,12 @@ fn harmonics(
     );
     // The ripple comes up over a = 1 and the contact is flushed: T = 4 (T = 6 changes the fourth digit).
     let start = (4.0 / dx).ceil() as usize;
-    let columns: Vec<usize> = (1..march.grid.nx - 1)
-        .filter(|&i| march.grid.x(i).abs() <= reach + 1e-12)
+    let columns: Vec<usize> = (1..march.solver.grid.nx - 1)
+        .filter(|&i| march.solver.grid.x(i).abs() <= reach + 1e-12)
         .collect();
     let zero: Vec<[f64; 3]> = columns
         .iter()
-        .map(|&i| [march.grid.x(i), 0.0, 0.0])
+        .map(|&i| [march.solver.grid.x(i), 0.0, 0.0])
         .collect();
     let (mut film, mut pressure) = (zero.clone(), zero);
     for step in 1..=start + steps {
@@ -74,7 +74,7 @@ fn harmonics(
             continue;
         }
         let (s, c) = (TAU * t / period).sin_cos();
-        let row = march.grid.axis_row() * march.grid.nx;
+        let row = march.solver.grid.axis_row() * march.solver.grid.nx;
         for (sums, field) in [
             (&mut film, &march.state.film),
             (&mut pressure, &march.state.pressure),
@@ -337,7 +337,7 @@ fn order_in_time() {
         for _ in 0..4 {
             case.step(&mut march, nodes);
         }
-        let dx = march.grid.dx;
+        let dx = march.solver.grid.dx;
         let amplitude = 0.1 * central(&march);
         let steps = (1.5 / (nodes * dx)).round() as usize;
         for step in 1..=steps {
@@ -346,7 +346,7 @@ fn order_in_time() {
             roughen(&mut march, amplitude * ramp, 1.0, t);
             case.step(&mut march, nodes);
         }
-        let grid = &march.grid;
+        let grid = &march.solver.grid;
         let row = grid.axis_row() * grid.nx;
         (0..grid.nx)
             .filter(|&i| grid.x(i).abs() < 0.7)

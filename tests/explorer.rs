@@ -379,6 +379,7 @@ fn drawing_costs_the_simulation() {
     wait_for(&session, |session| session.status().steps > 8);
     let mut app = App::new(Setup {
         scene,
+        name: "demonstration".into(),
         load_n: plan.force_n,
         half_width_m: plan.hertz.a_m,
         p_hertz_pa: plan.hertz.p_max_pa,

@@ -74,6 +74,7 @@ impl Bench {
         let sim = Simulation::new(scene, plan.clone(), 1).unwrap();
         let app = App::new(Setup {
             scene: Arc::new(scene.clone()),
+            name: "demonstration".into(),
             load_n: plan.force_n,
             half_width_m: plan.hertz.a_m,
             p_hertz_pa: plan.hertz.p_max_pa,
@@ -193,6 +194,7 @@ fn check_life(screen: &[String], bench: &Bench, at: &Closed) {
         ("cycles", life.cycle_factor),
         ("peaks", life.peak_factor),
         ("traction", life.traction_factor),
+        ("load", life.load_factor),
     ] {
         let row = screen
             .iter()
@@ -297,7 +299,7 @@ fn every_knob_moves_every_number_as_the_engine_has_it() {
         let screen = bench.screen();
         check_formulas(&screen, &after);
         check_simulated(&screen, &last, &before);
-        assert_eq!(bench.app.leading(), Leading::Formula);
+        assert_eq!(bench.app.leading(), Leading::Scaled);
         check_marker(
             &screen,
             now.motion.slide_roll,
@@ -316,4 +318,37 @@ fn every_knob_moves_every_number_as_the_engine_has_it() {
             bench.app.leading_life().unwrap(),
         );
     }
+}
+
+/// A pinned life and the present one are compared in one unit, whatever their loads: against the loading cycles of two
+/// cold runs, which a calibration point makes absolute.
+#[test]
+fn a_pinned_comparison_is_the_ratio_of_two_cold_lives() {
+    let mut own = scene();
+    let life = own.life.as_mut().unwrap();
+    (life.calibration_cycles, life.calibration_pressure_pa) = (Some(1e8), Some(2e9));
+    let mut bench = Bench::new(&own);
+    bench.settle();
+    let load = Knob::ALL.iter().position(|knob| *knob == Knob::ForceN);
+    bench.press(&[
+        Action::Pin,
+        Action::Choose(load.unwrap()),
+        Action::TurnFar(4),
+    ]);
+    let force_n = bench.app.target(Knob::ForceN);
+    bench.settle();
+    let shown = bench.app.against_pinned().unwrap();
+    let cold = |force_n: f64| {
+        let mut scene = own.clone();
+        (scene.load.force_n, scene.load.hertz_pressure_pa) = (Some(force_n), None);
+        let mut bench = Bench::new(&scene);
+        bench.settle();
+        bench.frame.metrics.life.unwrap().detail.cycles.unwrap()
+    };
+    let expected = cold(force_n) / cold(own.force_n());
+    println!(
+        "{force_n:.0} N against 800 N: {shown:.3e} on the screen, {expected:.3e} by two cold runs"
+    );
+    assert!(force_n > 2.0 * own.force_n() && expected < 0.05);
+    assert!((shown / expected).ln().abs() < 0.1, "{shown} {expected}");
 }

@@ -64,7 +64,7 @@ fn turning_a_knob_sends_it_and_moves_the_formula_at_once() {
         panic!("{commands:?}");
     };
     assert!((value - 0.55).abs() < 1e-12);
-    assert_eq!(app.leading(), Leading::Formula);
+    assert_eq!(app.leading(), Leading::Scaled);
     // No frame came between, and yet the life that leads fell by the ratio of the counts.
     let count = |s: f64| 1.0 + 4.4 * s / (1.0 - 0.5 * s);
     let expected = simulated * count(0.5) / count(0.55);
@@ -86,7 +86,7 @@ fn the_simulation_takes_over_when_it_has_settled_there() {
         ..State::default()
     };
     play(&mut app, 97..=99, &way);
-    assert_eq!(app.leading(), Leading::Formula);
+    assert_eq!(app.leading(), Leading::Scaled);
     let arrived = State {
         slide_roll: 0.75,
         slide_roll_target: 0.75,
@@ -179,6 +179,7 @@ fn a_smooth_surface_has_nothing_to_turn() {
     smooth.body_1.surface = Surface::Smooth {};
     let mut app = App::new(Setup {
         scene: Arc::new(smooth),
+        name: "demonstration".into(),
         load_n: 800.0,
         half_width_m: tui_fixture::A_M,
         p_hertz_pa: tui_fixture::P_HERTZ_PA,
@@ -197,7 +198,7 @@ fn the_tour_stages_scenes_moves_on_by_itself_and_returns() {
     let mut app = running(plain());
     app.apply(Action::Turn(1));
     let effects = app.apply(Action::Tour);
-    let [Effect::Rebuild(staged)] = &effects[..] else {
+    let [Effect::Rebuild(staged, _)] = &effects[..] else {
         panic!("{effects:?}");
     };
     assert_eq!(staged.motion.slide_roll, 0.0);
@@ -223,10 +224,10 @@ fn the_tour_stages_scenes_moves_on_by_itself_and_returns() {
         "{second}"
     );
     let effects = app.apply(Action::NextLesson);
-    assert!(matches!(&effects[..], [Effect::Rebuild(_)]), "{effects:?}");
+    assert!(matches!(&effects[..], [Effect::Rebuild(..)]), "{effects:?}");
     // Leaving it brings the scene back as it was turned to.
     let effects = app.apply(Action::Tour);
-    let [Effect::Rebuild(own)] = &effects[..] else {
+    let [Effect::Rebuild(own, _)] = &effects[..] else {
         panic!("{effects:?}");
     };
     assert_eq!(own.title, scene().title);
@@ -321,6 +322,7 @@ fn captions_of_a_scripted_scene_are_shown() {
     });
     let mut app = App::new(Setup {
         scene: Arc::new(scripted),
+        name: "demonstration".into(),
         load_n: 800.0,
         half_width_m: tui_fixture::A_M,
         p_hertz_pa: tui_fixture::P_HERTZ_PA,

@@ -4,9 +4,11 @@
 mod contact;
 
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, Viscosity};
+use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
-use asperity::solve::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
+use asperity::solve::newton::{
+    Iterate, Newton, NewtonReport, Problem, Sheared, Tolerance, Verdict,
+};
 use asperity::solve::reynolds::Medium;
 use asperity::solve::tangential::{Shear, Tangential};
 use asperity::solve::traction::TractionLaw;
@@ -17,6 +19,7 @@ const DRY: Medium = Medium {
     density: Density::Incompressible,
     lambda: f64::INFINITY,
     sliding: 0.0,
+    sheared: ShearedFlow::Secant,
 };
 
 fn tolerance(pressure: f64) -> Tolerance {
@@ -38,6 +41,7 @@ fn solved(nodes: usize, symmetry: Symmetry) -> (March, NewtonReport) {
     march.state.history.pressure_1.fill(0.0);
     let report = march.attempt(&conditions(&DRY, tolerance(1e-8)), 1.0, Guess::Last);
     assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+    march.commit(1.0);
     (march, report)
 }
 
@@ -54,7 +58,7 @@ fn hertz_is_as_near_as_the_public_codes() {
     for (nodes, p_max_percent, l2_percent) in rows {
         for symmetry in [Symmetry::MirrorY, Symmetry::General] {
             let (march, report) = solved(nodes, symmetry);
-            let (p, grid) = (&march.state.pressure, &march.grid);
+            let (p, grid) = (&march.state.pressure, &march.solver.grid);
             let exact = |n: usize| {
                 let r2 = grid.x(n % nodes).powi(2) + grid.y(n / nodes).powi(2);
                 (1.0 - r2).max(0.0).sqrt()
@@ -93,10 +97,10 @@ fn conjugate_gradients_and_newton_agree_on_a_rough_contact() {
         0.04 * ((TAU * x / 0.25).cos() + (TAU * x / 0.4).cos() * (TAU * y / 0.3).cos())
     };
     let roughen = |march: &mut March, shift: f64| {
-        let grid = &march.grid;
-        for (n, gap) in march.gap.iter_mut().enumerate() {
+        let grid = &march.solver.grid;
+        for (n, gap) in march.solver.gap.iter_mut().enumerate() {
             let (x, y) = (grid.x(n % nodes), grid.y(n / nodes));
-            *gap = march.macroscopic[n] - wave(x - shift, y);
+            *gap = march.solver.macroscopic[n] - wave(x - shift, y);
         }
     };
     let asked = tolerance(1e-7);
@@ -108,20 +112,21 @@ fn conjugate_gradients_and_newton_agree_on_a_rough_contact() {
         march.state.film.clone(),
         march.state.h0,
     );
-    let dx = march.grid.dx;
+    let dx = march.solver.grid.dx;
     roughen(&mut march, dx);
     let second = march.attempt(&conditions(&DRY, asked), 1.0, Guess::Last);
     assert_eq!(second.verdict, Verdict::Converged);
+    march.commit(1.0);
 
-    let grid = &march.grid;
+    let grid = &march.solver.grid;
     let mut newton = Newton::new(grid, CIRCLE.kappa, 2.0 / 3.0 * dx);
     let zero = vec![0.0; grid.len()];
     let report = newton.solve(
         &Problem {
             grid,
             medium: &DRY,
-            law: None,
-            gap: &march.gap,
+            sheared: None,
+            gap: &march.solver.gap,
             c_star: &zero,
             s: &zero,
             load: LOAD,
@@ -170,19 +175,24 @@ fn unlike_bodies_slide_alike_by_both_paths() {
         ..conditions(&DRY, tolerance(1e-7))
     };
     let mut march = March::from_hertz(grid, &shape, 0.0, 1.0, Flow::Dry);
+    let (mut p, mut h, mut h0) = (march.state.pressure.clone(), march.state.film.clone(), -1.0);
     let report = march.attempt(&asked, 1.0, Guess::Last);
     assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
-    let grid = &march.grid;
+    march.commit(1.0);
+    let sheared = march.state.sheared.clone();
+    let grid = &march.solver.grid;
     let mut newton = Newton::new(grid, shape.kappa, 2.0 / 3.0 * grid.dx);
     newton.shear = Some(Shear::new(grid, Tangential::new(grid, shape.kappa_s)));
     let zero = vec![0.0; grid.len()];
-    let (mut p, mut h, mut h0) = (march.state.history.pressure_1.clone(), zero.clone(), -1.0);
     let newton_report = newton.solve(
         &Problem {
             grid,
             medium: &DRY,
-            law: Some(&law),
-            gap: &march.gap,
+            sheared: Some(Sheared {
+                law: &law,
+                deflection: &sheared,
+            }),
+            gap: &march.solver.gap,
             c_star: &zero,
             s: &zero,
             load: LOAD,

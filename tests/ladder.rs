@@ -97,10 +97,10 @@ fn run(stiff: Stiff, steps: u64, more: &[&str]) -> Outcome {
     while sim.passage_steps() < steps {
         if let Err(error) = sim.step() {
             // Not kept, and told: where, when, how much.
-            let StepError::Stalled { residual, .. } = &error else {
+            let StepError::Stalled { unsolved, .. } = &error else {
                 panic!("{stiff:?}: {error}");
             };
-            assert!(residual.is_finite());
+            assert!(unsolved.residual.is_finite());
             outcome.stalled = Some(error.to_string());
             break;
         }

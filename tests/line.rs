@@ -5,7 +5,7 @@ mod contact;
 use std::f64::consts::{PI, TAU};
 
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, Viscosity};
+use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::plan::{LINE_ROWS, Plan};
 use asperity::scene::{ContactKind, Override, Scene, StressMeasure};
 use asperity::sim::{Frame, Knob, Simulation};
@@ -42,6 +42,7 @@ fn dry_hertz() {
         density: Density::Incompressible,
         lambda: f64::INFINITY,
         sliding: 0.0,
+        sheared: ShearedFlow::Secant,
     };
     let tolerance = Tolerance {
         pressure: 1e-8,
@@ -56,14 +57,15 @@ fn dry_hertz() {
         let grid = Grid::new(nodes, -1.5, 1.5, 0.0, Symmetry::Line);
         let mut march = March::from_hertz(grid, &LINE, 0.0, 1.0, Flow::Dry);
         // Not from the answer: a parabola that carries the wrong load.
-        let grid = &march.grid;
+        let grid = &march.solver.grid;
         for (n, p) in march.state.history.pressure_1.iter_mut().enumerate() {
             *p = (0.8 - grid.x(n).powi(2)).max(0.0);
         }
         march.state.history.h0[0] -= 0.3;
         let report = march.attempt(&conditions(&dry, tolerance), 1.0, Guess::Last);
         assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
-        let (p, grid) = (&march.state.pressure, &march.grid);
+        march.commit(1.0);
+        let (p, grid) = (&march.state.pressure, &march.solver.grid);
         let p_max = p.iter().copied().fold(0.0, f64::max);
         let moment = grid.integrate(|n| p[n] * grid.x(n).powi(2));
         // Hertz: the mean of x² over the pressure is b²/4.
@@ -116,15 +118,15 @@ impl Case {
         let guess = 0.7 * self.medium.lambda.powf(0.67);
         let mut march = March::from_hertz(self.grid(65), &LINE, guess, 1.0, Flow::Film);
         loop {
-            let length = (self.domain.1 - self.domain.0) / march.grid.dx;
+            let length = (self.domain.1 - self.domain.0) / march.solver.grid.dx;
             for _ in 0..length as usize {
                 self.step(&mut march, 1.0);
             }
             each(&march);
-            if march.grid.nx >= nodes {
+            if march.solver.grid.nx >= nodes {
                 return march;
             }
-            let finer = self.grid(2 * (march.grid.nx - 1) + 1);
+            let finer = self.grid(2 * (march.solver.grid.nx - 1) + 1);
             march = March::refined(&march, finer, &LINE, 1.0, Flow::Film);
         }
     }
@@ -137,16 +139,16 @@ impl Case {
             Guess::Extrapolated,
         );
         assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+        march.commit(nodes);
         assert!(march.state.pressure.iter().all(|&p| p >= 0.0));
         assert!(march.state.film.iter().all(|&h| h > 0.0 && h.is_finite()));
-        march.commit(nodes);
         report
     }
 }
 
 /// H at the origin, which is a node of the domains used here.
 fn central(march: &March) -> f64 {
-    let grid = &march.grid;
+    let grid = &march.solver.grid;
     let i = (-grid.x_min / grid.dx).round() as usize;
     assert!(grid.x(i).abs() < 1e-12, "the origin is a node");
     march.state.film[i]
@@ -154,7 +156,7 @@ fn central(march: &March) -> f64 {
 
 /// Least H for |X| < 1.1, by a parabola through the lowest node.
 fn minimum(march: &March) -> f64 {
-    let (grid, h) = (&march.grid, &march.state.film);
+    let (grid, h) = (&march.solver.grid, &march.state.film);
     let i = (1..grid.nx - 1)
         .filter(|&i| grid.x(i).abs() < 1.1)
         .min_by(|&i, &k| h[i].total_cmp(&h[k]))
@@ -203,23 +205,23 @@ const REFERENCE: [Reference; 3] = [
 
 /// Mean over |X| ≤ `reach` of the film's first harmonic in time, over the amplitude of the waves.
 fn ripple(case: &Case, smooth: &March, w: f64, reach: f64) -> (f64, u32, usize) {
-    let nodes = smooth.grid.nx;
+    let nodes = smooth.solver.grid.nx;
     let mut march = March::refined(smooth, case.grid(nodes), &LINE, 1.0, Flow::Film);
     march.state = smooth.state.clone();
-    let dx = march.grid.dx;
+    let dx = march.solver.grid.dx;
     let amplitude = 0.1 * central(&march);
     let steps = (w / dx).round() as usize;
     let start = (5.0 / dx).ceil() as usize;
     let columns: Vec<usize> = (1..nodes - 1)
-        .filter(|&i| march.grid.x(i).abs() <= reach + 1e-12)
+        .filter(|&i| march.solver.grid.x(i).abs() <= reach + 1e-12)
         .collect();
     let mut sums = vec![[0.0; 2]; columns.len()];
     let mut newtons = 0;
     for step in 1..=start + steps {
         let t = step as f64 * dx;
-        for (n, gap) in march.gap.iter_mut().enumerate() {
-            let x = march.grid.x(n);
-            *gap = march.macroscopic[n] - amplitude * t.min(1.0) * (TAU * (x - t) / w).cos();
+        for (n, gap) in march.solver.gap.iter_mut().enumerate() {
+            let x = march.solver.grid.x(n);
+            *gap = march.solver.macroscopic[n] - amplitude * t.min(1.0) * (TAU * (x - t) / w).cos();
         }
         newtons += case.step(&mut march, 1.0).iterations;
         if step > start {

@@ -17,12 +17,12 @@ const STEPS: u64 = 16;
 #[test]
 fn every_combination_of_laws_converges_on_rough_surfaces() {
     println!(
-        "viscosity density rheology cavitation | retries, worst mass and load error, friction, h_min nm, contact"
+        "viscosity density rheology flow cavitation | retries, Newton and Krylov iterations, worst mass and load error, friction, h_min nm, contact"
     );
     let mut runs = 0;
     for viscosity in ["barus", "roelands"] {
         for density in ["incompressible", "dowson_higginson", "venner_lubrecht"] {
-            for rheology in ["newtonian", "eyring"] {
+            for rheology in ["newtonian", "eyring, secant", "eyring, along_across"] {
                 for cavitation in ["reynolds", "jfo"] {
                     rough_run([viscosity, density, rheology, cavitation]);
                     runs += 1;
@@ -30,16 +30,18 @@ fn every_combination_of_laws_converges_on_rough_surfaces() {
             }
         }
     }
-    assert_eq!(runs, 24);
+    assert_eq!(runs, 36);
 }
 
 /// The default scene under those laws (limiting shear stress 0.08 p with Eyring) on 65².
 fn rough_run(laws: [&str; 4]) {
     let [viscosity, density, rheology, cavitation] = laws;
+    let (rheology, flow) = rheology.split_once(", ").unwrap_or((rheology, "secant"));
     let sets = [
         format!("lubricant.viscosity_law={viscosity}"),
         format!("lubricant.density_law={density}"),
         format!("lubricant.rheology={rheology}"),
+        format!("lubricant.eyring_flow={flow}"),
         format!("lubricant.cavitation={cavitation}"),
         "grid.nodes=65".to_owned(),
         "life=none".to_owned(),
@@ -62,8 +64,10 @@ fn rough_run(laws: [&str; 4]) {
     assert!(frame.film_m.iter().all(|h| *h >= 0.0 && h.is_finite()));
     let metrics = sim.metrics();
     println!(
-        "{viscosity:9} {density:17} {rheology:10} {cavitation:9}| {:3} {mass:.1e} {load:.1e} {:.4} {:5.1} {:.3}",
+        "{viscosity:9} {density:17} {rheology:10} {flow:12} {cavitation:9}| {:3} {:5} {:6} {mass:.1e} {load:.1e} {:.4} {:5.1} {:.3}",
         sim.stats().retries,
+        sim.stats().newton_iterations,
+        sim.stats().linear_iterations,
         metrics.friction_coefficient,
         1e9 * metrics.h_min_m,
         metrics.contact_ratio
@@ -87,7 +91,7 @@ fn jfo_keeps_the_mass_behind_the_rupture() {
             assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
             march.commit(1.0);
         }
-        let grid = &march.grid;
+        let grid = &march.solver.grid;
         let flux = |i: usize| -> f64 {
             let rows = grid.interior_rows();
             rows.map(|j| grid.weight(j) * march.state.history.mass_1[j * grid.nx + i])

@@ -13,10 +13,10 @@ use asperity::observe::rerun::Recorder;
 use asperity::observe::{
     Observer, ObserverReport, Overwrite, Queue, RunEvent, RunEventKind, SetBy, WhenFull,
 };
-use asperity::scene::Record;
+use asperity::scene::{Event, Record, Scene};
 use asperity::sim::{DamageBlock, Frame, Stage};
 use re_chunk::Chunk;
-use re_log_encoding::DecoderApp;
+use re_log_encoding::{DecoderApp, RawRrdManifest};
 use rerun::external::re_log_types::LogMsg;
 
 /// Nodes per side: small, and enough for every view.
@@ -93,6 +93,85 @@ impl Contents {
         values
     }
 
+    /// Bytes of an entity's pictures, by step.
+    fn pictures(&self, entity: &str) -> BTreeMap<i64, Vec<u8>> {
+        let buffers = [
+            rerun::DepthImage::descriptor_buffer(),
+            rerun::SegmentationImage::descriptor_buffer(),
+        ];
+        let buffers = buffers.map(|buffer| buffer.component);
+        let mut pictures = BTreeMap::new();
+        for chunk in &self.data {
+            if chunk.entity_path().to_string() != format!("/{entity}") || chunk.is_static() {
+                continue;
+            }
+            let steps = chunk.timelines()[&"step".into()].times_raw().to_vec();
+            for buffer in buffers {
+                let rows = chunk.iter_slices::<&[u8]>(buffer);
+                let steps = steps.iter().copied();
+                pictures.extend(steps.zip(rows.map(|row| row[0].to_vec())));
+            }
+        }
+        pictures
+    }
+
+    /// Values of an entity's pictures, by step: IEEE 754 binary16.
+    fn values(&self, entity: &str) -> BTreeMap<i64, Vec<f64>> {
+        let value = |pair: &[u8]| {
+            let half = u16::from_le_bytes([pair[0], pair[1]]);
+            let (exponent, digits) = (i32::from((half >> 10) & 0x1f), f64::from(half & 0x3ff));
+            let size = match exponent {
+                0 => digits * 2.0_f64.powi(-24),
+                31 => f64::NAN,
+                _ => (1024.0 + digits) * 2.0_f64.powi(exponent - 25),
+            };
+            if half & 0x8000 == 0 { size } else { -size }
+        };
+        let pictures = self.pictures(entity).into_iter();
+        let values = |bytes: Vec<u8>| bytes.chunks_exact(2).map(value).collect();
+        pictures
+            .map(|(step, bytes)| (step, values(bytes)))
+            .collect()
+    }
+
+    /// The upper end of an entity's colour range.
+    fn top(&self, entity: &str) -> f64 {
+        let component = rerun::DepthImage::descriptor_depth_range().component;
+        let of_entity = |chunk: &&Chunk| chunk.entity_path().to_string() == format!("/{entity}");
+        let chunks = self.data.iter().filter(of_entity);
+        let mut ranges = chunks.flat_map(|chunk| {
+            let ranges = chunk.iter_slices::<[f64; 2]>(component);
+            ranges.map(|range| range[0][1]).collect::<Vec<_>>()
+        });
+        ranges.next().unwrap()
+    }
+
+    /// Labels of an entity, those of a row one after another.
+    fn labels(&self, entity: &str) -> Vec<String> {
+        let component = rerun::Points2D::descriptor_labels().component;
+        let of_entity = |chunk: &&Chunk| chunk.entity_path().to_string() == format!("/{entity}");
+        let chunks = self.data.iter().filter(of_entity);
+        let labels = chunks.flat_map(|chunk| {
+            let labels = chunk.iter_slices::<String>(component);
+            let together = labels.map(|row| row.iter().map(ToString::to_string).collect());
+            together.collect::<Vec<String>>()
+        });
+        labels.collect()
+    }
+
+    /// A number among the recording's properties.
+    fn property(&self, entity: &str, name: &'static str) -> Option<f64> {
+        let entity = format!("/__properties/{entity}");
+        let of_entity = |chunk: &&Chunk| chunk.entity_path().to_string() == entity;
+        // Of what holds for ever the last one holds.
+        let chunks = self.data.iter().filter(of_entity);
+        let mut values = chunks.flat_map(|chunk| {
+            let values = chunk.iter_slices::<f64>(name.into());
+            values.map(|value| value[0]).collect::<Vec<_>>()
+        });
+        values.next_back()
+    }
+
     /// All text of an entity, as the bytes hold it.
     fn text(&self, entity: &str) -> String {
         let component = rerun::TextDocument::descriptor_text().component;
@@ -134,6 +213,35 @@ fn record(path: &Path, record: &Record, frames: &[Arc<Frame>]) -> ObserverReport
         recorder.frame(frame).unwrap();
     }
     recorder.finish().unwrap()
+}
+
+/// Records `frames` of that scene.
+fn record_scene(path: &Path, scene: Scene, frames: &[Arc<Frame>]) -> ObserverReport {
+    let mut recorder = Recorder::create(path, Overwrite::Refuse, &every_step()).unwrap();
+    recorder.begin(&synthetic::context(scene)).unwrap();
+    for frame in frames {
+        recorder.frame(frame).unwrap();
+    }
+    recorder.finish().unwrap()
+}
+
+/// A scripted change.
+fn event(key: &str, value: f64) -> Event {
+    Event {
+        at_s: 1e-3,
+        set: [(key.to_owned(), value)].into(),
+        caption: String::new(),
+    }
+}
+
+/// Frames that one after another are changed.
+fn changed(steps: u64, change: impl Fn(&mut Frame)) -> Vec<Arc<Frame>> {
+    let change = |frame: Arc<Frame>| {
+        let mut frame = Frame::clone(&frame);
+        change(&mut frame);
+        Arc::new(frame)
+    };
+    frames(steps).into_iter().map(change).collect()
 }
 
 /// Pictures of every step.
@@ -196,6 +304,8 @@ fn a_recording_holds_every_field_of_every_step() {
     for entity in [
         "contact_3d/surface_speeds",
         "centre_line_y0/hertz_pressure_GPa",
+        "maps/hertz_contact",
+        "slice_y0/hertz_width",
     ] {
         assert_eq!(contents.rows(entity, false), 1, "{entity}");
     }
@@ -242,7 +352,6 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
         "maps/pressure_GPa/axes/labels",
         "maps/pressure_GPa/legend/bar",
         "maps/pressure_GPa/legend/labels",
-        "maps/hertz_contact",
         "contact_3d/labels",
         "contact_3d/legend/pressure",
         "text/about",
@@ -489,6 +598,361 @@ fn the_damage_of_body_1_hangs_below_the_cut() {
     // Its shape once, its colours with every change.
     assert_eq!(contents.rows("contact_3d/damage_body_1", false), 3);
     assert_eq!(contents.rows("contact_3d/damage_title", false), 1);
+}
+
+/// A scene that starts at S = 0 has no traction in its first frame, and is told by its script that some will come.
+#[test]
+fn traction_that_comes_later_is_neither_cut_off_nor_above_the_colours() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let limit = 0.1;
+    let frames = changed(STEPS, |frame| {
+        let slides = frame.step > 3;
+        let ratio = if slides { limit as f32 } else { 0.0 };
+        frame.metrics.slide_roll = f64::from(u8::from(slides));
+        for (traction, pressure) in frame.traction_pa.iter_mut().zip(&frame.pressure_pa) {
+            *traction = ratio * pressure;
+        }
+    });
+    let mut scene = synthetic::scene(NODES, 1.0);
+    scene.motion.slide_roll = 0.0;
+    scene.friction.boundary = limit;
+    scene.events.push(event("motion.slide_roll", 1.0));
+    let report = record_scene(&path, scene, &frames);
+    assert_eq!(report.note, "");
+    let contents = Contents::read(&path);
+    let entity = "maps/traction_on_body_1_MPa/image";
+    let top = contents.top(entity);
+    let (&step, values) = contents
+        .values(entity)
+        .last_key_value()
+        .map(|(k, v)| (k, v.clone()))
+        .unwrap();
+    let frame = &frames[usize::try_from(step).unwrap() - 1];
+    let greatest = frame.traction_pa.iter().fold(0.0_f32, |top, v| top.max(*v));
+    assert!(f64::from(greatest) * 1e-6 <= top, "{greatest} {top}");
+    // Rows from the top down.
+    let rows = frame.traction_pa.chunks_exact(NODES).rev();
+    for (value, exact) in values.iter().zip(rows.flatten()) {
+        let exact = f64::from(*exact) * 1e-6;
+        assert!(
+            (value - exact).abs() <= 5e-4 * exact + 1e-7,
+            "{value} {exact}"
+        );
+    }
+    assert_eq!(contents.property("result", "clipped_samples"), Some(0.0));
+}
+
+/// Colours hold the load, the speed and the crests that the script brings.
+#[test]
+fn ranges_follow_what_the_script_brings() {
+    let tops = |events: Vec<Event>| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.rrd");
+        let mut scene = synthetic::scene(NODES, 1.0);
+        scene.events = events;
+        record_scene(&path, scene, &frames(2));
+        let contents = Contents::read(&path);
+        let entities = [
+            "maps/pressure_GPa",
+            "maps/film_um",
+            "maps/roughness_body_1_um",
+        ];
+        let entities = entities.map(|entity| format!("{entity}/image"));
+        entities.map(|entity| contents.top(&entity))
+    };
+    let plain = tops(Vec::new());
+    let loaded = tops(vec![event("load.force_n", 8.0 * 800.0)]);
+    // Eight times the load is twice the pressure; round numbers lie up to half as far again above.
+    assert!(loaded[0] >= 1.5 * plain[0], "{loaded:?} {plain:?}");
+    let fast = tops(vec![event("motion.entrainment_m_s", 10.0)]);
+    assert!(fast[1] >= 3.0 * plain[1], "{fast:?} {plain:?}");
+    let rough = tops(vec![event("body_1.surface.amplitude_m", 2e-6)]);
+    assert!(
+        rough[0] > plain[0] && rough[2] >= 2.0,
+        "{rough:?} {plain:?}"
+    );
+    // What is less than now changes nothing.
+    assert_eq!(tops(vec![event("load.force_n", 100.0)]), plain);
+}
+
+/// Where pits start the picture holds what the solver computed, in rows of its own depths.
+#[test]
+fn stress_near_the_surface_comes_back_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let frames = frames(STEPS);
+    record(&path, &every_step(), &frames);
+    let contents = Contents::read(&path);
+    let stresses = contents.values("slice_y0/effective_stress_GPa/image");
+    assert_eq!(stresses.len(), frames.len());
+    for frame in &frames {
+        let slice = frame.slice.as_ref().unwrap();
+        let stored = &stresses[&i64::try_from(frame.step).unwrap()];
+        assert_eq!(stored.len(), NODES * slice.depths_m.len());
+        for (stored, exact) in stored.iter().zip(&slice.effective_pa) {
+            let exact = f64::from(*exact) * 1e-9;
+            assert!(
+                (stored - exact).abs() <= 5e-4 * exact + 1e-7,
+                "{stored} {exact}"
+            );
+        }
+    }
+}
+
+#[test]
+fn hertz_follows_the_load() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let frames = changed(STEPS, |frame| {
+        let size = if frame.step < 6 { 1.0 } else { 1.25 };
+        (frame.a_m, frame.b_m) = (size * frame.a_m, size * frame.b_m);
+        frame.p_hertz_pa *= size;
+    });
+    record(&path, &every_step(), &frames);
+    let contents = Contents::read(&path);
+    for entity in [
+        "maps/hertz_contact",
+        "slice_y0/hertz_width",
+        "slice_y0/hertz_width/label",
+        "centre_line_y0/hertz_pressure_GPa",
+    ] {
+        assert_eq!(contents.rows(entity, false), 2, "{entity}");
+        assert_eq!(contents.rows(entity, true), 0, "{entity}");
+    }
+    let widths = contents.scalars("series/half_width_um");
+    assert_eq!(widths[&1], [synthetic::A * 1e6; 2]);
+    assert_eq!(widths[&12], [1.25 * synthetic::A * 1e6; 2]);
+}
+
+/// Chunks in the file: entity, and steps of its rows.
+fn division(path: &Path) -> Vec<(String, Vec<i64>)> {
+    let contents = Contents::read(path);
+    let chunks = contents.data.iter().filter(|chunk| !chunk.is_static());
+    let chunks = chunks.map(|chunk| {
+        let steps = chunk.timelines()[&"step".into()].times_raw().to_vec();
+        (chunk.entity_path().to_string(), steps)
+    });
+    let mut chunks: Vec<_> = chunks.collect();
+    chunks.sort();
+    chunks
+}
+
+/// On a machine that is busy with other things every frame may be sent by itself: thousands of messages. The finished
+/// file is the same, and has its footer.
+#[test]
+fn what_the_file_holds_does_not_depend_on_the_clock() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = |name: &str, slow: bool| {
+        let path = folder.path().join(name);
+        let mut recorder = Recorder::create(&path, Overwrite::Refuse, &every_step()).unwrap();
+        recorder
+            .begin(&synthetic::context(synthetic::scene(NODES, 1.0)))
+            .unwrap();
+        for frame in frames(40) {
+            recorder.frame(&frame).unwrap();
+            if slow {
+                recorder.idle().unwrap();
+            }
+        }
+        let report = recorder.finish().unwrap();
+        assert_eq!(report.bytes, std::fs::metadata(&path).unwrap().len());
+        assert_eq!(report.note, "");
+        path
+    };
+    let (quick, slow) = (record("quick.rrd", false), record("slow.rrd", true));
+    assert_eq!(division(&quick), division(&slow));
+    for path in [&quick, &slow] {
+        let manifests = RawRrdManifest::from_rrd_bytes(&std::fs::read(path).unwrap()).unwrap();
+        assert!(
+            manifests.iter().any(|of| of.store_id.is_recording()),
+            "{}",
+            path.display()
+        );
+        let chunks: usize = manifests.iter().map(|of| of.data.num_rows()).sum();
+        let contents = Contents::read(path);
+        assert_eq!(chunks, contents.data.len() + contents.layout.len());
+    }
+    // Nothing is left beside them.
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+}
+
+/// What is at the first step is a picture and not a line of the log alone.
+#[test]
+fn the_first_frame_is_a_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let mut recorder = Recorder::create(&path, Overwrite::Refuse, &every_step()).unwrap();
+    recorder
+        .begin(&synthetic::context(synthetic::scene(NODES, 1.0)))
+        .unwrap();
+    let kind = RunEventKind::Caption("It begins.".into());
+    let (step, time_s) = (0, 0.0);
+    recorder.event(&RunEvent { step, time_s, kind }).unwrap();
+    for frame in frames(20).iter().skip(2) {
+        recorder.frame(frame).unwrap();
+    }
+    recorder.finish().unwrap();
+    let contents = Contents::read(&path);
+    let first = |chunk: &Chunk| chunk.timelines()[&"step".into()].times_raw()[0];
+    let temporal = contents.data.iter().filter(|chunk| !chunk.is_static());
+    assert_eq!(temporal.map(first).min(), Some(3));
+    for entity in [
+        "maps/pressure_GPa/image",
+        "maps/traction_on_body_1_MPa/image",
+        "maps/film_interferogram/image",
+        "slice_y0/tau_xz_GPa/image",
+        "kymograph/pressure_y0_GPa/image",
+        "maps/hertz_contact",
+        "log",
+    ] {
+        let chunks = contents.data.iter().filter(|chunk| !chunk.is_static());
+        let mut chunks =
+            chunks.filter(|chunk| chunk.entity_path().to_string() == format!("/{entity}"));
+        assert!(chunks.any(|chunk| first(chunk) == 3), "{entity}");
+    }
+    assert!(contents.text("text/now").contains("It begins."));
+}
+
+/// A run that goes on after the scene's own end is still in the picture, all of it.
+#[test]
+fn the_kymograph_shows_the_whole_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let frames = frames(50);
+    // The scene asks for 16 steps.
+    record_scene(&path, synthetic::scene(NODES, 0.5), &frames);
+    let contents = Contents::read(&path);
+    let pictures = contents.values("kymograph/pressure_y0_GPa/image");
+    let (_, last) = pictures.last_key_value().unwrap();
+    let rows: Vec<&[f64]> = last.chunks_exact(NODES).collect();
+    // 50 steps in rows of four.
+    assert_eq!(rows.len(), 13);
+    for (row, step) in rows.iter().zip((0..50).step_by(4)) {
+        let from = NODES / 2 * NODES;
+        let centre = &frames[step].pressure_pa[from..from + NODES];
+        for (stored, exact) in row.iter().zip(centre) {
+            let exact = f64::from(*exact) * 1e-9;
+            assert!(
+                (stored - exact).abs() <= 5e-4 * exact + 1e-7,
+                "step {}",
+                step + 1
+            );
+        }
+    }
+    let axes = contents.rows("kymograph/pressure_y0_GPa/axes/labels", false);
+    assert_eq!(axes, 3, "one for each length of the axis");
+}
+
+#[test]
+fn damage_that_is_not_counted_yet_is_covered_and_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    record(&path, &every_step(), &with_damage(1));
+    let contents = Contents::read(&path);
+    let entity = "damage/body_2_log10_relative";
+    let values = contents.values(&format!("{entity}/image"));
+    let covers = contents.pictures(&format!("{entity}/not_crossed"));
+    let counted = |values: &[f64]| values.iter().filter(|value| !value.is_nan()).count();
+    let [(_, early), (_, late)] = values.iter().collect::<Vec<_>>()[..] else {
+        panic!("two pictures");
+    };
+    // One column of four, three depths each.
+    assert_eq!((counted(early), counted(late)), (3, 12));
+    let covered = |cover: &Vec<u8>| cover.iter().filter(|&&class| class == 1).count();
+    assert_eq!(covers.values().map(covered).collect::<Vec<_>>(), [9, 0]);
+    let labels = contents.labels(&format!("{entity}/worst_point"));
+    assert!(labels[0].contains("25 % of it has crossed"), "{labels:?}");
+    assert!(!labels[1].contains("crossed"), "{labels:?}");
+}
+
+#[test]
+fn the_recording_has_a_name_and_properties() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let frames = frames(STEPS);
+    record(&path, &every_step(), &frames);
+    let contents = Contents::read(&path);
+    let component = rerun::RecordingInfo::descriptor_name().component;
+    let names = contents.data.iter().flat_map(|chunk| {
+        let names = chunk.iter_slices::<String>(component);
+        names.map(|name| name[0].to_string()).collect::<Vec<_>>()
+    });
+    let names: Vec<String> = names.collect();
+    assert!(
+        names
+            .iter()
+            .any(|name| name.starts_with("Synthetic passage: S = 0.500")),
+        "{names:?}"
+    );
+    assert_eq!(contents.property("scene", "S"), Some(0.5));
+    assert!(
+        contents
+            .property("scene", "p_Hertz_GPa")
+            .is_some_and(|p| p > 1.0)
+    );
+    let life = frames[frames.len() - 1].metrics.life.unwrap().life_relative;
+    assert_eq!(contents.property("result", "life_relative"), Some(life));
+    assert_eq!(contents.property("result", "life_extrapolated"), None);
+
+    // What only the companion of the run tells comes after the end.
+    let summary = asperity::sim::Summary {
+        life_relative: Some(8e-9),
+        life_extrapolated: Some(7.5e-9),
+        ..asperity::sim::Summary::default()
+    };
+    let before = division(&path);
+    asperity::observe::rerun::note_summary(&path, &summary).unwrap();
+    let contents = Contents::read(&path);
+    assert_eq!(contents.property("result", "life_relative"), Some(8e-9));
+    assert_eq!(
+        contents.property("result", "life_extrapolated"),
+        Some(7.5e-9)
+    );
+    assert_eq!(division(&path), before);
+    assert!(
+        !RawRrdManifest::from_rrd_bytes(&std::fs::read(&path).unwrap())
+            .unwrap()
+            .is_empty()
+    );
+}
+
+#[test]
+fn numbers_that_can_be_small_keep_their_digits() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let frames = changed(2, |frame| {
+        let life = frame.metrics.life.as_mut().unwrap();
+        (life.life_relative, life.cycle_factor) = (8e-9, 0.25);
+        (life.life_relative_low, life.life_relative_high) = (7e-9, 9e-9);
+        life.load_factor = 0.0123;
+    });
+    record(&path, &every_step(), &frames);
+    let now = Contents::read(&path).text("text/now");
+    for words in ["8.00e-9", "7.00e-9 to 9.00e-9", "load 0.0123", "regime"] {
+        assert!(now.contains(words), "{words}: {now}");
+    }
+}
+
+#[test]
+fn views_bring_their_own_background() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    record(&path, &every_step(), &frames(2));
+    let contents = Contents::read(&path);
+    let paths: Vec<String> = contents
+        .layout
+        .iter()
+        .map(|chunk| chunk.entity_path().to_string())
+        .collect();
+    let of = |property: &str| {
+        let of = paths.iter().filter_map(|path| path.strip_suffix(property));
+        of.collect::<BTreeSet<_>>()
+    };
+    let (flat, deep) = (of("/VisualBounds2D"), of("/EyeControls3D"));
+    assert_eq!(of("/Background"), &flat | &deep);
+    // Plots have the theme's; their colours stand out from either.
+    assert!(of("/PlotBackground").is_empty());
 }
 
 /// A disk without room for the first bytes is known before the run starts.

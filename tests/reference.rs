@@ -193,7 +193,7 @@ fn models_and_calibrated_cycles_follow_the_load() {
         let pair = compare(model, &own, &[("load.force_n", 1600.0)]);
         let (one, two) = (&pair.turned, &pair.cold);
         let cycles = [one.life_cycles, two.life_cycles];
-        println!("  cycles {cycles:.4e?}");
+        println!("  cycles {cycles:.4?}");
         // A smooth contact is its own reference at any load.
         assert!(apart(one.life_relative, Some(1.0)) < 0.01, "{model}");
         assert!(apart(cycles[0], cycles[1]) < 0.02, "{model}");

@@ -129,7 +129,12 @@ fn the_summary_warns_of_what_the_frame_warns_of() {
     // As a script reads them.
     let json = serde_json::to_value(&summary).unwrap();
     assert_eq!(json["cautions"][0]["code"], "beyond_yield");
-    assert!(json["cautions"][0]["text"].as_str().unwrap().contains("GPa"));
+    assert!(
+        json["cautions"][0]["text"]
+            .as_str()
+            .unwrap()
+            .contains("GPa")
+    );
     assert!(summary.p_max_greatest_pa >= summary.p_max_pa);
     assert!(summary.h_min_least_m <= summary.h_min_m);
     // A standing body, no film, no life are said where they hold.

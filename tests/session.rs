@@ -329,7 +329,10 @@ fn stop_ends_cleanly() {
     session.send(Command::Stop);
     let outcome = session.join().unwrap();
     assert!(matches!(outcome.end, End::Stopped));
-    assert_eq!((outcome.exit_code(), seen.lock().unwrap().finished), (0, 1));
+    assert_eq!((outcome.exit_code(), seen.lock().unwrap().finished), (5, 1));
+    let summary = outcome.summary.unwrap();
+    assert!(summary.stopped && outcome.stopped);
+    assert!(summary.steps_planned.is_some());
 }
 
 #[test]

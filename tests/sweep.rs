@@ -526,3 +526,282 @@ fn the_fzg_tooth_has_the_published_pressure_at_its_pitch_point() {
     assert_eq!(last.set["motion.slide_roll"], scene.motion.slide_roll);
     assert!(Sweep::load("slide_roll").unwrap().ride().unwrap().is_none());
 }
+
+/// The names in a folder, those of its folders too.
+fn names(folder: &Path) -> Vec<String> {
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            let inner = self::names(&entry.path());
+            names.extend(inner.iter().map(|inner| format!("{name}/{inner}")));
+        }
+        names.push(name);
+    }
+    names.sort();
+    names
+}
+
+fn asperity(folder: &Path, args: &[&str]) -> std::process::Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    command.args(args).current_dir(folder).stdin(Stdio::null());
+    command.output().unwrap()
+}
+
+/// The command fails with that code and says the words on stderr.
+fn refused(output: &std::process::Output, code: i32, words: &[&str]) {
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{told}");
+    for word in words {
+        assert!(told.contains(word), "{word:?} is missing in {told}");
+    }
+}
+
+/// Two cases, each of one step or so.
+const FEW: &str = "
+scene = \"demonstration\"
+[set]
+grid.nodes = 33
+body_1.surface.kind = \"smooth\"
+body_2.surface.kind = \"smooth\"
+stress = \"none\"
+life = \"none\"
+[vary]
+motion.slide_roll = [0.0, 0.5]
+[chain]
+longest = 2
+passages = 0.25
+";
+
+#[test]
+fn a_folder_that_no_sweep_has_marked_is_somebody_else_s() {
+    let root = tempfile::tempdir().unwrap();
+    let place = root.path();
+    for name in ["few.toml", "sweep.toml"] {
+        std::fs::write(place.join(name), FEW).unwrap();
+    }
+    let theirs = place.join("theirs");
+    std::fs::create_dir_all(theirs.join("cases")).unwrap();
+    std::fs::create_dir_all(theirs.join("chains")).unwrap();
+    for name in [
+        "table.csv",
+        "base.toml",
+        "sweep.toml",
+        "cases/thesis.txt",
+        "chains/0000000-0000001.state",
+    ] {
+        std::fs::write(theirs.join(name), "mine").unwrap();
+    }
+    let (before, here) = (names(&theirs), names(place));
+    for how in [&[][..], &["--force"], &["--resume"], &["--shard=1/2"]] {
+        for (sweep, out) in [
+            ("few.toml", "theirs"),
+            ("sweep.toml", "."),
+            ("few.toml", "."),
+        ] {
+            let args = [&["sweep", sweep, "--out", out], how].concat();
+            refused(&asperity(place, &args), 4, &["somebody else's", "--out"]);
+        }
+    }
+    assert_eq!((names(&theirs), names(place)), (before, here));
+    for name in ["table.csv", "base.toml", "sweep.toml", "cases/thesis.txt"] {
+        assert_eq!(std::fs::read_to_string(theirs.join(name)).unwrap(), "mine");
+    }
+    assert_eq!(
+        std::fs::read_to_string(place.join("sweep.toml")).unwrap(),
+        FEW
+    );
+}
+
+#[test]
+fn in_a_marked_folder_a_sweep_takes_away_its_own_files_only() {
+    let root = tempfile::tempdir().unwrap();
+    let place = root.path();
+    std::fs::write(place.join("few.toml"), FEW).unwrap();
+    let args =
+        |more: &[&'static str]| [&["sweep", "few.toml", "--out=out", "--threads=1"], more].concat();
+    assert_eq!(asperity(place, &args(&[])).status.code(), Some(0));
+    let own = names(&place.join("out"));
+    assert!(own.contains(&"cases/0000001.json".to_owned()), "{own:?}");
+    let strangers = [
+        "cases/thesis.txt",
+        "chains/notes",
+        "notes.md",
+        "mine.svg",
+        "life_map.svg",
+    ];
+    for name in strangers {
+        std::fs::write(place.join("out").join(name), "mine").unwrap();
+    }
+    // What a kill left: nobody else is there, so it goes at once.
+    std::fs::write(place.join("out/temporary-elsewhere-1-0.csv"), "half").unwrap();
+    refused(&asperity(place, &args(&[])), 4, &["--resume goes on"]);
+    assert_eq!(asperity(place, &args(&["--force"])).status.code(), Some(0));
+    let mut all = own.clone();
+    // A picture of a sweep's name is a sweep's; this one makes none.
+    all.extend(strangers[..4].iter().map(|name| (*name).to_owned()));
+    all.sort();
+    assert_eq!(names(&place.join("out")), all);
+    // The folder's own file is a sweep like any other, and stays as it is.
+    let kept = std::fs::read(place.join("out/sweep.toml")).unwrap();
+    let own = ["sweep", "out/sweep.toml", "--out=out", "--resume"];
+    assert_eq!(asperity(place, &own).status.code(), Some(0));
+    assert_eq!(std::fs::read(place.join("out/sweep.toml")).unwrap(), kept);
+    // Edited, it is another sweep, which would be written over the words that were edited.
+    let edited = String::from_utf8(kept)
+        .unwrap()
+        .replace("0.5]", "0.6] # mine");
+    std::fs::write(place.join("out/sweep.toml"), &edited).unwrap();
+    let over = ["sweep", "out/sweep.toml", "--out=out", "--force"];
+    refused(&asperity(place, &over), 4, &["which it reads"]);
+    assert_eq!(
+        std::fs::read_to_string(place.join("out/sweep.toml")).unwrap(),
+        edited
+    );
+}
+
+#[test]
+fn nobody_begins_in_a_folder_that_is_in_use() {
+    let root = tempfile::tempdir().unwrap();
+    let sweep = sweep(FEW);
+    let place = root.path().join("out");
+    let held = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
+    let refused = Folder::create(&place, &sweep, Existing::Replace).unwrap_err();
+    assert!(refused.to_string().contains("working in it"), "{refused}");
+    // Shards join.
+    let joined = Folder::create(&place, &sweep, Existing::Resume).unwrap();
+    drop(held);
+    assert!(Folder::create(&place, &sweep, Existing::Replace).is_err());
+    drop(joined);
+    assert!(Folder::create(&place, &sweep, Existing::Replace).is_ok());
+}
+
+#[test]
+fn a_state_that_cannot_be_written_leaves_no_temporary() {
+    let root = tempfile::tempdir().unwrap();
+    let sweep = sweep(FEW);
+    let folder = Folder::create(root.path(), &sweep, Existing::Refuse).unwrap();
+    // Something that cannot be replaced has the state's name.
+    let taken = root.path().join("chains/0000000-0000000.state/full");
+    std::fs::create_dir_all(taken).unwrap();
+    let failed = run(&sweep, &folder, Shard::WHOLE, 1, &Progress::default()).unwrap_err();
+    assert!(
+        failed.to_string().contains("0000000-0000000.state"),
+        "{failed}"
+    );
+    let left = names(root.path());
+    assert!(
+        !left.iter().any(|name| name.contains("temporary")),
+        "{left:?}"
+    );
+}
+
+#[test]
+fn another_surface_under_the_same_name_is_another_sweep() {
+    let root = tempfile::tempdir().unwrap();
+    let place = root.path();
+    let write_map = |height: u32| {
+        let row = (0..16)
+            .map(|i| (height * (i % 8)).to_string())
+            .collect::<Vec<_>>();
+        let text = format!("{}\n", row.join(",")).repeat(16);
+        std::fs::write(place.join("map.csv"), text).unwrap();
+    };
+    let map = place.join("map.csv");
+    let surface = "kind = \"height_map\"\npixel_m = 5e-5\nunit_m = 1e-9";
+    let scene = asperity::scene::Scene::load("demonstration").unwrap();
+    let scene = toml::to_string(&scene).unwrap();
+    let (head, tail) = scene.split_once("[body_2.surface]").unwrap();
+    let (_, tail) = tail.split_once("\n[").unwrap();
+    let file = format!("file = \"{}\"", map.display());
+    let with_map = format!("{head}[body_2.surface]\n{surface}\n{file}\n\n[{tail}");
+    std::fs::write(place.join("scene.toml"), with_map).unwrap();
+    let vary = "[vary]\nmotion.slide_roll = [0.0, 0.5]\n[chain]\npassages = 0.25\n";
+    let plain = format!("scene = \"scene.toml\"\n{vary}");
+    // By the scene, by [set], by [vary].
+    let set = format!("[set.body_2.surface]\n{surface}\n{file}\n{vary}");
+    let varied = format!(
+        "[set.body_2.surface]\n{surface}\n[vary]\nbody_2.surface.file = [\"{}\"]\n",
+        map.display()
+    );
+    write_map(10);
+    let read = |text: &str| Sweep::parse(text, "map", place).unwrap();
+    let before = [&plain, &set, &varied].map(|text| read(text).digest());
+    assert_eq!(
+        [&plain, &set, &varied].map(|text| read(text).digest()),
+        before
+    );
+    let folder = Folder::create(&place.join("out"), &read(&plain), Existing::Refuse);
+    drop(folder.unwrap());
+    write_map(11);
+    let after = [&plain, &set, &varied].map(|text| read(text).digest());
+    for (one, other) in before.iter().zip(&after) {
+        assert_ne!(one, other);
+    }
+    let refused = Folder::create(&place.join("out"), &read(&plain), Existing::Resume);
+    let refused = refused.unwrap_err().to_string();
+    assert!(refused.contains("another height map"), "{refused}");
+    let refused = Folder::sweep_in(&place.join("out"))
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("have changed"), "{refused}");
+}
+
+#[test]
+fn cases_of_two_builds_make_no_table() {
+    let root = tempfile::tempdir().unwrap();
+    let sweep = sweep(FEW);
+    let (one, two) = (root.path().join("one"), root.path().join("two"));
+    for place in [&one, &two] {
+        drop(Folder::create(place, &sweep, Existing::Refuse).unwrap());
+    }
+    let mark = std::fs::read_to_string(two.join("sweep.digest")).unwrap();
+    let other = mark.replace(asperity::files::BUILD, "0123456789abcdef");
+    assert_ne!(mark, other);
+    std::fs::write(two.join("sweep.digest"), other).unwrap();
+    let refused = Folder::create(&two, &sweep, Existing::Resume).unwrap_err();
+    assert!(
+        refused.to_string().contains("build 0123456789abcdef"),
+        "{refused}"
+    );
+    let folders = [&one, &two].map(|place| Folder::open(place, &sweep).unwrap());
+    let refused = Rows::gather(&sweep, &folders).unwrap_err();
+    assert!(refused.to_string().contains("mix the numbers"), "{refused}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_stopped_sweep_says_so() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("tiny.toml"), TINY.replace("0.5\n", "50\n")).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    let args = ["sweep", "tiny.toml", "--out=out", "--threads=1"];
+    command
+        .args(args)
+        .current_dir(root.path())
+        .stdin(Stdio::null());
+    let child = command
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    while !root.path().join("out/base.toml").exists() {
+        std::thread::yield_now();
+    }
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let pid = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-TERM", &pid])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let output = child.wait_with_output().unwrap();
+    refused(
+        &output,
+        5,
+        &["stopped with", "of 8 cases", "--resume goes on"],
+    );
+}

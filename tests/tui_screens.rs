@@ -292,13 +292,14 @@ fn another_scene_is_put_together_judged_and_run() {
         app.apply(Action::Turn(1));
     }
     let effects = app.apply(Action::Run);
-    let [Effect::Rebuild(next)] = &effects[..] else {
+    let [Effect::Rebuild(next, name)] = &effects[..] else {
         panic!("{effects:?}");
     };
     let Surface::Sinusoid { wavelength_x_m, .. } = next.body_1.surface else {
         panic!("body 1 is a wave");
     };
     assert!(wavelength_x_m.is_infinite(), "ridges along the motion");
+    assert_eq!(name, "demonstration", "its files bear its name");
 }
 
 #[test]

@@ -59,8 +59,13 @@ fn a_missing_viewer_is_told_with_how_to_get_it() {
         &[
             "no Rerun viewer",
             "on the PATH",
+            "0.36.3 and newer",
+            "tried up to 0.41",
+            "uvx --from rerun-sdk==0.36.3 rerun",
+            "pipx run --spec rerun-sdk==0.36.3 rerun",
             "pip install rerun-sdk==0.36.3",
             "cargo install rerun-cli",
+            "app.rerun.io/version/0.36.3",
         ],
     );
 }
@@ -68,13 +73,63 @@ fn a_missing_viewer_is_told_with_how_to_get_it() {
 #[test]
 fn a_viewer_that_ends_at_once_is_told_before_anything_runs() {
     let folder = tempfile::tempdir().unwrap();
-    viewer(folder.path(), "exit 3");
+    viewer(folder.path(), "echo 'no adapter found' >&2; exit 3");
     let output = shown(folder.path());
     assert_eq!(output.status.code(), Some(4));
     says(
         &output,
-        &["the viewer ended at once", "exit status: 3", "0.36.3"],
+        &[
+            "the viewer ended at once",
+            "exit status: 3",
+            "no adapter found",
+            "0.36.3 and newer",
+        ],
     );
+}
+
+/// Runs `asperity view`.
+fn opened(folder: &Path, file: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["view", file])
+        .current_dir(folder)
+        .env("PATH", folder)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn view_passes_on_what_the_viewer_says() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("run.rrd"), "").unwrap();
+    viewer(folder.path(), "echo \"cannot draw $1\" >&2; exit 3");
+    let output = opened(folder.path(), "run.rrd");
+    assert_eq!(output.status.code(), Some(1));
+    let words = [
+        "cannot draw run.rrd",
+        "exit status: 3",
+        "0.36.3 and newer",
+        "tried up to 0.41",
+    ];
+    says(&output, &words);
+    viewer(folder.path(), "exit 0");
+    let output = opened(folder.path(), "run.rrd");
+    assert_eq!(output.status.code(), Some(0));
+    says(&output, &["opening run.rrd", "0.36.3 and newer"]);
+}
+
+#[test]
+fn without_a_viewer_view_gives_the_line_that_starts_one() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("my run.rrd"), "").unwrap();
+    let output = opened(folder.path(), "my run.rrd");
+    assert_eq!(output.status.code(), Some(1));
+    let words = [
+        "uvx --from rerun-sdk==0.36.3 rerun 'my run.rrd'",
+        "pipx run --spec rerun-sdk==0.36.3 rerun 'my run.rrd'",
+        "https://app.rerun.io/version/0.36.3/",
+    ];
+    says(&output, &words);
 }
 
 /// The viewer is this test's own program, which runs [`stand_in`] below.

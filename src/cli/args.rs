@@ -12,12 +12,12 @@ const ABOUT: &str =
 const LONG_ABOUT: &str = "\
 Explorer of rolling-sliding contact fatigue.
 
-Two rough bodies roll and slide on each other with oil between them. asperity marches pressure and film through
-time as the roughness of both bodies moves through the contact, computes traction and subsurface stress, counts
-stress cycles and gives a fatigue life relative to the smooth, frictionless contact in pure rolling.
+Two rough bodies roll and slide on each other with oil between them. asperity steps pressure and film through
+time while the roughness of both bodies moves through the contact, computes traction and subsurface stress, counts
+stress cycles, and gives a fatigue life relative to the smooth, frictionless contact in pure rolling.
 
 S = (U2 - U1)/U is the slide-to-roll ratio, U = (U1 + U2)/2 the entrainment speed; S > 0: body 1 is the slower.
-All numbers are in SI units, which are part of the keys' names.";
+All numbers are in SI units; the name of each key ends in its unit.";
 
 const EXAMPLES: &str = "\
 Without a command: on a terminal the explorer on the default scene, recording to ./recordings/; otherwise one
@@ -34,20 +34,28 @@ Examples:
   asperity view demonstration.rrd                          the recording in the Rerun viewer
 
 Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not converge (they are named);
-3 it stalled; 4 an output failed.";
+3 the run stalled; 4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP) before its end.
+
+Outputs: a file that is there is replaced (--force) only by one that is whole; until then the new one lies beside it,
+as NAME.part-PID-N.ENDING, which is what a killed run leaves. Results are the same bit for bit on any number of
+threads and on every CPU with the same vector units; between kinds of CPU they differ by rounding (about 1e-7).";
 
 const SWEEP_ABOUT: &str = "\
-Run many cases of a scene, and write one table with a row each, and pictures.
+Run many cases of a scene; write one table with a row for each, and plots.
 
 A sweep file names a scene and what varies: [vary] takes any keys of a scene, each with a list of values or a
 range { from, to, n, spacing = \"linear\" or \"log\" }. Several keys make a grid (every combination; the default)
-or, with combine = \"list\", go side by side. Instead of [vary], [gear] follows a tooth along its line of action,
+or, with combine = \"list\", vary together. Instead of [vary], [gear] follows a tooth along its line of action,
 [race] a ball through its loaded zone, [cam] a cam's flank. asperity sweep slide_roll --show file prints one.
 
-Cases that differ only in S or an amplitude start from each other's end, along chains of [chain] longest cases; a
-chain begins cold. Chains are fixed by the file alone and are what shards are made of, so the table is the same byte
-for byte whatever --shard, --threads and interruptions. Every case is written whole or not at all: after a kill,
---resume goes on.";
+Cases that differ only in S or an amplitude start from each other's final state, in chains of at most [chain] longest
+cases; a chain begins cold. The file alone determines the chains, and shards are made of whole chains, so the table is
+the same byte for byte whatever --shard, --threads and interruptions, on machines of one kind: CPUs with other vector
+units differ by rounding (about 1e-7). Every case is written whole or not at all: after an interruption --resume
+continues.
+
+A folder is taken that is empty or that a sweep has marked (sweep.digest); --force takes away the sweep's own files in
+it and no others.";
 
 const SWEEP_EXAMPLES: &str = "\
 Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.
@@ -55,7 +63,7 @@ Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.
 Examples:
   asperity sweep slide_roll                      21 values of S of the default scene, into ./slide_roll.sweep/
   asperity sweep slide_roll --show file > mine.toml    a file to edit
-  asperity sweep mine.toml --resume              goes on after a kill
+  asperity sweep mine.toml --resume              continues after an interruption
   asperity sweep mine.toml --shard 3/8           the third of eight parts, on this machine or another
   asperity sweep collect mine.sweep              the table of parts that share a folder
   asperity sweep collect one.sweep two.sweep --out all.sweep
@@ -64,13 +72,13 @@ Examples:
   asperity sweep fzg_c --show points             R, U1, U2, S, load, p_h, film along the path; no simulation
 
 Exit codes: 0 all converged; 1 bad input; 2 some cases did not converge; 3 some stalled, or cases are missing;
-4 an output failed.";
+4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP).";
 
 /// The whole command line.
 #[derive(Debug, Parser)]
 #[command(
     name = "asperity",
-    version,
+    version = asperity::files::VERSION,
     about = ABOUT,
     long_about = LONG_ABOUT,
     after_long_help = EXAMPLES,
@@ -85,7 +93,7 @@ pub(crate) struct Cli {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Open the explorer: the contact live, with knobs
+    /// Open the explorer: the contact live, with knobs to turn
     Explore(RunArgs),
     /// Run a scene without a screen
     #[command(after_long_help = "\
@@ -94,33 +102,33 @@ Examples:
   asperity run --set load.hertz_pressure_pa=1.2e9 --set body_1.surface.kind=smooth
   asperity run --set lubricant=none --passages 1 --no-record --summary dry.json
   asperity run --passages 1 --save-state half.state
-  asperity run --passages 2 --from-state half.state        goes on as if it had never stopped
+  asperity run --passages 2 --from-state half.state        continues as if it had never stopped
   asperity run --export fields --export-every 32           pressure, film, stress for numpy
   asperity run --export pictures --export-as png           the maps and the centre line as pictures
-  asperity run --no-record --spawn                         shows it live in a viewer that it starts
+  asperity run --no-record --spawn                         starts a viewer and shows the run live
   asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit")]
     Run(HeadlessArgs),
-    /// Print the plan: what is computed, what is left out and why, memory, estimated time
+    /// Print the plan: what is computed, what is not and why, memory, estimated time
     Check(SceneArgs),
     /// List the scenes that come with the program, or print one as TOML with every key explained
     Scenes {
         /// Preset to print
         name: Option<String>,
     },
-    /// Measure what results cost, what they are worth and where they end
+    /// Measure accuracy, cost and limits of the program itself
     #[command(after_long_help = "\
 Each study prints its table and, with --out, writes it as Markdown and CSV, with plots as SVG where there are any.
 
 Examples:
   asperity study accuracy --out report      error against run time, part by part: CSV, Markdown, SVG
-  asperity study stability --quick          stiff and extreme cases, a part of them, within a minute
-  asperity study stability --only jump      the cases whose name or group says jump
-  asperity study pruning                    what leaving out stages gains, preset by preset
+  asperity study stability --quick          some of the stiff and extreme cases, within a minute
+  asperity study stability --only jump      only the cases with jump in their name or group
+  asperity study pruning                    what skipping unneeded stages saves, preset by preset
   asperity study scaling                    cost of a step by grid, symmetry, threads and regime
 
-Exit codes: 0 as it must be; 2 something did not converge or lies beyond its bound (the table says what).")]
+Exit codes: 0 all as required; 2 something did not converge or exceeds its bound (the table says what).")]
     Study(StudyArgs),
-    /// Run many cases of a scene: life maps, operating paths; one table, pictures
+    /// Run many cases of a scene: life maps, operating paths; one table, plots
     #[command(long_about = SWEEP_ABOUT, after_long_help = SWEEP_EXAMPLES)]
     Sweep(SweepArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
@@ -143,10 +151,10 @@ pub(crate) struct StudyArgs {
     /// The largest set of cases
     #[arg(long)]
     pub(crate) full: bool,
-    /// Folder for the report's files, made where it is missing
+    /// Folder for the report's files; created if missing
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Cases whose name or group holds this text only (stability, pruning, scaling)
+    /// Only cases whose name or group contains this text (stability, pruning, scaling)
     #[arg(long, value_name = "TEXT")]
     pub(crate) only: Option<String>,
     /// Cores to use [default: all]
@@ -166,11 +174,11 @@ impl StudyArgs {
 pub(crate) enum StudyKind {
     /// Error against run time, part by part
     Accuracy,
-    /// Stiff and extreme cases: converged or named
+    /// Stiff and extreme cases: each converges or is named
     Stability,
-    /// What each stage that a plan leaves out would cost and change
+    /// What each stage that a plan skips would cost and change
     Pruning,
-    /// Our side of the comparison with public codes, as CSV (tests/peers has the others')
+    /// This program's side of the comparison with public codes, as CSV (the others' is in tests/peers)
     Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
@@ -188,22 +196,22 @@ pub(crate) struct SweepArgs {
     /// Part of the sweep to run: i of n, from 1
     #[arg(long, value_name = "I/N", default_value = "1/1")]
     pub(crate) shard: Shard,
-    /// Folder for cases, table and pictures [default: ./NAME.sweep]
+    /// Folder for cases, table and plots [default: ./NAME.sweep]
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Go on where the folder's cases end
+    /// Continue where the folder's cases end
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Throw away the cases that the folder holds
+    /// Delete existing cases in the folder
     #[arg(long)]
     pub(crate) force: bool,
     /// Chains at a time, one thread each [default: all cores]; the table does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
-    /// Then run every case cold as well, as asperity run would, and print what the chains save
+    /// Also run every case cold, as asperity run would, and print what the chains save
     #[arg(long, conflicts_with = "shard")]
     pub(crate) compare_cold: bool,
-    /// Print something about the sweep and run nothing
+    /// Print one of these about the sweep instead of running it
     #[arg(long, value_enum, value_name = "WHAT")]
     pub(crate) show: Option<Shown>,
 }
@@ -211,11 +219,11 @@ pub(crate) struct SweepArgs {
 /// What to print of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Shown {
-    /// Its file, to edit
+    /// The sweep file, as a start for your own
     File,
-    /// What is known of every case by closed forms, as CSV
+    /// What closed-form formulas give for every case, as CSV
     Points,
-    /// A scene that moves along a [gear] path in its own time, for asperity run and its recording
+    /// A scene that follows a [gear] path in real time, for asperity run and its recording
     Ride,
 }
 
@@ -227,7 +235,7 @@ pub(crate) enum SweepCommand {
         /// Folders that shards have filled
         #[arg(required = true, value_name = "FOLDER")]
         folders: Vec<PathBuf>,
-        /// Folder for table and pictures [default: the first]
+        /// Folder for table and plots [default: the first]
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
@@ -239,10 +247,10 @@ pub(crate) struct SceneArgs {
     /// Preset (see `asperity scenes`) or TOML file
     #[arg(default_value = presets::DEFAULT)]
     pub(crate) scene: String,
-    /// Set a key of the scene, such as motion.slide_roll=0.5; none takes out a key or table. Repeatable
+    /// Set a key of the scene, such as motion.slide_roll=0.5; KEY=none removes a key or table. Repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) settings: Vec<String>,
-    /// Length of the run after the start-up, in lengths of 4 a at U (sets time.passages)
+    /// Length of the run after the start-up, in passages of 4 a at speed U (sets time.passages)
     #[arg(long, value_name = "N")]
     pub(crate) passages: Option<f64>,
 }
@@ -258,7 +266,7 @@ pub(crate) struct RunArgs {
     /// Table to write: every scalar of every step, as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) table: Option<PathBuf>,
-    /// Folder for fields of chosen steps (step_000016.npz, ... or pictures), with the scene beside them
+    /// Folder for the fields of selected steps (step_000016.npz, ... or pictures), together with the scene
     #[arg(long, value_name = "FOLDER")]
     pub(crate) export: Option<PathBuf>,
     /// What to export of a step: fields as numpy archives, maps and centre line as pictures, or both
@@ -271,24 +279,24 @@ pub(crate) struct RunArgs {
         requires = "export"
     )]
     pub(crate) export_as: Vec<ExportAs>,
-    /// Steps between two exported ones
+    /// Export every N-th step
     #[arg(long, value_name = "N", default_value_t = 16, requires = "export",
         value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) export_every: u64,
-    /// Summary to write as JSON; - writes it to stdout in place of the text
+    /// Summary to write as JSON; - writes it to stdout instead of the text
     #[arg(long, value_name = "FILE.json|-")]
     pub(crate) summary: Option<PathBuf>,
     /// Worker threads [default: all cores]; results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
-    /// Show it in a running Rerun viewer, too [default address: 127.0.0.1:9876]
+    /// Also show the run in a Rerun viewer that is open [default address: 127.0.0.1:9876]
     #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true,
         default_missing_value = "127.0.0.1:9876")]
     pub(crate) connect: Option<String>,
-    /// Start a Rerun viewer and show it there, too
+    /// Also start a Rerun viewer and show the run in it
     #[arg(long)]
     pub(crate) spawn: bool,
-    /// Let viewers of this machine connect, such as one in a browser [default port: 9876]
+    /// Let viewers on this machine connect, such as one in a browser [default port: 9876]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true,
         default_missing_value = "9876")]
     pub(crate) serve: Option<u16>,
@@ -314,13 +322,13 @@ pub(crate) enum ExportAs {
 pub(crate) struct HeadlessArgs {
     #[command(flatten)]
     pub(crate) run: RunArgs,
-    /// State to write when the run ends, for --from-state
+    /// Save the state to this file when the run ends, for --from-state
     #[arg(long, value_name = "FILE")]
     pub(crate) save_state: Option<PathBuf>,
-    /// State to go on from, saved by a run of the same scene; the result is that of one run, bit for bit
+    /// Continue from the saved state of a run of the same scene; the result equals one whole run, bit for bit
     #[arg(long, value_name = "FILE")]
     pub(crate) from_state: Option<PathBuf>,
-    /// Recording to repeat: its scene, and every knob that was turned by hand at the same step
+    /// Repeat a recording: its scene, every knob turned at the same step as then
     #[arg(long, value_name = "FILE.rrd", conflicts_with_all = ["scene", "settings", "passages", "from_state"])]
     pub(crate) from: Option<PathBuf>,
 }

@@ -1,7 +1,6 @@
 //! `asperity explore`: the session behind the live screen, and what the screen's keys do outside of it.
 
 use std::cell::RefCell;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -17,8 +16,9 @@ use miette::miette;
 
 use super::Engine;
 use super::args::RunArgs;
-use super::failure::Failure;
-use super::outputs::{Outputs, Pace};
+use super::failure::{Failure, tell};
+use super::names::Names;
+use super::outputs::{Outputs, Pace, Recording};
 use super::run::conclude;
 use super::scenes::{self, Prepared};
 use super::{report, shown, view};
@@ -40,7 +40,8 @@ pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
         Some(path) => path.clone(),
         None => free_name(&prepared)?,
     };
-    let outputs = Outputs::open(args, &prepared, &path, Pace::Live)?;
+    Names::of(args, &prepared.scene, &path).check()?;
+    let outputs = Outputs::open(args, &prepared.scene, &path, Pace::Live)?;
     let interrupt = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&interrupt);
     ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))
@@ -92,7 +93,7 @@ fn end(runs: &Runs) -> Result<u8, Failure> {
             Ok(outcome) => {
                 worst = worst.max(outcome.exit_code());
                 for complaint in report::complaints(&outcome) {
-                    let _ = writeln!(std::io::stderr(), "{}: {complaint}", run.prepared.name);
+                    tell(&format!("{}: {complaint}", run.prepared.name));
                 }
             }
             Err(error) => broken = Some(error),
@@ -114,26 +115,22 @@ fn end(runs: &Runs) -> Result<u8, Failure> {
     }
 }
 
-/// Another scene in place of the present one. Recordings are numbered on; tables, exports and viewers belong
-/// to the first scene.
+/// Another scene in place of the present one. Recordings bear its name and a number; tables, exports and viewers
+/// belong to the first scene.
 fn rebuild(engine: Engine, args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool>) -> Rebuild {
     let (threads, no_record) = (args.threads(), args.no_record);
-    Box::new(move |scene| {
+    Box::new(move |scene, name| {
         let words = |failure: Failure| failure.to_string();
         let mut next = RunArgs::bare();
         next.no_record = no_record;
         let mut runs = runs.borrow_mut();
-        let name = runs
-            .last()
-            .map_or("scene", |run| &run.prepared.name)
-            .to_owned();
         let mut scene = scene.clone();
         scene.record = runs
             .last()
             .and_then(|run| run.prepared.scene.record.clone());
-        let prepared = scenes::finish(&next, scene, name).map_err(words)?;
+        let prepared = scenes::finish(&next, scene, name.to_owned()).map_err(words)?;
         let path = free_name(&prepared).map_err(words)?;
-        let outputs = Outputs::open(&next, &prepared, &path, Pace::Live).map_err(words)?;
+        let outputs = Outputs::open(&next, &prepared.scene, &path, Pace::Live).map_err(words)?;
         let run = start(engine, threads, prepared, outputs).map_err(words)?;
         // It ends by itself while the new one starts; it is joined when all is over.
         if let Some(old) = runs.last_mut() {
@@ -162,11 +159,12 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     let (settled, ground) = (session.settled_reader(), session.settled_reader());
     let scene = prepared.scene.clone();
     let status = session.status_reader();
-    let recorded = recording.as_ref().map(|(path, _)| path.clone());
-    let shown = recorded.clone();
+    let recorded = recording.clone();
+    let shown = recording.as_ref().map(|recording| recording.path.clone());
     let name = prepared.name.clone();
     Wiring {
         scene: prepared.scene.clone(),
+        name: prepared.name.clone(),
         load_n: plan.force_n,
         half_width_m: plan.hertz.a_m,
         p_hertz_pa: plan.hertz.p_max_pa,
@@ -181,7 +179,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
             .collect(),
         frames: session.latest(),
         commands: session.commands(),
-        status: Box::new(move || run_status(&status(), recorded.as_deref())),
+        status: Box::new(move || run_status(&status(), recorded.as_ref())),
         settled: Box::new(settled),
         start_sweep: Some(Box::new(move |order| {
             let ground = Ground {
@@ -191,9 +189,9 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
             Some(Background::start(ground, order, threads))
         })),
         interrupt,
-        toggle_recording: recording.map(|(_, switch)| {
+        toggle_recording: recording.map(|recording| {
             Box::new(move || {
-                Ok(if switch.toggle() {
+                Ok(if recording.switch.toggle() {
                     "recording".to_owned()
                 } else {
                     "recording paused".to_owned()
@@ -207,13 +205,18 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     }
 }
 
-fn run_status(status: &Status, recorded: Option<&Path>) -> RunStatus {
-    let name = recorded.map(|path| path.display().to_string());
-    let recorder = status
-        .outputs
-        .iter()
-        .find(|output| Some(&output.output) == name.as_ref())
-        .map(|output| RecorderState {
+fn run_status(status: &Status, recorded: Option<&Recording>) -> RunStatus {
+    let find = |recording: &Recording| {
+        let mut outputs = status.outputs.iter();
+        let output = outputs.find(|output| output.output == recording.name)?;
+        // Once it has taken its own name it is there.
+        let file =
+            std::fs::metadata(&recording.path).or_else(|_| std::fs::metadata(&output.output));
+        Some((output, file.map_or(0, |file| file.len())))
+    };
+    let recorder = recorded
+        .and_then(find)
+        .map(|(output, bytes)| RecorderState {
             output: output.output.clone(),
             activity: match output.activity {
                 Activity::On => RecorderActivity::Recording,
@@ -222,7 +225,7 @@ fn run_status(status: &Status, recorded: Option<&Path>) -> RunStatus {
             },
             frames: output.frames,
             skipped: output.skipped,
-            bytes: std::fs::metadata(&output.output).map_or(0, |file| file.len()),
+            bytes,
         });
     RunStatus {
         health: match &status.failure {
@@ -244,12 +247,8 @@ fn open_viewer(path: &Path) -> Result<String, String> {
 /// Saves a scene beside the working directory's others, never over one.
 fn save(name: &str, toml: &str) -> Result<PathBuf, String> {
     let path = numbered(Path::new("."), name, "toml").ok_or("no free file name")?;
-    Overwrite::Refuse
-        .create(&path)
-        .map_err(|error| error.to_string())
-        .and_then(|mut file| {
-            std::io::Write::write_all(&mut file, toml.as_bytes()).map_err(|error| error.to_string())
-        })?;
+    let written = Overwrite::Refuse.write(&path, toml.as_bytes());
+    written.map_err(|error| error.to_string())?;
     Ok(path)
 }
 

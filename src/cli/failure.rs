@@ -1,5 +1,6 @@
 //! What ends the program early: a message, a hint and an exit code.
 
+use std::borrow::Cow;
 use std::io::IsTerminal as _;
 use std::process::ExitCode;
 
@@ -8,7 +9,7 @@ use asperity::plan::PlanError;
 use asperity::run::{CheckpointError, RunError};
 use asperity::scene::SceneError;
 use asperity::study::sweep::SweepError;
-use miette::{MietteHandlerOpts, Report, miette};
+use miette::{MietteDiagnostic, MietteHandlerOpts, Report, miette};
 
 /// An error with its exit code.
 #[derive(Debug)]
@@ -20,17 +21,26 @@ pub(crate) struct Failure {
 impl Failure {
     /// Bad input: exit code 1.
     pub(crate) fn input(report: Report) -> Self {
-        Self { code: 1, report }
+        Self::new(1, &report)
     }
 
     /// A run that broke off: exit code 3.
     pub(crate) fn stalled(report: Report) -> Self {
-        Self { code: 3, report }
+        Self::new(3, &report)
     }
 
     /// An output that failed: exit code 4.
     pub(crate) fn output(report: Report) -> Self {
-        Self { code: 4, report }
+        Self::new(4, &report)
+    }
+
+    /// The words may hold what a hostile file holds.
+    fn new(code: u8, report: &Report) -> Self {
+        let mut plain = MietteDiagnostic::new(legible(&report.to_string()));
+        plain.code = report.code().map(|code| code.to_string());
+        plain.help = report.help().map(|help| legible(&help.to_string()));
+        let report = plain.into();
+        Self { code, report }
     }
 
     /// Prints it to stderr.
@@ -54,6 +64,73 @@ impl std::fmt::Display for Failure {
 pub(crate) fn say(report: &Report) {
     use std::io::Write as _;
     let _ = writeln!(std::io::stderr(), "{report:?}");
+}
+
+/// Prints a line to stderr, such that no terminal takes it for more than text.
+pub(crate) fn tell(line: &str) {
+    use std::io::Write as _;
+    let _ = writeln!(std::io::stderr(), "{}", legible(line));
+}
+
+/// What the command line's own reader answers: help and version to stdout, what is wrong to stderr.
+pub(crate) fn answer(error: &clap::Error) -> ExitCode {
+    if error.use_stderr() {
+        let text = error.to_string();
+        if text == legible(&text) {
+            let _ = error.print();
+        } else {
+            tell(&text);
+        }
+        return ExitCode::from(1);
+    }
+    match error.print() {
+        Err(failed) if failed.kind() != std::io::ErrorKind::BrokenPipe => {
+            Failure::output(miette!("stdout: {failed}")).report()
+        }
+        _ => ExitCode::SUCCESS,
+    }
+}
+
+/// Longest line that anybody reads, and most of them.
+const LONGEST_LINE: usize = 1000;
+const MOST_LINES: usize = 40;
+
+/// Text from outside as a message may show it: no control characters, no endless lines, not too many of them.
+pub(crate) fn legible(text: &str) -> String {
+    let mut lines: Vec<String> = text.lines().take(MOST_LINES).map(cut).collect();
+    let more = text.lines().count() - lines.len();
+    if more > 0 {
+        lines.push(format!("... and {more} more lines"));
+    }
+    let mut whole = visible(&lines.join("\n")).into_owned();
+    if text.ends_with('\n') {
+        whole.push('\n');
+    }
+    whole
+}
+
+/// The beginning of a line that is too long.
+fn cut(line: &str) -> String {
+    match line.char_indices().nth(LONGEST_LINE) {
+        None => line.to_owned(),
+        Some((at, _)) => format!("{}... ({} characters)", &line[..at], line.chars().count()),
+    }
+}
+
+/// Control characters as they would be written, but ends of lines and tabs: a terminal must not obey a text.
+pub(crate) fn visible(text: &str) -> Cow<'_, str> {
+    let is_control = |c: char| c.is_control() && c != '\n' && c != '\t';
+    if !text.contains(is_control) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| {
+        if is_control(c) {
+            c.escape_default().to_string()
+        } else {
+            c.to_string()
+        }
+    };
+    Cow::Owned(text.chars().map(shown).collect())
 }
 
 /// Chooses how reports look: drawn on a terminal, plain unbroken lines elsewhere, so that scripts can search
@@ -114,7 +191,7 @@ impl From<CheckpointError> for Failure {
     fn from(error: CheckpointError) -> Self {
         Self::input(miette!(
             code = "state",
-            help = "a run goes on with the scene and settings that it was saved with; only --passages and outputs may differ",
+            help = "a run continues with the scene and settings that it was saved with; only --passages and outputs may differ",
             "{error}"
         ))
     }
@@ -147,5 +224,40 @@ impl From<SweepError> for Failure {
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         Self::stalled(miette!(code = "run", "{error}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_would_obey_or_choke_on_becomes_text() {
+        assert_eq!(
+            visible("a\x1b[31mb\u{9b}2J\r\n\tc"),
+            "a\\u{1b}[31mb\\u{9b}2J\\r\n\tc"
+        );
+        assert!(matches!(visible("film 12 µm\n"), Cow::Borrowed(_)));
+        let long = legible(&"x".repeat(100_000));
+        assert!(
+            long.len() < 1100 && long.ends_with("(100000 characters)"),
+            "{long}"
+        );
+        let many = legible(&"line\n".repeat(1000));
+        assert!(many.ends_with("... and 960 more lines\n"), "{many}");
+    }
+
+    #[test]
+    fn code_help_and_words_of_a_failure_are_kept() {
+        let failure = Failure::input(miette!(code = "scene", help = "do this", "bad \x1b[2J"));
+        assert_eq!(failure.to_string(), "bad \\u{1b}[2J; do this");
+        assert_eq!(
+            failure
+                .report
+                .code()
+                .map(|code| code.to_string())
+                .as_deref(),
+            Some("scene")
+        );
     }
 }

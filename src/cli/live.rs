@@ -4,8 +4,10 @@
     expect(dead_code, reason = "nothing to show without the recorder")
 )]
 
-use std::io::Write as _;
+use std::fs::File;
+use std::io::{Read as _, Seek as _, Write as _};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream, ToSocketAddrs as _};
+use std::path::PathBuf;
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
@@ -20,6 +22,8 @@ const START: Duration = Duration::from_secs(30);
 const LOOK: Duration = Duration::from_millis(100);
 /// Most memory of a viewer that was started; it forgets the oldest beyond it.
 const VIEWER_MEMORY: &str = "2GB";
+/// Lines of what a viewer said that are passed on.
+const LINES: usize = 12;
 
 /// The address of a viewer: `HOST:PORT`, also in the form that viewers print.
 pub(crate) fn address(text: &str) -> Result<SocketAddr, Failure> {
@@ -39,24 +43,75 @@ pub(crate) fn address(text: &str) -> Result<SocketAddr, Failure> {
 
 /// Starts a viewer of its own and waits until it listens. It stays open when the run has ended.
 pub(crate) fn spawn() -> Result<SocketAddr, Failure> {
-    let mut command = view::quiet_viewer("the run")?;
+    let mut command = view::quiet_viewer("the run", "")?;
     let port = free_port()?;
     command.args(["--port", &port.to_string(), "--bind", "127.0.0.1"]);
     command.args(["--memory-limit", VIEWER_MEMORY, "--hide-welcome-screen"]);
     leave_alone(&mut command);
+    let mut words = Words::new();
+    if let Some(file) = words.as_ref().and_then(|words| words.file.try_clone().ok()) {
+        command.stderr(file);
+    }
     let mut child = command
         .spawn()
         .map_err(|error| Failure::output(miette!("the viewer could not be started: {error}")))?;
     let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-    wait_for(&mut child, address)?;
+    wait_for(&mut child, address, words.as_mut())?;
     Ok(address)
 }
 
-fn free_port() -> Result<u16, Failure> {
+/// What a viewer says, in a file: it outlives the run, and must never find its way out closed.
+struct Words {
+    file: File,
+    path: PathBuf,
+}
+
+impl Words {
+    /// Nothing where there is no room for it: a viewer without words is better than none.
+    fn new() -> Option<Self> {
+        let name = format!("asperity-viewer-{}.log", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let file = File::options()
+            .read(true)
+            .append(true)
+            .create_new(true)
+            .open(&path)
+            .ok()?;
+        Some(Self { file, path })
+    }
+
+    /// The last lines.
+    fn read(&mut self) -> String {
+        let mut text = Vec::new();
+        let read = self
+            .file
+            .rewind()
+            .and_then(|()| self.file.read_to_end(&mut text));
+        let text = String::from_utf8_lossy(&text);
+        let lines: Vec<&str> = text
+            .lines()
+            .filter(|line| !line.trim().is_empty())
+            .collect();
+        match read {
+            Ok(_) => lines[lines.len().saturating_sub(LINES)..].join("\n"),
+            Err(_) => String::new(),
+        }
+    }
+}
+
+impl Drop for Words {
+    fn drop(&mut self) {
+        // Where a file that is in use cannot be removed it is left to the system's own tidying.
+        drop(std::fs::remove_file(&self.path));
+    }
+}
+
+/// A port of this machine that nobody uses.
+pub(crate) fn free_port() -> Result<u16, Failure> {
     TcpListener::bind((Ipv4Addr::LOCALHOST, 0))
         .and_then(|listener| listener.local_addr())
         .map(|address| address.port())
-        .map_err(|error| Failure::output(miette!("no free port for the viewer: {error}")))
+        .map_err(|error| Failure::output(miette!("no free port for a viewer: {error}")))
 }
 
 /// A group of its own: Ctrl-C ends the run and not the viewer.
@@ -69,13 +124,23 @@ fn leave_alone(command: &mut Command) {
 #[cfg(not(unix))]
 fn leave_alone(_command: &mut Command) {}
 
-fn wait_for(child: &mut Child, address: SocketAddr) -> Result<(), Failure> {
+fn wait_for(
+    child: &mut Child,
+    address: SocketAddr,
+    words: Option<&mut Words>,
+) -> Result<(), Failure> {
     let until = Instant::now() + START;
     while TcpStream::connect_timeout(&address, LOOK).is_err() {
         if let Ok(Some(status)) = child.try_wait() {
+            let said = words.map(Words::read).unwrap_or_default();
+            let said = if said.is_empty() {
+                said
+            } else {
+                format!(", and said:\n{said}")
+            };
             return Err(Failure::output(miette!(
-                help = "recordings need the viewer of version 0.36.3 and a screen; `rerun` alone shows what it misses",
-                "the viewer ended at once with {status}"
+                help = format!("it needs a screen; {}", view::VERSIONS),
+                "the viewer ended at once with {status}{said}"
             )));
         }
         if Instant::now() > until {
@@ -96,8 +161,9 @@ pub(crate) fn announce(port: u16) {
     let url = format!("rerun+http://127.0.0.1:{port}/proxy");
     let _ = writeln!(
         std::io::stderr(),
-        "viewers may connect while it runs:\n  rerun --connect {url}\n  or in a browser: \
-         https://app.rerun.io/version/0.36.3/?url={url}"
+        "viewers may connect while it runs ({}):\n  rerun --connect {url}\n  or in a browser: {}?url={url}",
+        view::VERSIONS,
+        view::IN_A_BROWSER
     );
 }
 
@@ -124,7 +190,11 @@ mod tests {
         let (Ok(mut child), Ok(port)) = (command.spawn(), port) else {
             return;
         };
-        let told = wait_for(&mut child, SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
+        let told = wait_for(
+            &mut child,
+            SocketAddr::from((Ipv4Addr::LOCALHOST, port)),
+            None,
+        );
         let told = told.map_err(|failure| failure.to_string());
         assert!(told.is_err_and(|text| text.contains("ended at once")));
     }

@@ -1,11 +1,12 @@
 //! The command line. Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not
-//! converge; 3 it stalled; 4 an output failed.
+//! converge; 3 it stalled; 4 an output failed; 5 it was stopped before its end.
 
 mod args;
 #[cfg(feature = "tui")]
 mod explore;
 mod failure;
 mod live;
+mod names;
 mod outputs;
 mod repeat;
 mod report;
@@ -36,9 +37,8 @@ pub(crate) fn main(engine: Engine) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version come this way too, with exit code 0; a closed pipe is no error.
-            let _ = error.print();
-            return ExitCode::from(u8::from(error.exit_code() != 0));
+            // Help and version come this way too, with exit code 0.
+            return failure::answer(&error);
         }
     };
     match dispatch(cli.command, engine) {
@@ -78,7 +78,7 @@ fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
 #[cfg(not(feature = "tui"))]
 fn explore(_args: &RunArgs, _engine: Engine) -> Result<u8, Failure> {
     Err(Failure::input(miette::miette!(
-        help = "asperity run computes the same without a screen; a build with the default features has one",
+        help = "asperity run computes the same without a screen; a build with the default features has the explorer",
         "this program was built without the feature tui, so it has no explorer"
     )))
 }

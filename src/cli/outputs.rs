@@ -1,18 +1,18 @@
-//! The files that a run writes, opened before it starts so that a bad path costs nothing.
+//! The files that a run writes: looked at before it starts so that a bad path costs nothing, and after all that it
+//! reads has been read, so that a bad input costs no file.
 
-use std::fs::File;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use asperity::observe::{Export, Format, ObserveError, Overwrite, Queue, Table, WhenFull};
 use asperity::run::{Switch, Watcher};
+use asperity::scene::Scene;
 use asperity::sim::Summary;
 
 use super::args::{ExportAs, RunArgs};
 use super::failure::Failure;
 #[cfg(feature = "rerun")]
 use super::live;
-use super::scenes::{Prepared, print};
+use super::scenes::print;
 
 /// Who waits when the recorder is slower than the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,23 +40,36 @@ const FILES_WAITING: usize = 8;
 pub(crate) struct Outputs {
     /// For the session.
     pub(crate) watchers: Vec<Watcher>,
-    /// The recording and its switch.
+    /// The recording.
     #[cfg_attr(not(feature = "tui"), expect(dead_code, reason = "the explorer's"))]
-    pub(crate) recording: Option<(PathBuf, Switch)>,
+    pub(crate) recording: Option<Recording>,
     summary: SummaryTo,
+}
+
+/// The recording of a run.
+#[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "tui"), expect(dead_code, reason = "the explorer's"))]
+pub(crate) struct Recording {
+    /// Its name in messages: the path that it will have.
+    pub(crate) name: String,
+    /// The file that is written now: that path, or beside it where another file has it still.
+    pub(crate) path: PathBuf,
+    /// Turns it on and off.
+    pub(crate) switch: Switch,
 }
 
 enum SummaryTo {
     People,
     Stdout,
-    File { path: PathBuf, file: File },
+    File { path: PathBuf, overwrite: Overwrite },
 }
 
 impl Outputs {
-    /// Opens everything. `recording` is where the recording goes, if the plan has one.
+    /// Opens everything that is written bit by bit and looks at the rest. `recording` is where the recording goes, if
+    /// the plan has one.
     pub(crate) fn open(
         args: &RunArgs,
-        prepared: &Prepared,
+        scene: &Scene,
         recording: &Path,
         pace: Pace,
     ) -> Result<Self, Failure> {
@@ -64,10 +77,10 @@ impl Outputs {
         let mut outputs = Self {
             watchers: Vec::new(),
             recording: None,
-            summary: SummaryTo::open(args.summary.as_deref(), overwrite)?,
+            summary: SummaryTo::check(args.summary.as_deref(), overwrite)?,
         };
-        outputs.open_recording(prepared, recording, overwrite, pace)?;
-        outputs.open_live(args, prepared)?;
+        outputs.open_recording(scene, recording, overwrite, pace)?;
+        outputs.open_live(args, scene)?;
         if let Some(path) = &args.table {
             let table = Table::create(path, overwrite)?;
             let name = path.display().to_string();
@@ -95,16 +108,17 @@ impl Outputs {
     #[cfg(feature = "rerun")]
     fn open_recording(
         &mut self,
-        prepared: &Prepared,
+        scene: &Scene,
         path: &Path,
         overwrite: Overwrite,
         pace: Pace,
     ) -> Result<(), ObserveError> {
         use asperity::observe::rerun::Recorder;
-        let Some(record) = &prepared.scene.record else {
+        let Some(record) = &scene.record else {
             return Ok(());
         };
         let recorder = Recorder::create(path, overwrite, record)?;
+        let written = recorder.path().unwrap_or_else(|| path.to_owned());
         let queue = Queue::spawn(
             "record",
             FILES_WAITING,
@@ -113,15 +127,19 @@ impl Outputs {
         )?;
         let name = path.display().to_string();
         // Every step goes to it: it thins fields itself, by what the file has grown to.
-        let watcher = Watcher::new(name, Box::new(queue), 1);
-        self.recording = Some((path.to_owned(), watcher.switch()));
+        let watcher = Watcher::new(name.clone(), Box::new(queue), 1);
+        self.recording = Some(Recording {
+            name,
+            path: written,
+            switch: watcher.switch(),
+        });
         self.watchers.push(watcher);
         Ok(())
     }
 
     /// One stream, one thread and one queue for each viewer: a slow one delays nobody.
     #[cfg(feature = "rerun")]
-    fn open_live(&mut self, args: &RunArgs, prepared: &Prepared) -> Result<(), Failure> {
+    fn open_live(&mut self, args: &RunArgs, scene: &Scene) -> Result<(), Failure> {
         use asperity::observe::rerun::{Live, Recorder};
         /// Frames that may wait: about half a second of the screen's pace.
         const WAITING: usize = 16;
@@ -133,10 +151,11 @@ impl Outputs {
             viewers.push(Live::Connect(live::spawn()?));
         }
         if let Some(port) = args.serve {
+            // Port 0 asks for any that is free; viewers must be told which.
+            let port = if port == 0 { live::free_port()? } else { port };
             viewers.push(Live::Serve(port));
         }
-        let record = prepared.scene.record.clone();
-        let record = record.unwrap_or_default();
+        let record = scene.record.clone().unwrap_or_default();
         for viewer in viewers {
             let recorder = Recorder::live(viewer, &record)?;
             if let Live::Serve(port) = viewer {
@@ -151,7 +170,7 @@ impl Outputs {
 
     #[cfg(not(feature = "rerun"))]
     #[expect(clippy::unused_self, reason = "same form as with the feature rerun")]
-    fn open_live(&mut self, args: &RunArgs, _prepared: &Prepared) -> Result<(), Failure> {
+    fn open_live(&mut self, args: &RunArgs, _scene: &Scene) -> Result<(), Failure> {
         if args.connect.is_some() || args.spawn || args.serve.is_some() {
             return Err(Failure::input(miette::miette!(
                 help = "take a build with the default features",
@@ -169,7 +188,7 @@ impl Outputs {
     )]
     fn open_recording(
         &mut self,
-        _prepared: &Prepared,
+        _scene: &Scene,
         _path: &Path,
         _overwrite: Overwrite,
         _pace: Pace,
@@ -193,14 +212,17 @@ impl Outputs {
 }
 
 impl SummaryTo {
-    fn open(path: Option<&Path>, overwrite: Overwrite) -> Result<Self, ObserveError> {
+    fn check(path: Option<&Path>, overwrite: Overwrite) -> Result<Self, ObserveError> {
         match path {
             None => Ok(Self::People),
             Some(path) if path.as_os_str() == "-" => Ok(Self::Stdout),
-            Some(path) => Ok(Self::File {
-                path: path.to_owned(),
-                file: overwrite.create(path)?,
-            }),
+            Some(path) => {
+                overwrite.check(path)?;
+                Ok(Self::File {
+                    path: path.to_owned(),
+                    overwrite,
+                })
+            }
         }
     }
 
@@ -210,27 +232,15 @@ impl SummaryTo {
                 .map(|text| text + "\n")
                 .map_err(|error| ObserveError::new("summary", error.to_string()))
         };
-        match self {
-            Self::People => print(people),
-            Self::Stdout => {
-                if let Some(summary) = summary {
-                    print(&json(summary)?);
-                }
+        match (self, summary) {
+            (Self::Stdout, Some(summary)) => print(&json(summary)?),
+            (Self::Stdout, None) => Ok(()),
+            (Self::File { path, overwrite }, Some(summary)) => {
+                // The file first: what cannot be told is no reason to lose it.
+                let written = overwrite.write(&path, json(summary)?.as_bytes());
+                print(people).and(written)
             }
-            Self::File { path, mut file } => {
-                print(people);
-                if let Some(summary) = summary {
-                    file.write_all(json(summary)?.as_bytes())
-                        .and_then(|()| file.sync_all())
-                        .map_err(|error| {
-                            ObserveError::new(
-                                path.display().to_string(),
-                                format!("the summary could not be written: {error}"),
-                            )
-                        })?;
-                }
-            }
+            (Self::People | Self::File { .. }, _) => print(people),
         }
-        Ok(())
     }
 }

@@ -37,11 +37,11 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
 
     let recorded = Recorded::read(path).map_err(|error| {
         Failure::input(miette!(
-            help = "a recording that asperity run or asperity explore has written can be repeated",
+            help = "asperity run and asperity explore write recordings that can be repeated",
             "{error}"
         ))
     })?;
-    let program = concat!("asperity ", env!("CARGO_PKG_VERSION"));
+    let program = asperity::files::PROGRAM;
     if recorded.program != program {
         let _ = writeln!(
             std::io::stderr(),

@@ -52,6 +52,7 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
 fn run_line(outcome: &Outcome) -> String {
     let how = match (&outcome.end, outcome.n_unconverged) {
         (End::Stalled(_), _) => "stalled".to_owned(),
+        (End::Stopped, _) if outcome.stopped => stopped(outcome),
         (End::Stopped, 0) => "stopped by the user, converged".to_owned(),
         (_, 0) => "converged".to_owned(),
         (_, n) => format!("{n} steps did not converge"),
@@ -63,6 +64,19 @@ fn run_line(outcome: &Outcome) -> String {
     format!(
         "{how}; {} steps in {:.1} s{pace}",
         outcome.steps, outcome.wall_s
+    )
+}
+
+/// A run that was stopped, with what it has done of what it was to do.
+pub(crate) fn stopped(outcome: &Outcome) -> String {
+    let planned = outcome.steps_planned.unwrap_or(outcome.steps);
+    let unconverged = match outcome.n_unconverged {
+        0 => String::new(),
+        n => format!(", {n} of which did not converge"),
+    };
+    format!(
+        "stopped by the user after {} of {planned} steps{unconverged}",
+        outcome.steps
     )
 }
 
@@ -354,11 +368,10 @@ pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {
     }
     for step in outcome.unconverged.iter().take(NAMED) {
         list.push(format!(
-            "step {} at t = {:.4e} s did not converge: residual {:.2e}, {:.2e} of the film unbalanced{}",
+            "step {} at t = {:.4e} s did not converge: {}{}",
             step.step,
             step.time_s,
-            step.residual,
-            step.film_error,
+            step.unsolved,
             match 1e9 * step.overlap_m {
                 nm if nm > 0.0 => format!(", surfaces overlap by {nm:.2} nm"),
                 _ => String::new(),

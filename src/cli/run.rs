@@ -1,6 +1,5 @@
 //! `asperity run`: a scene without a screen.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,7 +12,8 @@ use asperity::scene::Scene;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::{HeadlessArgs, RunArgs};
-use super::failure::Failure;
+use super::failure::{Failure, tell};
+use super::names::Names;
 use super::outputs::{Outputs, Pace};
 use super::repeat::{self, Repetition};
 use super::{report, scenes};
@@ -41,9 +41,10 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}.rrd", prepared.name)));
-    let mut outputs = Outputs::open(args, &prepared, &path, Pace::Headless)?;
+    let recorded = prepared.scene.record.is_some();
     let plan = prepared.plan;
     let estimate_s = plan.cost.time_s;
+    // All that is read is read before anything is written.
     let saved = headless
         .from_state
         .as_deref()
@@ -51,13 +52,15 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         .transpose()?;
     if let Some(saved) = &saved {
         saved.fits(&prepared.scene)?;
+        warn_of_another_build(&saved.program);
     }
+    let names = Names::of(args, &prepared.scene, &path);
+    names.with_states(headless).check()?;
     let overwrite = Overwrite::from_force(args.force);
-    let state_file = headless
-        .save_state
-        .as_deref()
-        .map(|path| Ok::<_, ObserveError>((path, overwrite.create(path)?)))
-        .transpose()?;
+    if let Some(path) = &headless.save_state {
+        overwrite.check(path)?;
+    }
+    let mut outputs = Outputs::open(args, &prepared.scene, &path, Pace::Headless)?;
     let request = Request {
         name: prepared.name.clone(),
         scene: prepared.scene.clone(),
@@ -84,31 +87,52 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     } else {
         "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
     };
+    note_in_recording(&outcome, recorded.then_some(path.as_path()));
     if matches!(outcome.end, End::Stopped) {
-        let note = "stopped by the user; what was recorded is complete";
-        let _ = writeln!(std::io::stderr(), "{note}");
+        let note = report::stopped(&outcome);
+        tell(&format!("{note}; what was recorded is complete"));
     }
+    // The state first: it is what a run that cannot tell its results is taken up from.
+    let saved = headless
+        .save_state
+        .as_deref()
+        .map_or(Ok(()), |path| save_state(&outcome, path, overwrite));
     let code = conclude(&prepared.scene, &outcome, Some(&errors), outputs)?;
-    if let Some((path, mut file)) = state_file {
-        write_state(&outcome, path, &mut file)?;
-    }
+    saved?;
     Ok(code)
 }
 
-fn write_state(
-    outcome: &Outcome,
-    path: &Path,
-    file: &mut std::fs::File,
-) -> Result<(), ObserveError> {
-    let failed = |reason: String| ObserveError::new(path.display().to_string(), reason);
+/// Writes what came out into the finished recording's properties. Without it the recording is as good.
+fn note_in_recording(outcome: &Outcome, recording: Option<&Path>) {
+    #[cfg(feature = "rerun")]
+    if let (Some(summary), Some(path)) = (&outcome.summary, recording)
+        && outcome.output_errors.is_empty()
+        && let Err(error) = asperity::observe::rerun::note_summary(path, summary)
+    {
+        tell(&error.to_string());
+    }
+    #[cfg(not(feature = "rerun"))]
+    let _ = (outcome, recording);
+}
+
+fn save_state(outcome: &Outcome, path: &Path, overwrite: Overwrite) -> Result<(), ObserveError> {
     let Some(checkpoint) = &outcome.checkpoint else {
-        return Err(failed(
-            "the run never began, so there is no state".to_owned(),
-        ));
+        let reason = "the run never began, so there is no state";
+        return Err(ObserveError::new(path.display().to_string(), reason));
     };
-    checkpoint
-        .write(file)
-        .map_err(|error| failed(format!("the state could not be written: {error}")))
+    overwrite.write_by(path, |at| {
+        let mut file = std::fs::File::create(at)?;
+        checkpoint.write(&mut file)
+    })
+}
+
+/// A state fits whatever program wrote it; the numbers after it are those of one run only if it was this one.
+fn warn_of_another_build(program: &str) {
+    if program != asperity::files::PROGRAM {
+        let now = asperity::files::PROGRAM;
+        let note = format!("saved by {program}; this is {now}, so numbers may differ");
+        tell(&note);
+    }
 }
 
 /// The discretisation error, from a companion on half the nodes where the scene asks for it; in words.
@@ -144,11 +168,9 @@ pub(crate) fn conclude(
 ) -> Result<u8, Failure> {
     let text = report::text(scene, outcome, errors);
     let written = outputs.write_summary(outcome.summary.as_ref(), &text);
-    let mut stderr = std::io::stderr().lock();
     for complaint in report::complaints(outcome) {
-        let _ = writeln!(stderr, "{complaint}");
+        tell(&complaint);
     }
-    drop(stderr);
     written?;
     Ok(outcome.exit_code())
 }

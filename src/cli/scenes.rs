@@ -1,13 +1,14 @@
 //! `asperity scenes` and `asperity check`, and how the other commands get their scene.
 
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::sync::Arc;
 
+use asperity::observe::ObserveError;
 use asperity::plan::Plan;
 use asperity::scene::{Override, Record, Scene, SceneError, presets};
 
 use super::args::{RunArgs, SceneArgs};
-use super::failure::Failure;
+use super::failure::{Failure, visible};
 
 /// A scene and its plan.
 pub(crate) struct Prepared {
@@ -60,14 +61,14 @@ pub(crate) fn finish(args: &RunArgs, mut scene: Scene, name: String) -> Result<P
 /// Prints the plan.
 pub(crate) fn check(args: &SceneArgs) -> Result<u8, Failure> {
     let plan = Plan::new(&load(args)?)?;
-    print(&plan.to_string());
+    print(&plan.to_string())?;
     Ok(0)
 }
 
 /// Lists the presets, or prints one.
 pub(crate) fn scenes(name: Option<&str>) -> Result<u8, Failure> {
     if let Some(name) = name {
-        print(&Scene::load(name)?.to_toml());
+        print(&Scene::load(name)?.to_toml())?;
         return Ok(0);
     }
     let width = presets::all().iter().map(|preset| preset.name.len()).max();
@@ -85,12 +86,19 @@ pub(crate) fn scenes(name: Option<&str>) -> Result<u8, Failure> {
     text.push_str(
         "\nasperity scenes NAME prints one as TOML, every key explained: a copy to edit.\n",
     );
-    print(&text);
+    print(&text)?;
     Ok(0)
 }
 
-/// Writes to stdout; a reader that has gone away (`| head`) is no error.
-pub(crate) fn print(text: &str) {
+/// Writes to stdout, such that no terminal takes it for more than text; a reader that has gone away (`| head`) is no
+/// error.
+pub(crate) fn print(text: &str) -> Result<(), ObserveError> {
     let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    let written = out.write_all(visible(text).as_bytes());
+    match written.and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(ObserveError::new("stdout", error.to_string()))
+        }
+        _ => Ok(()),
+    }
 }

@@ -1,7 +1,6 @@
 //! What the explorer's `w` writes: the frame on the screen as fields (npz), pictures (png) and tables (csv), with
 //! its scene, into a folder of its own. It takes a part of a second, so it is done on a thread.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -20,7 +19,7 @@ pub(crate) fn writer(prepared: &Prepared) -> WriteShown {
     let context = RunContext {
         scene_toml: String::new(),
         plan_text: prepared.plan.to_string(),
-        program: concat!("asperity ", env!("CARGO_PKG_VERSION")).to_owned(),
+        program: asperity::files::PROGRAM.to_owned(),
         began: Began::default(),
         scene: Arc::clone(&prepared.scene),
     };
@@ -57,10 +56,7 @@ fn write(name: &str, mut context: RunContext, shown: &Shown) -> Result<PathBuf, 
     export.frame(&shown.frame)?;
     export.finish()?;
     for (file, text) in &shown.tables {
-        let path = folder.join(file);
-        let mut out = Overwrite::Refuse.create(&path)?;
-        out.write_all(text.as_bytes())
-            .map_err(|error| ObserveError::new(path.display().to_string(), error.to_string()))?;
+        Overwrite::Refuse.write(&folder.join(file), text.as_bytes())?;
     }
     Ok(folder)
 }

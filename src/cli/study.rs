@@ -34,7 +34,7 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
     bar.0.finish_and_clear();
     let report = report.map_err(|error| Failure::input(miette::miette!("{error}")))?;
     if let Some((_, text)) = report.files.first() {
-        print(text);
+        print(text)?;
     }
     if let Some(folder) = &args.out {
         write(folder, &report.files)?;
@@ -145,7 +145,7 @@ fn headed(title: &str, args: &StudyArgs, text: &str) -> String {
     format!(
         "# {title}\n\n`asperity study {}{form}`, asperity {}, on {}, {} threads.\n\n{text}",
         title.to_lowercase(),
-        env!("CARGO_PKG_VERSION"),
+        asperity::files::VERSION,
         machine(),
         args.threads(),
     )

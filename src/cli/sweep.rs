@@ -1,7 +1,6 @@
 //! `asperity sweep`: many cases, one table.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -14,9 +13,12 @@ use asperity::study::sweep::{
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::{Shown, SweepArgs, SweepCommand};
-use super::failure::Failure;
+use super::failure::{Failure, tell};
 use super::run::stop_on_signals;
 use super::scenes::print;
+
+/// Exit code of a sweep that somebody stopped.
+const STOPPED: u8 = 5;
 
 /// Runs a sweep or a part of one, or merges parts.
 pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
@@ -26,7 +28,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     // clap has refused a line without one.
     let sweep = Sweep::load(args.sweep.as_deref().unwrap_or_default())?;
     if let Some(shown) = args.show {
-        print(&show_of(&sweep, shown)?);
+        print(&show_of(&sweep, shown)?)?;
         return Ok(0);
     }
     let root = args
@@ -41,7 +43,6 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         _ => Existing::Refuse,
     };
     let folder = Folder::create(&root, &sweep, existing)?;
-    folder.tidy();
     let threads = args.threads.map_or_else(
         || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
         usize::from,
@@ -54,9 +55,11 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     })?;
     let sweep_s = began.elapsed().as_secs_f64();
     if report.stopped {
-        let note = "stopped; finished cases are kept, --resume goes on";
-        let _ = writeln!(std::io::stderr(), "{note}");
-        return Ok(3);
+        let (done, all) = (progress.done.load(Ordering::Relaxed), sweep.len());
+        tell(&format!(
+            "stopped with {done} of {all} cases; they are kept, --resume continues"
+        ));
+        return Ok(STOPPED);
     }
     let rows = match Rows::gather(&sweep, std::slice::from_ref(&folder)) {
         Ok(rows) => rows,
@@ -64,7 +67,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
             print(&format!(
                 "shard {}/{}: {} cases computed; {error}\n",
                 args.shard.index, args.shard.count, report.computed
-            ));
+            ))?;
             return Ok(0);
         }
         Err(error) => return Err(error.into()),
@@ -76,17 +79,17 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
             against_cold(&sweep, &rows, threads, &progress)
         })?;
         let Some(against) = against else {
-            return Ok(3);
+            return Ok(STOPPED);
         };
-        print(&comparison(&sweep, &against));
+        print(&comparison(&sweep, &against))?;
         // Of a sweep that went on where it was broken off the clock tells nothing.
         if report.computed == sweep.len() {
             let cold_s = began.elapsed().as_secs_f64();
             print(&format!(
-                "by the clock, {threads} threads, writing included: sweep {sweep_s:.1} s, cold {cold_s:.1} s: {:.2} times \
+                "wall time on {threads} threads, writing included: sweep {sweep_s:.1} s, cold {cold_s:.1} s: {:.2} times \
                  faster\n",
                 cold_s / sweep_s
-            ));
+            ))?;
         }
     }
     Ok(code)
@@ -134,7 +137,7 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
         folder.write(&root.join("path.csv"), points_csv(sweep)?.as_bytes())?;
     }
     let pictures = asperity::study::sweep::draw(sweep, rows, folder)?;
-    print(&told(sweep, rows, &table, &pictures));
+    print(&told(sweep, rows, &table, &pictures))?;
     Ok(match rows.worst() {
         CaseEnd::Converged => 0,
         CaseEnd::NotConverged => 2,
@@ -212,7 +215,7 @@ fn comparison(sweep: &Sweep, against: &Against) -> String {
     );
     let _ = writeln!(
         text,
-        "greatest departure from cold: life {:.2} %, central film {:.2} %",
+        "greatest difference from cold: life {:.2} %, central film {:.2} %",
         100.0 * against.worst(0),
         100.0 * against.worst(1)
     );
@@ -259,7 +262,7 @@ fn with_bar<T: Send>(
     match result {
         Ok(result) => Ok(result?),
         Err(_) => Err(Failure::stalled(miette::miette!(
-            "a worker broke off; finished cases are kept, --resume goes on"
+            "a worker failed; finished cases are kept, --resume continues"
         ))),
     }
 }

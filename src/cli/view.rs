@@ -1,6 +1,7 @@
 //! `asperity view`: hands a recording to the Rerun viewer.
 
 use std::ffi::OsStr;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -8,30 +9,54 @@ use miette::miette;
 
 use super::failure::Failure;
 
-/// How to get the viewer that reads this version's recordings.
-const HOW_TO_GET_IT: &str = "the viewer is a program of its own; get it by one of\n  \
-    pip install rerun-sdk==0.36.3\n  \
-    cargo install rerun-cli --locked --version 0.36.3\n\
-    and see that `rerun` is on the PATH. A recording can also be opened at https://app.rerun.io";
+/// Which viewers open what this program records.
+pub(crate) const VERSIONS: &str = "viewers of version 0.36.3 and newer open it, tried up to 0.41";
 
-/// Opens `file` in the viewer and waits until it is closed.
+/// The viewer in a browser, of the version that recordings are made for.
+pub(crate) const IN_A_BROWSER: &str = "https://app.rerun.io/version/0.36.3/";
+
+/// How to get such a viewer, without installing it first.
+fn how_to_get_it(arguments: &str) -> String {
+    format!(
+        "the viewer is a program of its own; {VERSIONS}. One line starts it without installing anything for good:\n  \
+         uvx --from rerun-sdk==0.36.3 rerun{arguments}\n  \
+         pipx run --spec rerun-sdk==0.36.3 rerun{arguments}\n\
+         Or install it, so that `rerun` is on the PATH, by one of\n  \
+         pip install rerun-sdk==0.36.3\n  \
+         cargo install rerun-cli --locked --version 0.36.3\n\
+         A recording can also be opened in a browser at {IN_A_BROWSER}"
+    )
+}
+
+/// Opens `file` in the viewer and waits until it is closed. What the viewer has to say goes to stderr.
 pub(crate) fn view(file: &Path) -> Result<u8, Failure> {
-    if let Err(error) = std::fs::File::open(file) {
+    if let Err(error) = asperity::files::open_plain(file) {
         return Err(Failure::input(miette!(
             help = "asperity run writes a recording; asperity explore too",
             "cannot read the recording {}: {error}",
             file.display()
         )));
     }
-    let status = command(file)?
+    let mut viewer = command(file)?;
+    let note = format!(
+        "opening {} in {}; {VERSIONS}",
+        file.display(),
+        viewer.get_program().display()
+    );
+    // A terminal that is gone reads nothing; the viewer opens all the same.
+    let _ = writeln!(std::io::stderr(), "{note}");
+    let status = viewer
+        .stderr(Stdio::inherit())
         .status()
         .map_err(|error| Failure::input(miette!("the viewer could not be started: {error}")))?;
     if status.success() {
         Ok(0)
     } else {
         Err(Failure::input(miette!(
-            help =
-                "recordings need the viewer of the same version: rerun --version should say 0.36.3",
+            help = format!(
+                "what it said stands above; `rerun --version` tells which one it is: {VERSIONS}. It needs a screen; \
+                 without one take the browser: {IN_A_BROWSER}"
+            ),
             "the viewer ended with {status}"
         )))
     }
@@ -39,16 +64,17 @@ pub(crate) fn view(file: &Path) -> Result<u8, Failure> {
 
 /// The viewer on `file`, with its output kept off the terminal, or how to get it.
 pub(crate) fn command(file: &Path) -> Result<Command, Failure> {
-    let mut command = quiet_viewer(&file.display().to_string())?;
+    let mut command = quiet_viewer(&file.display().to_string(), &format!(" {}", quoted(file)))?;
     command.arg(file);
     Ok(command)
 }
 
-/// The viewer with its output kept off the terminal, or how to get it. `what`: what it should show.
-pub(crate) fn quiet_viewer(what: &str) -> Result<Command, Failure> {
+/// The viewer with its output kept off the terminal, or how to get it. `what`: what it should show; `arguments`: how it
+/// would be started by hand.
+pub(crate) fn quiet_viewer(what: &str, arguments: &str) -> Result<Command, Failure> {
     let Some(viewer) = find("rerun", std::env::var_os("PATH").as_deref()) else {
         return Err(Failure::input(miette!(
-            help = HOW_TO_GET_IT,
+            help = how_to_get_it(arguments),
             "no Rerun viewer (`rerun`) on the PATH to show {what}"
         )));
     };
@@ -58,6 +84,17 @@ pub(crate) fn quiet_viewer(what: &str) -> Result<Command, Failure> {
         .stdout(Stdio::null())
         .stderr(Stdio::null());
     Ok(command)
+}
+
+/// A path as a shell takes it.
+fn quoted(file: &Path) -> String {
+    let text = file.display().to_string();
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:".contains(c);
+    if text.chars().all(plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
 }
 
 fn find(program: &str, path: Option<&OsStr>) -> Option<PathBuf> {

@@ -102,6 +102,7 @@ pub struct Filter<T: FftNum> {
     columns_out: Vec<Complex<T>>,
     row_work: Vec<RowWork<T>>,
     column_work: Vec<ColumnWork<T>>,
+    transforms: u64,
 }
 
 impl<T: FftNum> Filter<T> {
@@ -153,7 +154,13 @@ impl<T: FftNum> Filter<T> {
             columns_out: vec![zero; n_kx * n_symbols * grid.ny],
             row_work,
             column_work,
+            transforms: 0,
         }
+    }
+
+    /// Two-dimensional transforms made so far: one for the input of a call, one for each symbol that has a weight.
+    pub fn transforms(&self) -> u64 {
+        self.transforms
     }
 
     /// The same filter for kernels that are odd in x.
@@ -224,6 +231,7 @@ impl<T: FftNum> Filter<T> {
         self.forward(input);
         self.columns(None);
         self.inverse(None, out);
+        self.transforms += 2;
     }
 
     /// `out += sum_b weights[b] . F^-1[S_b F[input]]`. What has no weight is not transformed back.
@@ -231,6 +239,7 @@ impl<T: FftNum> Filter<T> {
         self.forward(input);
         self.columns(Some(weights));
         self.inverse(Some(weights), out);
+        self.transforms += 1 + weights.any.iter().filter(|used| **used).count() as u64;
     }
 
     fn forward(&mut self, input: &[T]) {

@@ -11,23 +11,25 @@
 pub(crate) mod cells;
 pub(crate) mod chart;
 mod export;
+pub(crate) mod interferogram;
 mod latest;
+mod placed;
 mod pool;
 mod queue;
 mod ramp;
 #[cfg(feature = "rerun")]
 pub mod rerun;
-mod scales;
+pub(crate) mod scales;
 mod table;
 
-use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use export::{Export, Format};
+pub use export::{Export, Format, is_exported};
 pub use latest::Latest;
+pub use placed::Overwrite;
 pub use pool::FramePool;
 pub use queue::{Queue, QueueStats, WhenFull};
 pub use table::Table;
@@ -125,48 +127,8 @@ impl ObserveError {
     }
 }
 
-/// What to do with an output file that is there already.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Overwrite {
-    /// It is left alone and the output is refused.
-    #[default]
-    Refuse,
-    /// It is replaced.
-    Replace,
-}
-
-impl Overwrite {
-    /// What `--force` means.
-    pub fn from_force(force: bool) -> Self {
-        if force { Self::Replace } else { Self::Refuse }
-    }
-
-    /// Creates (or empties) the file, so that a path that cannot be written is known before the
-    /// run starts and nobody's file is lost.
-    ///
-    /// # Errors
-    /// When the file exists and may not be replaced, or cannot be written.
-    pub fn create(self, path: &Path) -> Result<std::fs::File, ObserveError> {
-        let mut options = std::fs::OpenOptions::new();
-        match self {
-            Self::Refuse => options.write(true).create_new(true),
-            Self::Replace => options.write(true).create(true).truncate(true),
-        };
-        options.open(path).map_err(|error| {
-            let reason = match error.kind() {
-                std::io::ErrorKind::AlreadyExists => {
-                    "the file exists; choose another name or ask for overwriting (--force)"
-                        .to_owned()
-                }
-                std::io::ErrorKind::NotFound => {
-                    "its folder does not exist; create it first".to_owned()
-                }
-                _ => format!("cannot be written: {error}"),
-            };
-            ObserveError::new(path.display().to_string(), reason)
-        })
-    }
-}
+/// Said of a file that no step came for.
+const NOTHING_CAME: &str = "no step came, so it was not written";
 
 /// What an observer did.
 #[derive(Debug, Clone, Default)]
@@ -205,6 +167,10 @@ pub trait Observer: Send {
     /// Frames that it could not keep up with so far.
     fn skipped(&self) -> u64 {
         0
+    }
+    /// Frames whose pictures it has kept, where that is fewer than it was given.
+    fn kept(&self) -> Option<u64> {
+        None
     }
     /// Nothing has come for a second (a queue calls it): what is held back may go on.
     ///

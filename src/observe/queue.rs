@@ -60,6 +60,8 @@ struct State {
     error: Option<ObserveError>,
     report: Option<ObserverReport>,
     stats: QueueStats,
+    /// What the observer says that it kept.
+    kept: Option<u64>,
 }
 
 #[derive(Default)]
@@ -255,6 +257,10 @@ impl Observer for Queue {
         self.stats().skipped
     }
 
+    fn kept(&self) -> Option<u64> {
+        self.shared.lock().kept
+    }
+
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
         self.put(
             Message::Event(event.clone()),
@@ -371,9 +377,10 @@ fn deliver(
         Message::Frame(frame) => {
             let since = Instant::now();
             let written = observer.frame(&frame);
-            let stats = &mut shared.lock().stats;
-            stats.busy += since.elapsed();
-            stats.done += 1;
+            let mut state = shared.lock();
+            state.kept = observer.kept();
+            state.stats.busy += since.elapsed();
+            state.stats.done += 1;
             written
         }
         Message::Event(event) => observer.event(&event),

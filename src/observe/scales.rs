@@ -1,6 +1,8 @@
 //! Round numbers for axes and colour ranges, and the ranges that every picture of a run shares.
 
-use crate::sim::Frame;
+use crate::physics::hertz::crest_pressure_pa;
+use crate::scene::{Scene, Surface};
+use crate::sim::{Frame, Knob};
 
 /// Metres to millimetres.
 pub(crate) const MM: f64 = 1.0e3;
@@ -11,8 +13,94 @@ pub(crate) const MPA: (&str, f64) = ("MPa", 1e-6);
 /// See [`GPA`].
 pub(crate) const UM: (&str, f64) = ("µm", 1e6);
 
-/// Upper ends of the colour ranges, SI. The first frame fixes them, so that colours mean the same in every
-/// frame; values beyond take the top colour.
+/// The greatest that a run's own script can bring of what its pictures scale with, and what bounds its friction.
+/// A knob that is turned by hand may go beyond: what then takes the top colour is counted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ToCome {
+    /// Half-width and Hertz pressure over those of the first frame.
+    pub(crate) size: f64,
+    /// Film over that of the first frame, by its dependence on the speed.
+    film: f64,
+    /// Amplitudes of body 1 and 2, m.
+    pub(crate) amplitude_m: [f64; 2],
+    /// Pressure of crests that are pressed flat, Pa; 0 where the first frame tells, because a film separates them and
+    /// they grow no more.
+    crest_pa: f64,
+    /// Greatest traction over pressure: limiting shear of the oil or boundary friction; 0: not known.
+    friction: f64,
+    /// Which bodies are rough, or may be made so.
+    rough: [bool; 2],
+}
+
+impl ToCome {
+    /// From the scene's script, where the scene is known, and the first frame.
+    pub(crate) fn of(scene: Option<&Scene>, first: &Frame) -> Self {
+        let m = &first.metrics;
+        let greatest = |knobs: &[Knob], now: f64| {
+            let set = scene.into_iter().flat_map(|scene| &scene.events);
+            let set = set.flat_map(|event| &event.set);
+            let set = set.filter(|(key, _)| knobs.iter().any(|knob| knob.key() == key.as_str()));
+            set.fold(now.abs(), |top, (_, value)| top.max(value.abs()))
+        };
+        let ratio = |greatest: f64, now: f64| (greatest / now.abs()).max(1.0);
+        let load = m.load_n.max(m.load_target_n);
+        let load = greatest(&[Knob::ForceN, Knob::ForceNPerM], load);
+        let load_ratio = if m.load_n > 0.0 {
+            ratio(load, m.load_n)
+        } else {
+            1.0
+        };
+        let size = first.kind.hertz_shape().size_ratio(load_ratio);
+        let speed = greatest(&[Knob::EntrainmentMS], m.entrainment_m_s);
+        let speed_ratio = if m.entrainment_m_s == 0.0 {
+            1.0
+        } else {
+            ratio(speed, m.entrainment_m_s)
+        };
+        let now_m = [m.amplitude_1_m, m.amplitude_2_m];
+        let amplitude_m = [
+            greatest(&[Knob::Amplitude1M], now_m[0]),
+            greatest(&[Knob::Amplitude2M], now_m[1]),
+        ];
+        let grows = amplitude_m
+            .iter()
+            .zip(now_m)
+            .any(|(&most, now)| most > 1.001 * now);
+        let touch = m.contact_load_ratio > 0.0;
+        let crest_pa = scene.filter(|_| grows || touch).map_or(0.0, |scene| {
+            let surfaces = scene.surfaces().into_iter().zip(amplitude_m);
+            let slope = surfaces.map(|(surface, amplitude_m)| {
+                let [k_x, k_y] = surface.wavenumbers_per_m();
+                amplitude_m * k_x.hypot(k_y)
+            });
+            crest_pressure_pa(size * first.p_hertz_pa, scene.e_prime_pa(), slope.sum())
+        });
+        Self {
+            size,
+            film: speed_ratio.powf(FILM_BY_SPEED),
+            amplitude_m,
+            crest_pa,
+            friction: scene.map_or(0.0, |scene| {
+                let oil = scene
+                    .lubricant
+                    .as_ref()
+                    .map_or(0.0, |oil| oil.limiting_shear_ratio);
+                oil.max(scene.friction.boundary)
+            }),
+            rough: scene.map_or([false; 2], |scene| {
+                scene
+                    .surfaces()
+                    .map(|surface| !matches!(surface, Surface::Smooth {}))
+            }),
+        }
+    }
+}
+
+/// Exponent of the speed in the central film (Hamrock and Dowson 1977).
+const FILM_BY_SPEED: f64 = 0.67;
+
+/// Upper ends of the colour ranges, SI: what can come. They hold for the whole run, so that colours mean the same
+/// in every frame; values beyond take the top colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ranges {
     /// Pressure, Pa.
@@ -27,16 +115,17 @@ pub(crate) struct Ranges {
     pub(crate) effective_pa: f64,
     /// Orthogonal shear of either sign, Pa.
     pub(crate) shear_pa: f64,
-    /// Which bodies are rough.
+    /// Which bodies are rough, or may be made so.
     pub(crate) rough: [bool; 2],
 }
 
 impl Ranges {
-    /// The ranges of a run with that first frame.
-    pub(crate) fn of(first: &Frame) -> Self {
+    /// The ranges of a run with that first frame, in which that can come.
+    pub(crate) fn of(first: &Frame, to_come: &ToCome) -> Self {
         let metrics = &first.metrics;
         let round = |value: f64, (_, per_si): (&str, f64)| nice_up(value * per_si) / per_si;
-        let pressure_pa = round((1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa), GPA);
+        let greatest_pa = (1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa);
+        let pressure_pa = round((to_come.size * greatest_pa).max(to_come.crest_pa), GPA);
         // The film range starts from what the middle of the contact is like in the mean (the film at the
         // origin goes up and down with every crest); the bath around the contact is ten to a hundred times
         // thicker.
@@ -45,10 +134,15 @@ impl Ranges {
         } else {
             metrics.h_central_m
         };
-        let valley = mean + 0.5 * (metrics.amplitude_1_m + metrics.amplitude_2_m);
+        let mean = to_come.film * mean;
+        let valley = mean + 0.5 * to_come.amplitude_m.iter().sum::<f64>();
         let film = (2.5 * mean).max(valley).max(1e-9);
-        let traction = greatest(&first.traction_pa).max(0.01 * first.p_hertz_pa);
+        // A scene that starts at S = 0 has no traction yet: what bounds it is known.
+        let traction = greatest(&first.traction_pa)
+            .max(0.01 * first.p_hertz_pa)
+            .max(to_come.friction * pressure_pa);
         let rough = [&first.roughness_1_m, &first.roughness_2_m].map(|field| greatest(field));
+        let [rough_1, rough_2] = [0, 1].map(|body| rough[body].max(to_come.amplitude_m[body]));
         let (effective, shear) = first.slice.as_ref().map_or((0.0, 0.0), |slice| {
             (greatest(&slice.effective_pa), greatest(&slice.tau_xz_pa))
         });
@@ -56,13 +150,18 @@ impl Ranges {
             pressure_pa,
             film_m: round(film, UM),
             traction_pa: round(traction, MPA),
-            roughness_m: round(rough[0].max(rough[1]), UM),
+            roughness_m: round(rough_1.max(rough_2), UM),
             // One frame does not tell what others hold. Below a spike of pressure the effective stress
-            // reaches about 0.5 of it and the shear 0.2 of it (a line contact's, in its own size), and
-            // the spikes' range is known.
-            effective_pa: round((1.05 * effective).max(0.38 * pressure_pa), GPA),
+            // reaches about 0.56 of it and the shear 0.2 of it (a line contact's, in its own size), and
+            // the spikes' range is known, with room where it is that of the first frame.
+            effective_pa: round(
+                (1.05 * effective)
+                    .max(0.38 * pressure_pa)
+                    .max(0.56 * to_come.crest_pa),
+                GPA,
+            ),
             shear_pa: round((1.05 * shear).max(0.15 * pressure_pa), GPA),
-            rough: rough.map(|height| height > 0.0),
+            rough: [0, 1].map(|body| rough[body] > 0.0 || to_come.rough[body]),
         }
     }
 }

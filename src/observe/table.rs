@@ -8,7 +8,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::cells::Cells;
-use super::{ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent};
+use super::placed::Placed;
+use super::{
+    NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
+};
 use crate::sim::{Frame, LifeEstimate, Metrics, Stage};
 
 /// Columns in the order of [`Row::write`], which destructures every field: a new metric that is
@@ -76,6 +79,7 @@ const COLUMNS: [&str; 55] = [
 pub struct Table {
     output: String,
     writer: csv::Writer<File>,
+    placed: Placed,
     row: Row,
     rows: u64,
 }
@@ -86,10 +90,11 @@ impl Table {
     /// # Errors
     /// When the file exists and may not be replaced, or cannot be written.
     pub fn create(path: &Path, overwrite: Overwrite) -> Result<Self, ObserveError> {
-        let file = overwrite.create(path)?;
+        let (file, placed) = overwrite.open(path)?;
         let mut table = Self {
             output: path.display().to_string(),
             writer: csv::Writer::from_writer(file),
+            placed,
             row: Row::default(),
             rows: 0,
         };
@@ -97,7 +102,7 @@ impl Table {
             .writer
             .write_record(COLUMNS)
             .and_then(|()| Ok(table.writer.flush()?))
-            .map_err(|error| failed(&table.output, &error.into()))?;
+            .map_err(|error| table.failed(&error.into()))?;
         Ok(table)
     }
 
@@ -110,13 +115,18 @@ impl Table {
         self.writer.flush()?;
         Ok(())
     }
-}
 
-fn failed(output: &str, error: &std::io::Error) -> ObserveError {
-    ObserveError::new(
-        output,
-        format!("the table could not be written ({error}); rows written before are kept"),
-    )
+    /// It keeps its rows where they are; a table that they were to replace stays.
+    fn failed(&mut self, error: &std::io::Error) -> ObserveError {
+        let place = self.placed.leave();
+        let place = place.map_or_else(String::new, |at| format!(" in {}", at.display()));
+        ObserveError::new(
+            &self.output,
+            format!(
+                "the table could not be written ({error}); rows written before are kept{place}"
+            ),
+        )
+    }
 }
 
 impl Observer for Table {
@@ -126,8 +136,9 @@ impl Observer for Table {
 
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
         self.write(frame)
-            .map_err(|error| failed(&self.output, &error.into()))?;
+            .map_err(|error| self.failed(&error.into()))?;
         self.rows += 1;
+        self.placed.hold();
         Ok(())
     }
 
@@ -136,20 +147,18 @@ impl Observer for Table {
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        self.writer
-            .flush()
-            .map_err(|error| failed(&self.output, &error))?;
-        let bytes = self
-            .writer
-            .get_ref()
-            .metadata()
-            .map_or(0, |data| data.len());
+        let flushed = self.writer.flush();
+        flushed.map_err(|error| self.failed(&error))?;
+        let file = self.writer.get_ref();
+        let bytes = file.metadata().map_or(0, |data| data.len());
+        let settled = self.placed.settle();
+        let is_there = settled.map_err(|error| self.failed(&error))?;
         Ok(ObserverReport {
             output: self.output.clone(),
             frames: self.rows,
             skipped: 0,
-            bytes,
-            note: String::new(),
+            bytes: if is_there { bytes } else { 0 },
+            note: if is_there { "" } else { NOTHING_CAME }.to_owned(),
             queue: None,
         })
     }
@@ -221,6 +230,7 @@ impl Row {
             film_error,
             mass_error,
             overlap_m,
+            asked: _,
             friction_coefficient,
             sigma_eff_max_pa,
             sigma_eff_max_depth_m,

@@ -156,6 +156,22 @@ impl Hertz {
     }
 }
 
+/// Greatest pressure where a wavy elastic surface is pressed by a mean pressure p̄, Pa.
+///
+/// ```text
+/// p* = π E* (A/λ)        flattens the wave;  p̄ < p*:  2 √(p̄ p*)  in the middle of a touching strip,  else  p̄ + p*
+/// ```
+/// Westergaard (1939), J. Appl. Mech. 6, A49; Johnson, Contact Mechanics (1985), §13.2. E* = E'/2. `slope`: A/λ of all
+/// waves together. Ridges; of waves that change along both axes λ is that of their own direction.
+pub fn crest_pressure_pa(mean_pa: f64, e_prime_pa: f64, slope: f64) -> f64 {
+    let flat_pa = 0.5 * std::f64::consts::PI * e_prime_pa * slope;
+    if mean_pa < flat_pa {
+        2.0 * (mean_pa * flat_pa).sqrt()
+    } else {
+        mean_pa + flat_pa
+    }
+}
+
 /// Equivalent modulus E' of a pair, 2/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, Pa.
 ///
 /// This is twice the contact modulus E* of Johnson.

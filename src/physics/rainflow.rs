@@ -10,8 +10,8 @@
 //! A history that happens once leaves half cycles; one that is repeated again and again (a material point
 //! that crosses the contact at every turn) closes every cycle.
 //!
-//! *Gate*: a reversal counts only once the value has come back by the gate; smaller wiggles never enter.
-//! With gate 0 this is the standard to the letter.
+//! *Gate*: a reversal counts only once the value has come back by the gate ([`super::turning`]); smaller
+//! wiggles never enter. With gate 0 this is the standard to the letter.
 //!
 //! Memory is bounded: should a history keep more open reversals than the capacity, the oldest range is
 //! counted as a half cycle, and [`Rainflow::forced`] says how often.
@@ -20,6 +20,8 @@
 //! lost.
 
 use serde::{Deserialize, Serialize};
+
+use super::turning::{Turn, Turning};
 
 /// A counted cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,27 +46,14 @@ pub enum Ends {
 /// A history under way.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Rainflow {
-    gate: f64,
+    turning: Turning,
     ends: Ends,
     /// Reversals that are not counted yet.
     stack: Vec<f64>,
     /// What is left at the end, as a ring.
     ring: Vec<f64>,
     capacity: usize,
-    /// Extreme since the last reversal, and the direction that led to it.
-    candidate: f64,
-    heading: Heading,
     forced: u64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-enum Heading {
-    /// No value yet.
-    Empty,
-    /// One level so far.
-    Level,
-    Up,
-    Down,
 }
 
 impl Rainflow {
@@ -73,15 +62,21 @@ impl Rainflow {
     pub fn new(ends: Ends, gate: f64, capacity: usize) -> Self {
         let capacity = capacity.max(4);
         Self {
-            gate: gate.max(0.0),
+            turning: Turning::new(gate),
             ends,
             stack: Vec::with_capacity(capacity + 2),
             ring: Vec::with_capacity(capacity + 3),
             capacity,
-            candidate: 0.0,
-            heading: Heading::Empty,
             forced: 0,
         }
+    }
+
+    /// Whether a counter that was saved is of the same make as this one, and holds no more than it can.
+    pub fn fits(&self, saved: &Self) -> bool {
+        self.turning.gate() == saved.turning.gate()
+            && (self.ends, self.capacity) == (saved.ends, saved.capacity)
+            && saved.stack.len() <= self.capacity + 2
+            && saved.ring.len() <= self.capacity + 3
     }
 
     /// Makes the room again that a copy or a file does not keep.
@@ -96,7 +91,7 @@ impl Rainflow {
     /// Starts a new history.
     pub fn reset(&mut self) {
         self.stack.clear();
-        self.heading = Heading::Empty;
+        self.turning.reset();
     }
 
     /// Half cycles that were counted early for want of memory.
@@ -106,42 +101,17 @@ impl Rainflow {
 
     /// Next value of the history; hands every cycle that it closes to `sink`.
     pub fn push(&mut self, value: f64, sink: &mut impl FnMut(Cycle)) {
-        match self.heading {
-            Heading::Empty => {
-                self.stack.push(value);
-                self.candidate = value;
-                self.heading = Heading::Level;
-            }
-            Heading::Level => {
-                let start = self.candidate;
-                if (value - start).abs() >= self.gate && value != start {
-                    self.candidate = value;
-                    self.heading = if value > start {
-                        Heading::Up
-                    } else {
-                        Heading::Down
-                    };
-                }
-            }
-            Heading::Up if value >= self.candidate => self.candidate = value,
-            Heading::Down if value <= self.candidate => self.candidate = value,
-            Heading::Up | Heading::Down => {
-                if (value - self.candidate).abs() >= self.gate {
-                    self.reversal(self.candidate, sink);
-                    self.heading = match self.heading {
-                        Heading::Up => Heading::Down,
-                        _ => Heading::Up,
-                    };
-                    self.candidate = value;
-                }
-            }
+        match self.turning.push(value) {
+            Turn::First => self.stack.push(value),
+            Turn::Peak(extreme) | Turn::Trough(extreme) => self.reversal(extreme, sink),
+            Turn::None => {}
         }
     }
 
     /// Ends the history; the next value starts a new one.
     pub fn finish(&mut self, sink: &mut impl FnMut(Cycle)) {
-        if matches!(self.heading, Heading::Up | Heading::Down) {
-            self.stack.push(self.candidate);
+        if let Some(extreme) = self.turning.extreme() {
+            self.stack.push(extreme);
             self.close(sink);
         }
         match self.ends {

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Rheology, Scene, Spread, Surface};
+use crate::scene::{ContactKind, EyringFlow, Rheology, Scene, Spread, Surface};
 
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     if let Some(line) = scene.line_point() {
@@ -22,6 +22,7 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
             lambda_ratio: None,
             radii_ratio: 0.0,
             valleys: valleys(scene),
+            eyring_flow: eyring_flow(scene),
         };
         return Some(with_lambda(film, scene));
     }
@@ -38,6 +39,7 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
         lambda_ratio: None,
         radii_ratio: point.rx_m / point.ry_m,
         valleys: valleys(scene),
+        eyring_flow: eyring_flow(scene),
     };
     Some(with_lambda(film, scene))
 }
@@ -45,6 +47,12 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
 fn with_lambda(mut film: FilmPlan, scene: &Scene) -> FilmPlan {
     film.lambda_ratio = film.lambda(scene.composite_rq_m());
     film
+}
+
+fn eyring_flow(scene: &Scene) -> Option<EyringFlow> {
+    let oil = scene.lubricant.as_ref();
+    oil.filter(|oil| oil.rheology == Rheology::Eyring)
+        .map(|oil| oil.eyring_flow)
 }
 
 fn valleys(scene: &Scene) -> Valleys {

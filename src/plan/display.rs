@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{LINE_ROWS, LifePlan, March, OtherFilms, Plan, Symmetry, WavePlan};
-use crate::scene::{ContactKind, CycleBasis, Spread, VolumeIntegral};
+use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread, VolumeIntegral};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -16,17 +16,17 @@ impl fmt::Display for Plan {
         for line in self.computed() {
             writeln!(f, "  {line}")?;
         }
-        writeln!(f, "\nLeft out")?;
+        writeln!(f, "\nNot modelled or not needed")?;
         for item in &self.left_out {
             writeln!(f, "  {:<24}{}", item.stage, item.why)?;
         }
         writeln!(
             f,
-            "  {:<24}the model has none of them: isothermal, elastic, initiation only",
+            "  {:<24}not in the model: isothermal, elastic, crack initiation only",
             "heat, yield, wear"
         )?;
         if !self.warnings.is_empty() {
-            writeln!(f, "\nMind")?;
+            writeln!(f, "\nCautions")?;
             for warning in &self.warnings {
                 writeln!(f, "  {warning}")?;
             }
@@ -46,14 +46,14 @@ impl Plan {
         match self.kind {
             ContactKind::Line => writeln!(
                 f,
-                "Contact     line: half-width {:.1} um, uniform along y; Hertz pressure {:.3} GPa; load {} N/m",
+                "Contact     line: half-width {:.1} µm, uniform along y; Hertz pressure {:.3} GPa; load {} N/m",
                 hertz.a_m * 1e6,
                 hertz.p_max_pa * 1e-9,
                 significant(self.force_n)
             )?,
             ContactKind::Point => writeln!(
                 f,
-                "Contact     {}: a {:.1} um, b {:.1} um; Hertz pressure {:.3} GPa; load {} N; approach {:.2} um",
+                "Contact     {}: a {:.1} µm, b {:.1} µm; Hertz pressure {:.3} GPa; load {} N; approach {:.2} µm",
                 if (hertz.ellipticity() - 1.0).abs() < 1e-9 {
                     "circular"
                 } else {
@@ -77,7 +77,7 @@ impl Plan {
         if let Some(film) = &self.film {
             write!(
                 f,
-                "Film        M {:.0}, L {:.2}, alpha p_h {:.1}; smooth by formula: central {:.1} nm ",
+                "Film        M {:.0}, L {:.2}, αp_h {:.1}; smooth by formula: central {:.1} nm ",
                 film.groups.m,
                 film.groups.l,
                 film.groups.alpha_p_hertz,
@@ -125,7 +125,7 @@ impl Plan {
         match self.kind {
             ContactKind::Line => writeln!(
                 f,
-                "Grid        {n} nodes, x {} a to {} a; dx {:.2} um; shown by {LINE_ROWS} equal rows",
+                "Grid        {n} nodes, x {} a to {} a; dx {:.2} µm; drawn as {LINE_ROWS} equal rows",
                 significant(domain.x_min_a),
                 significant(domain.x_max_a),
                 self.dx_m * 1e6,
@@ -133,7 +133,7 @@ impl Plan {
             )?,
             ContactKind::Point => writeln!(
                 f,
-                "Grid        {n} x {n} nodes, x {} a to {} a, y +-{} b; dx {:.2} um, dy {:.2} um",
+                "Grid        {n} x {n} nodes, x {} a to {} a, y ±{} b; dx {:.2} µm, dy {:.2} µm",
                 significant(domain.x_min_a),
                 significant(domain.x_max_a),
                 domain.y_half_b,
@@ -147,7 +147,7 @@ impl Plan {
             March::Transient => {
                 writeln!(
                     f,
-                    "Time        {} steps of {:.3e} s after the start-up: {:.3e} s, {:.2} lengths of 4 a",
+                    "Time        {} steps of {:.3e} s after the start-up: {:.3e} s, {:.2} passages of 4 a",
                     self.steps,
                     self.dt_s,
                     self.steps as f64 * self.dt_s,
@@ -156,7 +156,7 @@ impl Plan {
                 if let Some(tolerance) = self.step_tolerance {
                     writeln!(
                         f,
-                        "            adaptive: shorter or longer, to add at most {} % to the film in a crossing",
+                        "            adaptive: each as long as the film allows, at most {} % of error in one crossing",
                         significant(100.0 * tolerance)
                     )?;
                 }
@@ -178,6 +178,10 @@ impl Plan {
             }
             _ => format!("dry contact ({rows})"),
         }];
+        let film = self.film.filter(|film| film.flows());
+        if let Some(flow) = film.and_then(|film| film.eyring_flow) {
+            lines.push(flow_text(flow).to_owned());
+        }
         lines.push("traction on both bodies, friction coefficient".to_owned());
         if let Some(traction) = self.traction_deflection {
             lines.push(format!(
@@ -187,7 +191,7 @@ impl Plan {
         }
         if let Some(stress) = self.stress {
             lines.push(format!(
-                "{} in the plane y = 0, {} depths down to {:.0} um, every step",
+                "{} in the plane y = 0, {} depths down to {:.0} µm, every step",
                 match self.kind {
                     ContactKind::Point => "stress",
                     ContactKind::Line => "plane-strain stress",
@@ -201,12 +205,8 @@ impl Plan {
         }
         if let Some(record) = self.record {
             lines.push(format!(
-                "recording: scalars every step, fields every {} ({} frames, about {} of at most {})",
-                if record.every_steps == 1 {
-                    "step".to_owned()
-                } else {
-                    format!("{} steps", record.every_steps)
-                },
+                "recording: scalars every step, fields {} ({} frames, about {} of at most {})",
+                every(record.every_steps),
                 record.frames,
                 size(record.bytes),
                 size(record.budget_bytes)
@@ -226,8 +226,9 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
     };
     let mut lines = vec![
         format!(
-            "{what} and relative life, every {} steps ({} phases in 4 a)",
-            life.volume_every_steps, life.phases_per_passage
+            "{what} and relative life, {} ({} phases in 4 a)",
+            every(life.volume_every_steps),
+            life.phases_per_passage
         ),
         format!(
             "life by {} of {}; cycles: {}; {}",
@@ -241,7 +242,7 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
         ),
     ];
     if asked.spread == Spread::Models {
-        lines.push("the other life models beside it: their spread".to_owned());
+        lines.push("the other life models too, for their spread".to_owned());
     }
     let bodies = match asked.maps {
         [true, true] => "both bodies",
@@ -253,6 +254,25 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
         "damage of {bodies} over depth and along the surface, by material points on y = 0"
     ));
     lines
+}
+
+/// What the pressure's flow meets in Eyring oil, in words.
+fn flow_text(flow: EyringFlow) -> &'static str {
+    match flow {
+        EyringFlow::Secant => {
+            "Eyring oil: flow by one effective viscosity in both directions (secant)"
+        }
+        EyringFlow::AlongAcross => {
+            "Eyring oil: flow along the sliding by the tangent of its law, across by the secant"
+        }
+    }
+}
+
+fn every(steps: u64) -> String {
+    match steps {
+        1 => "every step".to_owned(),
+        n => format!("every {n} steps"),
+    }
 }
 
 /// A cycle basis in words.
@@ -268,7 +288,7 @@ fn cycles_text(cycles: CycleBasis) -> &'static str {
 fn wave_text(wave: &WavePlan) -> String {
     let along = |nodes: f64| {
         if nodes.is_finite() {
-            format!("{nodes:.1} nodes a wave")
+            format!("{nodes:.1} nodes per wave")
         } else {
             "no wave".to_owned()
         }

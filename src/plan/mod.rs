@@ -20,7 +20,7 @@ pub use warning::{LeftOut, PlanError, Warning};
 
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Record, Scene, StressMeasure};
+use crate::scene::{ContactKind, EyringFlow, Record, Scene, StressMeasure};
 
 /// Everything that is decided before the first step.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,6 +96,8 @@ pub struct FilmPlan {
     pub radii_ratio: f64,
     /// Whether the oil between the bodies can leave.
     pub valleys: Valleys,
+    /// What the pressure's flow meets in sheared oil; `None`: the oil is Newtonian.
+    pub eyring_flow: Option<EyringFlow>,
 }
 
 /// Whether oil between crests that touch can leave by the valleys of one of the surfaces.

@@ -106,7 +106,7 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
             key: format!("body_{body}.surface.file"),
             value: format!("a map whose shortest significant wave is {wave_m:.3e} m"),
             allowed: format!(
-                "waves of at least 4 nodes (now {nodes:.1} on a spacing of {:.2} by {:.2} um): smooth the map, or more grid.nodes",
+                "waves of at least 4 nodes (now {nodes:.1} on a spacing of {:.2} by {:.2} µm): smooth the map, or use more grid.nodes",
                 spacing_m[0] * 1e6,
                 spacing_m[1] * 1e6,
             ),
@@ -129,7 +129,7 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
         key: format!("body_{body}.surface.{name}"),
         value: format!("{value_m:e} m"),
         allowed: format!(
-            "at least {:.3e} m (4 nodes; now {nodes:.1} on a spacing of {:.2} by {:.2} um), or more grid.nodes",
+            "at least {:.3e} m (4 nodes; now {nodes:.1} on a spacing of {:.2} by {:.2} µm), or more grid.nodes",
             value_m * NODES_MIN / nodes,
             spacing_m[0] * 1e6,
             spacing_m[1] * 1e6,

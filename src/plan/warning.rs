@@ -18,7 +18,7 @@ pub struct LeftOut {
 pub enum Warning {
     /// The mesh is too coarse for the film.
     #[error(
-        "the mesh costs about {:.0} % of the central film ((dX/H_c^(2/3))^2); more grid.nodes make it thinner{}",
+        "the mesh thins the central film by about {:.0} % ((dX/H_c^(2/3))^2); more grid.nodes help{}",
         100.0 * error.min(9.99), if *error > 1.0 { ", and here the film may vanish" } else { "" }
     )]
     CoarseForTheFilm {
@@ -26,7 +26,7 @@ pub enum Warning {
         error: f64,
     },
     /// The inlet is too short.
-    #[error("the inlet at {x_min_a} a starves the film by about {:.1} %; grid.x_min_a moves it", 100.0 * error)]
+    #[error("the inlet at {x_min_a} a starves the film by about {:.1} %; move it with grid.x_min_a", 100.0 * error)]
     ShortInlet {
         /// Estimated relative error.
         error: f64,
@@ -35,7 +35,7 @@ pub enum Warning {
     },
     /// Crests can touch at the edge of the domain.
     #[error(
-        "crests of {:.3} um together can meet at the edge of the domain, where contact is cut off; a higher load or a wider grid (grid.x_min_a, grid.x_max_a, grid.y_half_a) holds them",
+        "crests, {:.3} µm high together, can touch at the edge of the domain, where contact is cut off; use a higher load or a wider grid (grid.x_min_a, grid.x_max_a, grid.y_half_a)",
         1e6 * crests_m
     )]
     CrestsAtEdge {
@@ -43,7 +43,7 @@ pub enum Warning {
         crests_m: f64,
     },
     /// A wave has few nodes.
-    #[error("body {body}: {nodes:.1} nodes a wave; 12 or more follow its deformation well")]
+    #[error("body {body}: {nodes:.1} nodes per wave; 12 or more resolve its deformation")]
     CoarseWave {
         /// Body, 1 or 2.
         body: u8,
@@ -62,7 +62,7 @@ pub enum Warning {
     },
     /// Crests pass a material point in few time steps.
     #[error(
-        "body {body}'s crests pass in {samples:.1} steps; cycle counting wants 16: less time.step_nodes"
+        "a crest of body {body} passes in {samples:.1} steps; cycle counting needs 16: reduce time.step_nodes"
     )]
     CoarseCounting {
         /// Body whose crests pass, 1 or 2.
@@ -95,7 +95,7 @@ pub enum Warning {
         1e9 * super::MOLECULE_M,
         match valleys {
             Valleys::Open => "solved dry",
-            Valleys::Closed => "solved with flow all the same, because both surfaces shut oil in, which carries load",
+            Valleys::Closed => "solved with flow all the same, because both surfaces trap oil, which carries load",
         }
     )]
     NoFilm {
@@ -105,7 +105,7 @@ pub enum Warning {
         valleys: Valleys,
     },
     /// The stress integral is cut off.
-    #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; 2 or more hold it")]
+    #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; use 2 or more")]
     ShallowStress {
         /// Deepest point, in a.
         depth_max_a: f64,

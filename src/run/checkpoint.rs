@@ -6,16 +6,19 @@
 //! ```
 //! Numbers are written with as many digits as read back to the same bits.
 
-use std::io::Write as _;
+use std::io::{Read as _, Write as _};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::files::fnv;
 use crate::scene::Scene;
 use crate::sim::State;
 
 const MAGIC: &str = "asperity state 1 ";
+/// Digits of the digest.
+const DIGITS: usize = 16;
 /// Longest file that is read, bytes: ten times the state of the finest grid.
 const LONGEST: u64 = 20 << 30;
 
@@ -45,6 +48,9 @@ pub enum CheckpointError {
         /// Why.
         reason: String,
     },
+    /// The scene that it was saved with cannot be read any more: another version, or a height map that changed.
+    #[error("the scene of the saved state is refused: {0}")]
+    SavedScene(String),
     /// It belongs to another scene.
     #[error("the saved state belongs to another scene: {0} differs")]
     OtherScene(&'static str),
@@ -60,31 +66,44 @@ impl Checkpoint {
             path: path.display().to_string(),
             reason,
         };
-        let size = std::fs::metadata(path)
-            .map_err(|e| failed(e.to_string()))?
-            .len();
-        if size > LONGEST {
+        let io = |error: std::io::Error| failed(error.to_string());
+        let about = std::fs::metadata(path).map_err(io)?;
+        if !about.is_file() {
+            // Opening a pipe may wait for ever, and reading a device may never end.
+            return Err(failed("no regular file".to_owned()));
+        }
+        if about.len() > LONGEST {
             return Err(failed("longer than any state".to_owned()));
         }
-        let text = std::fs::read_to_string(path).map_err(|e| failed(e.to_string()))?;
-        let (head, body) = text.split_once('\n').unwrap_or_default();
-        let Some(digest) = head.strip_prefix(MAGIC) else {
+        let mut file = std::fs::File::open(path).map_err(io)?;
+        let mut head = vec![0; MAGIC.len() + DIGITS + 1];
+        let whole = file.read_exact(&mut head);
+        let head = String::from_utf8_lossy(&head);
+        let digest = head
+            .strip_prefix(MAGIC)
+            .and_then(|rest| rest.strip_suffix('\n'));
+        let Some(digest) = digest.filter(|_| whole.is_ok()) else {
             return Err(failed("no state of this version of asperity".to_owned()));
         };
+        let mut body = String::new();
+        let mut rest = file.take(LONGEST);
+        rest.read_to_string(&mut body).map_err(io)?;
         if digest != format!("{:016x}", fnv(body.as_bytes())) {
             return Err(failed(
                 "cut short or changed: its digest is wrong".to_owned(),
             ));
         }
-        serde_json::from_str(body).map_err(|error| failed(error.to_string()))
+        serde_json::from_str(&body).map_err(|error| failed(error.to_string()))
     }
 
     /// Writes it to an open file.
     ///
     /// # Errors
-    /// When the disk says no.
+    /// When the disk says no, or when what would be written could not be read again.
     pub fn write(&self, file: &mut std::fs::File) -> std::io::Result<()> {
         let body = serde_json::to_string(self)?;
+        // JSON has no infinity: better no state, and told, than one that nothing can load.
+        serde_json::from_str::<Self>(&body)?;
         writeln!(file, "{MAGIC}{:016x}", fnv(body.as_bytes()))?;
         file.write_all(body.as_bytes())?;
         file.sync_all()
@@ -97,7 +116,7 @@ impl Checkpoint {
     /// [`CheckpointError::OtherScene`] names the table that differs.
     pub fn fits(&self, scene: &Scene) -> Result<(), CheckpointError> {
         let saved = Scene::from_toml(&self.scene)
-            .map_err(|_| CheckpointError::OtherScene("the form of the scene"))?;
+            .map_err(|error| CheckpointError::SavedScene(error.to_string()))?;
         let Scene {
             title: _,
             about: _,
@@ -138,11 +157,4 @@ impl Checkpoint {
             None => Ok(()),
         }
     }
-}
-
-/// FNV-1a, 64 bits (Fowler, Noll and Vo): against accidents, not against malice.
-fn fnv(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }

@@ -16,7 +16,7 @@ use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind, SetBy};
 use crate::scene::{Event, Scene};
-use crate::sim::{Frame, Knob, SimError, Stage, State};
+use crate::sim::{Frame, Knob, LubricationRegime, SimError, Stage, State, Unsolved};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
@@ -33,6 +33,8 @@ enum Pace {
 /// The loop's own state, on the simulation's thread.
 pub(super) struct Driver {
     ending: Ending,
+    /// Steps of the whole run; `None`: it has no end.
+    steps_planned: Option<u64>,
     watchers: Vec<Watcher>,
     script: VecDeque<Event>,
     /// What was done by hand in the run that is repeated, with the steps made by then.
@@ -68,6 +70,7 @@ impl Driver {
         script.sort_by(|one, two| one.at_s.total_cmp(&two.at_s));
         Self {
             ending,
+            steps_planned: None,
             watchers,
             script: script.into(),
             turns: VecDeque::new(),
@@ -92,6 +95,16 @@ impl Driver {
         self.script.drain(..n_events_played.min(self.script.len()));
         self.n_events_played = n_events_played;
         self.n_unconverged = n_unconverged;
+        self
+    }
+
+    /// Says how many steps the scene's plan has, where it is the plan that ends the run.
+    pub(super) fn planned(mut self, steps: u64) -> Self {
+        self.steps_planned = match self.ending {
+            Ending::Passages => Some(steps),
+            Ending::Steps(last) => Some(last),
+            Ending::OnStop => None,
+        };
         self
     }
 
@@ -136,6 +149,8 @@ impl Driver {
                 }
             }
         };
+        // A run without an end of its own is ended by whoever says stop.
+        let stopped = matches!(end, End::Stopped) && self.ending != Ending::OnStop;
         self.tell_failure(&end);
         let reports = self.finish_outputs();
         let wall_s = started.elapsed().as_secs_f64();
@@ -144,13 +159,17 @@ impl Driver {
             summary.wall_s = wall_s;
             summary.steps_per_s = steps_per_s;
             summary.steps = steps;
+            summary.steps_planned = self.steps_planned;
+            summary.stopped = stopped;
             summary.steps_not_converged = self.n_unconverged;
             summary.converged = self.n_unconverged == 0 && !matches!(end, End::Stalled(_));
         }
         Outcome {
             end,
+            stopped,
             summary,
             steps,
+            steps_planned: self.steps_planned,
             unconverged: self.unconverged,
             n_unconverged: self.n_unconverged,
             applied: self.applied,
@@ -339,8 +358,13 @@ impl Driver {
             self.unconverged.push(Unconverged {
                 step: sim.passage_steps(),
                 time_s: sim.time_s(),
-                residual,
-                film_error: metrics.film_error,
+                unsolved: Unsolved {
+                    residual,
+                    residual_asked: metrics.asked[0],
+                    film_error: metrics.film_error,
+                    film_error_asked: metrics.asked[1],
+                    dry: metrics.regime == LubricationRegime::Dry,
+                },
                 overlap_m: metrics.overlap_m,
             });
         }

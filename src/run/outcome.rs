@@ -2,7 +2,7 @@
 
 use crate::observe::{ObserveError, ObserverReport, SetBy};
 use crate::run::{Checkpoint, Command};
-use crate::sim::{SimError, StepError, Summary};
+use crate::sim::{SimError, StepError, Summary, Unsolved};
 
 /// A command that took effect, with the step before which it did: scene and log replay the run.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,10 +26,8 @@ pub struct Unconverged {
     pub step: u64,
     /// Simulated time, s.
     pub time_s: f64,
-    /// Residual reached: last change of pressure.
-    pub residual: f64,
-    /// Share of the film that is left unbalanced.
-    pub film_error: f64,
+    /// What is left of its equations, and what was asked.
+    pub unsolved: Unsolved,
     /// Deepest overlap of the surfaces, m.
     pub overlap_m: f64,
 }
@@ -56,8 +54,13 @@ pub struct Outcome {
     pub end: End,
     /// Results so far; `None` when the passage never began.
     pub summary: Option<Summary>,
+    /// Whether somebody ended it before it had done all that was asked for; a run without an end of its own
+    /// ([`Ending::OnStop`](crate::run::Ending)) is never cut short.
+    pub stopped: bool,
     /// Time steps after the start-up.
     pub steps: u64,
+    /// How many the whole run has by its plan; `None`: it has no end of its own.
+    pub steps_planned: Option<u64>,
     /// The first steps that did not converge, at most [`Outcome::UNCONVERGED_KEPT`].
     pub unconverged: Vec<Unconverged>,
     /// How many did not in all.
@@ -81,12 +84,14 @@ impl Outcome {
     pub const UNCONVERGED_KEPT: usize = 100;
 
     /// Exit code of the command line: 0 converged, 2 some steps did not converge, 3 stalled or not
-    /// started, 4 an output failed. A failed solution weighs more than a failed output.
+    /// started, 4 an output failed, 5 stopped before its end. A failed solution weighs more than a failed output,
+    /// and that more than a stop, which weighs more than steps that did not converge.
     pub fn exit_code(&self) -> u8 {
         match self.end {
             End::Stalled(_) | End::NotStarted(_) => 3,
             End::OutputFailed => 4,
             End::Done | End::Stopped if !self.output_errors.is_empty() => 4,
+            End::Done | End::Stopped if self.stopped => 5,
             End::Done | End::Stopped if self.n_unconverged > 0 => 2,
             End::Done | End::Stopped => 0,
         }

@@ -226,12 +226,13 @@ impl Session {
             latest.clone(),
             Arc::clone(&shared),
         )
+        .planned(request.plan.steps)
         .after(start.played.0, start.played.1)
         .repeating(start.turns);
         let context = RunContext {
             scene_toml: request.scene.to_toml(),
             plan_text: request.plan.to_string(),
-            program: concat!("asperity ", env!("CARGO_PKG_VERSION")).to_owned(),
+            program: crate::files::PROGRAM.to_owned(),
             began: start.began,
             scene: Arc::clone(&request.scene),
         };

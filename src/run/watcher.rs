@@ -48,7 +48,7 @@ pub struct WatcherStatus {
     pub output: String,
     /// Whether it takes frames.
     pub activity: Activity,
-    /// Frames handed to it.
+    /// Frames that it kept, or, where it does not say, that were handed to it.
     pub frames: u64,
     /// Frames that it could not keep up with, so far.
     pub skipped: u64,
@@ -93,6 +93,7 @@ impl Watcher {
     pub(super) fn status(&self) -> WatcherStatus {
         let mut status = self.status.clone();
         status.skipped = self.observer.skipped();
+        status.frames = self.observer.kept().unwrap_or(status.frames);
         if status.activity != Activity::Failed && !self.switch.is_on() {
             status.activity = Activity::Off;
         }

@@ -211,7 +211,7 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
         return Err(SceneError::value(
             "life",
             "a table",
-            "only with a [stress] table; leave both out, or --set life=none",
+            "only with a [stress] table; omit both, or --set life=none",
         ));
     }
     super::life::check_calibration(scene)?;

@@ -18,7 +18,7 @@ impl Scene {
         let table = Table::try_from(self).unwrap_or_default();
         let mut text = String::from(
             "# A scene of asperity. SI units, named in the keys; each key with its meaning, unit and range.\n\
-             # Keys that are left out take the values that `asperity scenes demonstration` shows.\n\n",
+             # Keys that are omitted take the values that `asperity scenes demonstration` shows.\n\n",
         );
         for section in SECTIONS {
             push_section(&mut text, section, lookup(&table, section.path));
@@ -33,7 +33,7 @@ fn push_section(text: &mut String, section: &Section, table: Option<&Table>) {
         if let Need::Optional(meaning) = section.need {
             push(
                 text,
-                format_args!("\n# [{}]    # left out: {meaning}\n", section.path),
+                format_args!("\n# [{}]    # omitted: {meaning}\n", section.path),
             );
         }
         return;
@@ -81,7 +81,7 @@ fn push_left_out(text: &mut String, key: &Key, need: Option<Need>) {
         push(
             text,
             format_args!(
-                "{setting:<COMMENT_COLUMN$}# {}; left out: {meaning}\n",
+                "{setting:<COMMENT_COLUMN$}# {}; omitted: {meaning}\n",
                 comment(key)
             ),
         );

@@ -6,12 +6,11 @@
 //! else, one row of the map a line, separated by commas, semicolons, tabs or spaces; empty lines and lines
 //! that begin with `#` are skipped.
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
 use super::error::{SceneError, shortened};
 use super::keys::{joined, short};
+use crate::files::{Fnv, read_up_to};
 use crate::physics::height_map::{Beyond, HeightMap};
 
 /// Largest file, bytes.
@@ -41,14 +40,15 @@ fn refusal(found: impl Into<String>, allowed: impl Into<String>) -> Refusal {
     }
 }
 
-/// Reads the map of the table `table` (such as `body_1.surface`) from `file`, relative to `base`.
+/// Reads the map of the table `table` (such as `body_1.surface`) from `file`, relative to `base`, and the digest of its
+/// numbers.
 pub(super) fn read(
     table: &str,
     base: &Path,
     file: &str,
     unit_m: f64,
     beyond: Beyond,
-) -> Result<HeightMap, SceneError> {
+) -> Result<(HeightMap, String), SceneError> {
     let refused = |r: Refusal| {
         let found = format!("{} ({})", shortened(file), r.found);
         SceneError::map(joined(table, "file"), found, r.allowed)
@@ -56,8 +56,31 @@ pub(super) fn read(
     let matrix = matrix(&base.join(file)).map_err(refused)?;
     check(&matrix, unit_m).map_err(refused)?;
     let heights: Vec<f64> = matrix.values.iter().map(|v| v * unit_m).collect();
-    HeightMap::new(matrix.columns, &heights, beyond)
-        .ok_or_else(|| refused(refusal("flat", "a map whose heights differ")))
+    let map = HeightMap::new(matrix.columns, &heights, beyond)
+        .ok_or_else(|| refused(refusal("flat", "a map whose heights differ")))?;
+    Ok((map, digest(&matrix)))
+}
+
+/// FNV-1a of the number of columns and of the numbers: how they are written does not matter.
+fn digest(matrix: &Matrix) -> String {
+    let mut digest = Fnv::default();
+    digest.take(&(matrix.columns as u64).to_le_bytes());
+    for value in &matrix.values {
+        digest.take(&value.to_bits().to_le_bytes());
+    }
+    format!("{:016x}", digest.value())
+}
+
+/// A map that is not the one that the scene was run with.
+pub(super) fn changed(table: &str, file: &str, found: &str) -> SceneError {
+    SceneError::map(
+        joined(table, "file"),
+        format!("{} (its numbers have changed)", shortened(file)),
+        format!(
+            "the map that the scene was run with; to take the new one, leave {} out (it would be {found})",
+            joined(table, "digest")
+        ),
+    )
 }
 
 fn matrix(path: &Path) -> Result<Matrix, Refusal> {
@@ -86,14 +109,7 @@ fn bytes(path: &Path) -> Result<Vec<u8>, Refusal> {
             "a readable file, its path relative to the scene file",
         )
     };
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(refusal("not a file", "a plain file"));
-    }
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(failed)?;
-    file.take(LARGEST_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
+    let bytes = read_up_to(path, LARGEST_FILE).map_err(failed)?;
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(refusal("larger than 64 MiB", "a file of at most 64 MiB"));
     }

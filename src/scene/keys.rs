@@ -88,11 +88,12 @@ const BODY: &[Key] = &[
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
     key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file"),
+    key("digest", "", Text(16), Optional("the file is taken as it is"), "digest of the file's numbers: a file of another is refused; written by the program"),
     key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
-    key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean taken off), or once (mean of the rim taken off, tapered to 0)"),
+    key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean subtracted), or once (mean of the rim subtracted, tapered to 0)"),
     key("unit_m", "m", Number(1e-12, 1e3), Defaulted, "height that a value of 1 stands for"),
     key("start_x_m", "m", Number(-1e3, 1e3), Optional("just upstream of the domain"), "where the middle of a windowed map is at t = 0"),
-    key("amplitude_m", "m", Number(0.0, 1e-4), Required, "sinusoid: A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy), peak to valley is 2 A; height map: greatest departure from its level, left out: as in the file"),
+    key("amplitude_m", "m", Number(0.0, 1e-4), Required, "sinusoid: A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy), peak to valley is 2 A; height map: greatest departure from its level; omitted: as in the file"),
     key("wavelength_x_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wx, at least 4 nodes; inf: longitudinal ridges"),
     key("wavelength_y_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wy, at least 4 nodes; inf: transverse ridges"),
     key("angle_deg", "degrees", Number(-360.0, 360.0), Defaulted, "angle of x' from the rolling direction x"),
@@ -148,14 +149,15 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "lubricant",
         need: Optional("dry contact"),
-        doc: "The oil. Leave the table out for a dry scene.",
+        doc: "The oil. Omit the table for a dry scene.",
         keys: &[
             key("viscosity_pa_s", "Pa s", Number(1e-6, 1e4), Required, "viscosity at ambient pressure"),
             key("pressure_viscosity_per_pa", "1/Pa", Number(0.0, 1e-7), Required, "pressure-viscosity coefficient alpha"),
             key("viscosity_law", "", Choice(&["barus", "roelands"]), Defaulted, "viscosity against pressure"),
-            key("density_law", "", Choice(&["incompressible", "dowson_higginson", "venner_lubrecht"]), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law in other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
+            key("density_law", "", Choice(&["incompressible", "dowson_higginson", "venner_lubrecht"]), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law with other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
             key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
             key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
+            key("eyring_flow", "", Choice(&["secant", "along_across"]), Defaulted, "viscosity that the pressure's flow meets in sheared oil: one for both directions (secant of Eyring's law), or its tangent along the sliding and its secant across; read when rheology = \"eyring\""),
             key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),
             key("cavitation", "", Choice(&["reynolds", "jfo"]), Defaulted, "how the film ruptures"),
         ],
@@ -163,16 +165,16 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "friction",
         need: Defaulted,
-        doc: "Where the film is gone.",
+        doc: "Where surfaces touch.",
         keys: &[
             key("boundary", "", Number(0.0, 1.0), Defaulted, "friction coefficient where surfaces touch"),
-            key("contact_film_m", "m", Number(0.0, 1e-6), Defaulted, "film at or below which a spot counts as touching"),
+            key("contact_film_m", "m", Number(0.0, 1e-6), Defaulted, "film at or below which a node counts as touching"),
         ],
     },
     Section {
         path: "motion",
         need: Required,
-        doc: "U = (U1 + U2)/2 and S = (U2 - U1)/U, so U1 = U (1 - S/2), U2 = U (1 + S/2). U1 = -U2 is no scene: it entrains no oil, and S has no value.",
+        doc: "U = (U1 + U2)/2 and S = (U2 - U1)/U, so U1 = U (1 - S/2), U2 = U (1 + S/2). U1 = -U2 is not allowed: no oil is entrained, and S is undefined.",
         keys: &[
             key("entrainment_m_s", "m/s", EitherSign(1e-6, 200.0), Required, "entrainment speed U along +x; below 0 the oil flows towards -x"),
             key("slide_roll", "", Number(-2.0, 2.0), Defaulted, "slide-to-roll ratio S; 0: pure rolling"),
@@ -222,10 +224,10 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "stress",
         need: Optional("no subsurface stress"),
-        doc: "Subsurface stress of body 1. Leave the table out to compute none; life needs it.",
+        doc: "Subsurface stress of body 1. Omit the table to compute none; life needs it.",
         keys: &[
             key("depths", "", Integer(8, 256), Defaulted, "number of depths"),
-            key("depth_max_a", "a", Number(0.5, 20.0), Defaulted, "deepest point, in the narrower Hertz half-width; life wants 2 or more"),
+            key("depth_max_a", "a", Number(0.5, 20.0), Defaulted, "deepest point, in the narrower Hertz half-width; life needs 2 or more"),
             key("measure", "", Choice(&["von_mises", "max_shear", "octahedral"]), Defaulted, "effective stress that drives fatigue"),
             key("plane_x_a", "a", Number(-20.0, 20.0), Optional("no such plane"), "a plane x = const of body 1 in every frame that is shown, beside y = 0; some 10 ms each at 129 nodes"),
             key("plane_y_a", "a", Number(-20.0, 20.0), Optional("no such plane"), "a plane y = const, likewise"),
@@ -243,8 +245,8 @@ pub const SECTIONS: &[Section] = &[
         need: Optional("no recording"),
         doc: "The recording (.rrd).",
         keys: &[
-            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "pictures every so many time steps, scalars every one; the plan takes more to keep the budget"),
-            key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "most that the recording may take"),
+            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "fields every so many time steps, scalars every step; the plan spaces them out to keep to the budget"),
+            key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "largest size of the recording"),
         ],
     },
 ];
@@ -326,7 +328,7 @@ impl Key {
         }
         let of_map = matches!(
             self.name,
-            "file" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
+            "file" | "digest" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
         );
         match (kind, self.name) {
             (Some("smooth"), _) => None,

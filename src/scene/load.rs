@@ -1,7 +1,5 @@
 //! From a preset, a file or a text to a scene that has passed every check.
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -13,6 +11,7 @@ use super::height_map;
 use super::keys;
 use super::model::{MapEdge, Scene, Surface};
 use super::presets;
+use crate::files::read_up_to;
 use crate::physics::height_map::Beyond;
 
 /// Longest scene file, bytes. Scenes are some kilobytes; anything longer is not one.
@@ -81,6 +80,12 @@ impl Override {
                 table.remove(name);
             }
             return;
+        }
+        if self.key.ends_with("surface.file")
+            && let Some(table) = descend(root, path)
+        {
+            // The digest is that of the former file.
+            table.remove("digest");
         }
         if self.key.ends_with("surface.kind") {
             // A body of another kind keeps nothing of its former surface.
@@ -202,6 +207,7 @@ impl Scene {
                 file,
                 edge,
                 unit_m,
+                digest,
                 map,
                 ..
             } = &mut body.surface
@@ -211,9 +217,12 @@ impl Scene {
                     MapEdge::Periodic => Beyond::Repeated,
                     MapEdge::Windowed => Beyond::Nothing,
                 };
-                *map = Some(Arc::new(height_map::read(
-                    table, folder, file, *unit_m, beyond,
-                )?));
+                let (heights, found) = height_map::read(table, folder, file, *unit_m, beyond)?;
+                if digest.as_ref().is_some_and(|digest| *digest != found) {
+                    return Err(height_map::changed(table, file, &found));
+                }
+                *map = Some(Arc::new(heights));
+                *digest = Some(found);
                 if let Ok(absolute) = std::path::absolute(folder.join(&*file))
                     && let Some(text) = absolute.to_str()
                 {
@@ -263,11 +272,7 @@ fn read(path: &str) -> Result<String, SceneError> {
             reason: error.to_string(),
         }
     };
-    let file = File::open(path).map_err(failed)?;
-    let mut bytes = Vec::new();
-    file.take(LONGEST_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
+    let bytes = read_up_to(Path::new(path), LONGEST_FILE).map_err(failed)?;
     if bytes.len() as u64 > LONGEST_FILE {
         return Err(SceneError::Read {
             path: path.to_owned(),

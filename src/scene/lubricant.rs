@@ -34,6 +34,16 @@ pub enum Rheology {
     Eyring,
 }
 
+/// How the pressure's flow sees an Eyring oil that is sheared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EyringFlow {
+    /// One effective viscosity in both directions, the secant of the law: as in Zhu and Hu's codes.
+    Secant,
+    /// Its tangent along the sliding, its secant across (Ehret, Dowson and Taylor 1998).
+    AlongAcross,
+}
+
 /// How the film ruptures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -64,6 +74,9 @@ pub struct Lubricant {
     /// Eyring stress tau0, Pa (rheology = "eyring").
     #[serde(default = "eyring_stress")]
     pub eyring_stress_pa: f64,
+    /// How the pressure's flow sees the sheared oil (rheology = "eyring").
+    #[serde(default = "secant")]
+    pub eyring_flow: EyringFlow,
     /// Limiting shear stress as a fraction of the pressure.
     #[serde(default = "limiting_shear")]
     pub limiting_shear_ratio: f64,
@@ -80,6 +93,9 @@ fn dowson_higginson() -> DensityLaw {
 }
 fn newtonian() -> Rheology {
     Rheology::Newtonian
+}
+fn secant() -> EyringFlow {
+    EyringFlow::Secant
 }
 fn reynolds() -> Cavitation {
     Cavitation::Reynolds

@@ -22,7 +22,9 @@ mod shape;
 pub use error::SceneError;
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, VolumeIntegral};
 pub use load::Override;
-pub use lubricant::{Cavitation, DensityLaw, Friction, Lubricant, Rheology, ViscosityLaw};
+pub use lubricant::{
+    Cavitation, DensityLaw, EyringFlow, Friction, Lubricant, Rheology, ViscosityLaw,
+};
 pub use model::{
     Body, Contact, ContactKind, Event, Grid, Load, MapEdge, Motion, Record, Scene, Stress,
     StressMeasure, Surface,

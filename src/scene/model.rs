@@ -156,6 +156,10 @@ pub enum Surface {
         /// Where the middle of a windowed map is at t = 0, m; `None`: just upstream of the domain.
         #[serde(skip_serializing_if = "Option::is_none")]
         start_x_m: Option<f64>,
+        /// Digest of the file's numbers, FNV-1a, as 16 hexadecimal digits: filled in when the file is read, so that
+        /// whatever keeps the scene knows the surface and not its file's name alone; a file of another is refused.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        digest: Option<String>,
         /// The heights, once read.
         #[serde(skip)]
         map: Option<Arc<HeightMap>>,

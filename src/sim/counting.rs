@@ -123,15 +123,17 @@ impl Counting {
         }
     }
 
-    /// Whether the counts were made on `grid` with so many depths, and nothing in them points astray.
-    pub(super) fn fits(&self, grid: &Grid, depths: usize) -> bool {
+    /// Whether counts that were saved are of the same make, with so many depths, and nothing in them points astray.
+    pub(super) fn fits(&self, saved: &Self, depths: usize) -> bool {
         let whole = |profile: &Profile| {
             profile.counted.len() == depths && profile.equivalent.len() == depths
         };
-        self.row.len() == grid.nx
-            && self.shown_depth < depths.max(1)
-            && self.profiles.iter().flatten().all(whole)
-            && self.trackers.iter().all(MaterialTracker::is_sound)
+        let mut trackers = self.trackers.iter().zip(&saved.trackers);
+        self.row.len() == saved.row.len()
+            && self.basis == saved.basis
+            && saved.shown_depth < depths.max(1)
+            && saved.profiles.iter().flatten().all(whole)
+            && trackers.all(|(own, saved)| own.fits(saved))
     }
 
     /// Forgets all counts; the bodies have moved by `travelled` (in a).

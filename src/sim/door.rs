@@ -9,9 +9,9 @@
 //! integral change, not a or p_h.
 
 use super::knob::Knob;
-use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, DensityLaw, Rheology, Scene, ViscosityLaw};
+use crate::scene::{ContactKind, DensityLaw, EyringFlow, Rheology, Scene, ViscosityLaw};
 use crate::solve::reynolds::Medium;
 
 /// Which way the oil flows. Everything below the door is solved with the flow along +x; a scene that flows
@@ -58,6 +58,7 @@ pub(super) struct Door {
     lambda_s_m: f64,
     /// Z per m/s of sliding.
     sliding_s_m: f64,
+    sheared: ShearedFlow,
     viscosity: Viscosity,
     density: Density,
 }
@@ -86,6 +87,7 @@ impl Door {
             },
             lambda_s_m: 0.0,
             sliding_s_m: 0.0,
+            sheared: ShearedFlow::Secant,
             viscosity: Viscosity::barus(0.0, p),
             density: Density::Incompressible,
         };
@@ -107,6 +109,12 @@ impl Door {
             };
             if oil.rheology == Rheology::Eyring {
                 door.sliding_s_m = eta * rx / (oil.eyring_stress_pa * a * a);
+                door.sheared = match oil.eyring_flow {
+                    EyringFlow::Secant => ShearedFlow::Secant,
+                    EyringFlow::AlongAcross => ShearedFlow::AlongAcross {
+                        limit: oil.limiting_shear_ratio * p / oil.eyring_stress_pa,
+                    },
+                };
             }
         }
         door
@@ -123,6 +131,7 @@ impl Door {
                 f64::INFINITY
             },
             sliding: self.sliding_s_m * (s * u_m_s).abs(),
+            sheared: self.sheared,
         }
     }
 
@@ -133,6 +142,7 @@ impl Door {
             density: self.density,
             lambda: f64::INFINITY,
             sliding: 0.0,
+            sheared: ShearedFlow::Secant,
         }
     }
 

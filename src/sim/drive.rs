@@ -70,6 +70,13 @@ impl Drive {
         (setting.now, setting.target) = (value, value);
     }
 
+    /// Whether a knob is on its way.
+    pub(super) fn is_walking(&self) -> bool {
+        self.settings
+            .iter()
+            .any(|setting| setting.now != setting.target)
+    }
+
     /// One time step of `dt` (a/U).
     pub(super) fn walk(&mut self, dt: f64) {
         for setting in &mut self.settings {

@@ -1,23 +1,62 @@
 //! What can go wrong in the loop, with its numbers.
 
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
+
+/// What a step leaves of its equations, and what it may leave.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Unsolved {
+    /// Estimate of the pressure's error, Σ|P − P*|/ΣP.
+    pub residual: f64,
+    /// What it may be.
+    pub residual_asked: f64,
+    /// Σ|F|/Σρ̄H; dry: the greatest gap or overlap of touching nodes, over the film that p_h on one node makes.
+    pub film_error: f64,
+    /// What it may be.
+    pub film_error_asked: f64,
+    /// Whether there was no flow.
+    pub dry: bool,
+}
+
+impl fmt::Display for Unsolved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            residual,
+            residual_asked,
+            film_error,
+            film_error_asked,
+            dry,
+        } = self;
+        write!(f, "residual {residual:.2e} (asked {residual_asked:.1e}), ")?;
+        if *dry {
+            write!(
+                f,
+                "gaps or overlaps of up to {film_error:.2e} (asked {film_error_asked:.1e}) of the film that p_h on one \
+                 node makes where the bodies touch"
+            )
+        } else {
+            write!(
+                f,
+                "{film_error:.2e} of the film unbalanced (asked {film_error_asked:.1e})"
+            )
+        }
+    }
+}
 
 /// A step that failed.
 #[derive(Debug, Clone, Error)]
 pub enum StepError {
     /// The step did not converge even after smaller retries.
     #[error(
-        "step at t = {t_s:.4e} s stalled after {retries} retries: the last iteration changed the pressure by {residual:.2e} (asked {tolerance:.1e}) and left {film_error:.2e} of the film unbalanced, worst at x = {x_m:.3e} m, y = {y_m:.3e} m"
+        "step at t = {t_s:.4e} s stalled after {retries} retries: {unsolved}, worst at x = {x_m:.3e} m, y = {y_m:.3e} m"
     )]
     Stalled {
         /// Simulated time, s.
         t_s: f64,
-        /// Σ|dP|/ΣP of the last iteration.
-        residual: f64,
-        /// The change asked for.
-        tolerance: f64,
-        /// Σ|F|/Σρ̄H that is left.
-        film_error: f64,
+        /// What is left, and what was asked.
+        unsolved: Unsolved,
         /// Retries made.
         retries: u32,
         /// Where the residual is greatest, m.

@@ -8,8 +8,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
-use super::frame::{LifeDetail, LifeEstimate};
+use super::frame::{LifeDetail, LifeEstimate, Repeat};
 use super::reference::Calibration;
+use super::settling::Settling;
 use super::smooth::Conditions;
 use super::stress_stage::StressStage;
 use super::variant::{Shared, Variant, models};
@@ -18,7 +19,7 @@ use crate::physics::fatigue::{LifeFactors, LifeLaw};
 use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
 use crate::scene::{BodyChoice, ContactKind, CycleBasis, Life, Scene, Spread, VolumeIntegral};
-use crate::solve::life::{Coverage, Shares, Sweep, factors};
+use crate::solve::life::{Shares, Sweep, factors};
 use crate::solve::stress::{Loading, StressLaw};
 
 /// Conditions of an estimate.
@@ -46,8 +47,8 @@ pub(super) struct LifeStage {
     pub(super) sweep: Sweep,
     scratch: Shares,
     pub(super) depths: Vec<f64>,
-    /// Wavelength along x of the mating crests, a; infinite: none.
-    wavelengths: [f64; 2],
+    /// Wavelength along x of the mating crests, a.
+    wavelengths: [Option<f64>; 2],
     pub(super) calibration: Option<Calibration>,
     /// Directions in which the contact grows with the pressure.
     pub(super) sides: f64,
@@ -57,6 +58,7 @@ pub(super) struct LifeStage {
     pub(super) reference_at: Conditions,
     /// Cycles of the smooth contact of that size.
     pub(super) reference_cycles: Option<f64>,
+    settling: Settling,
 }
 
 impl LifeStage {
@@ -86,10 +88,8 @@ impl LifeStage {
             survival_ratio: law.survival_ratio(asked.survival, asked.calibration_survival),
         });
         let wavelength = |body: BodyId| {
-            let wave = plan.waves[body.mate().index()];
-            wave.map_or(f64::INFINITY, |wave| {
-                1.0 / (wave.crests_per_m * plan.hertz.a_m)
-            })
+            let wave = plan.waves[body.mate().index()].filter(|wave| wave.crests_per_m > 0.0);
+            wave.map(|wave| 1.0 / (wave.crests_per_m * plan.hertz.a_m))
         };
         Some(Self {
             law,
@@ -108,6 +108,7 @@ impl LifeStage {
             reference_size: 1.0,
             reference_at: Conditions::default(),
             reference_cycles: None,
+            settling: Settling::new(law, scene.numerics.tolerance),
         })
     }
 
@@ -162,7 +163,9 @@ impl LifeStage {
     /// Whether a stage that was saved is of the same make as this one.
     pub(super) fn fits(&self, saved: &Self) -> bool {
         let (depths, rows) = (self.depths.len(), self.sweep.of(Loading::ALL[0]).len());
-        self.asked == saved.asked
+        self.law == saved.law
+            && self.calibration == saved.calibration
+            && self.asked == saved.asked
             && self.laws == saved.laws
             && self.depths == saved.depths
             && saved.sweep.is_sound(rows)
@@ -173,6 +176,11 @@ impl LifeStage {
                 .iter()
                 .zip(&saved.variants)
                 .all(|(a, b)| a.fits(b))
+    }
+
+    /// Whether a stage that was saved was made for the same crests.
+    pub(super) fn same_waves(&self, saved: &Self) -> bool {
+        self.wavelengths == saved.wavelengths
     }
 
     /// Takes the mean over a way of `period` (in a) from now on.
@@ -194,6 +202,13 @@ impl LifeStage {
         for variant in &mut self.variants {
             variant.restart();
         }
+        self.settling.restart();
+    }
+
+    /// Whether the average may be called settled, after a sample without anything of a ramp in it.
+    pub(super) fn judge(&mut self, stress_error: f64, repeat: Option<Repeat>) {
+        let meter = self.variants[0].meter();
+        self.settling.judge(meter, stress_error, repeat);
     }
 
     /// Takes the surface loaded last, which stands for a `way` (in a).
@@ -231,6 +246,8 @@ impl LifeStage {
         let lives = self.lives(scene, (basis, form), now, counting)?;
         let (body, f) = self.governing(lives)?;
         let (low, high) = self.law.band(f.relative, now.stress_error);
+        let wander = self.settling.wander().exp();
+        let (low, high) = (low / wander, high * wander);
         let other = |form| {
             let lives = self.lives(scene, (basis, form), now, counting)?;
             lives[body.index()].map(|f| f.relative)
@@ -251,7 +268,7 @@ impl LifeStage {
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
-            settled: now.has_reference && scene.meter().coverage() == Coverage::Settled,
+            settled: now.has_reference && self.settling.has_settled(),
             detail: LifeDetail {
                 model: Some(self.asked.model),
                 body: body.index() as u8 + 1,
@@ -298,7 +315,7 @@ impl LifeStage {
             CycleBasis::Global => Some(CycleProfile::Global(n)),
             CycleBasis::Depth => Some(CycleProfile::Depth {
                 n,
-                wavelength: self.wavelengths[body.index()],
+                wavelength: self.wavelengths[body.index()].unwrap_or(f64::INFINITY),
             }),
             CycleBasis::Peaks | CycleBasis::Ranges => counting?.profile(body, basis),
         }

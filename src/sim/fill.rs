@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::door::Heading;
 use super::stress_stage::StressStage;
-use super::{DamageBlock, Frame, MaterialPoint, Simulation, StressPlane, StressSlice};
+use super::{DamageBlock, Frame, MaterialPoint, PassedPeak, Simulation, StressPlane, StressSlice};
 use crate::physics::cycles::BodyId;
 use crate::plan::LINE_ROWS;
 use crate::scene::ContactKind;
@@ -12,11 +12,12 @@ use crate::solve::stress::{Cut, Plane};
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
 pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
-    frame.step = sim.step;
+    frame.step = sim.state.step;
     frame.time_s = sim.time_s();
     frame.stage = sim.stage();
-    frame.passages = if sim.step > 0 {
-        sim.way / sim.plan.passage_a
+    frame.start_up = sim.start_up_progress();
+    frame.passages = if sim.state.step > 0 {
+        sim.state.way / sim.plan.passage_a
     } else {
         0.0
     };
@@ -28,19 +29,19 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     for body in BodyId::BOTH {
         let risk = &mut frame.risk_pa[body.index()];
         risk.clear();
-        if let Some(values) = sim.life.as_ref().and_then(|life| life.risk(body)) {
+        if let Some(values) = sim.state.life.as_ref().and_then(|life| life.risk(body)) {
             let unit = sim.door.p_hertz_pa as f32;
             risk.extend(values.iter().map(|value| value * unit));
         }
         fill_damage(sim, body, &mut frame.damage[body.index()]);
     }
-    frame.metrics.clone_from(&sim.metrics);
+    frame.metrics.clone_from(&sim.state.metrics);
     frame.grounds = sim.grounds();
 }
 
 /// Nodes, edges and scales.
 fn fill_shape(sim: &Simulation, frame: &mut Frame) {
-    let (grid, door) = (&sim.march.grid, &sim.door);
+    let (grid, door) = (&sim.work.solver.grid, &sim.door);
     let scale = sim.size_now();
     frame.kind = door.kind;
     frame.nx = grid.nx;
@@ -61,8 +62,8 @@ fn fill_shape(sim: &Simulation, frame: &mut Frame) {
 
 /// Pressure, film, traction, both surfaces, and where they touch.
 fn fill_fields(sim: &Simulation, frame: &mut Frame) {
-    let (door, state) = (&sim.door, &sim.march.state);
-    let [one, two] = &sim.terrain.heights;
+    let (door, state) = (&sim.door, &sim.state.contact);
+    let [one, two] = &sim.work.terrain.heights;
     let along_x = door.heading.sign() * door.p_hertz_pa;
     expand(
         sim,
@@ -71,7 +72,7 @@ fn fill_fields(sim: &Simulation, frame: &mut Frame) {
         &mut frame.pressure_pa,
     );
     expand(sim, &state.film, door.film_m, &mut frame.film_m);
-    expand(sim, &sim.traction, along_x, &mut frame.traction_pa);
+    expand(sim, &sim.work.traction, along_x, &mut frame.traction_pa);
     expand(sim, one, door.film_m, &mut frame.roughness_1_m);
     expand(sim, two, door.film_m, &mut frame.roughness_2_m);
     let contact_film = sim.contact_film_m() as f32;
@@ -84,7 +85,7 @@ fn fill_fields(sim: &Simulation, frame: &mut Frame) {
 
 /// A field in SI over the whole domain, in the scene's direction; 0 where nothing is stored.
 fn expand(sim: &Simulation, from: &[f64], unit: f64, to: &mut Vec<f32>) {
-    let (grid, door) = (&sim.march.grid, &sim.door);
+    let (grid, door) = (&sim.work.solver.grid, &sim.door);
     let rows = match door.kind {
         ContactKind::Point => grid.ny_full(),
         ContactKind::Line => LINE_ROWS,
@@ -111,7 +112,7 @@ fn expand(sim: &Simulation, from: &[f64], unit: f64, to: &mut Vec<f32>) {
 
 /// Stress of both bodies in the plane y = 0.
 fn fill_slices(sim: &Simulation, frame: &mut Frame) {
-    let Some(stress) = sim.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
+    let Some(stress) = sim.work.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
         (frame.slice, frame.slice_2) = (None, None);
         return;
     };
@@ -130,7 +131,7 @@ fn fill_slice(sim: &Simulation, stress: &StressStage, body: BodyId, to: &mut Opt
             .collect::<Arc<[f64]>>();
     }
     let unit = sim.door.p_hertz_pa as f32;
-    let (nx, heading) = (sim.march.grid.nx, sim.door.heading);
+    let (nx, heading) = (sim.work.solver.grid.nx, sim.door.heading);
     let scaled = |from: &[f32], unit: f32, to: &mut Vec<f32>| {
         to.resize(from.len(), 0.0);
         for (to, &from) in to.iter_mut().zip(from) {
@@ -158,7 +159,7 @@ pub(super) fn place_m(sim: &Simulation, place: f64, length: f64) -> f64 {
 /// the flow runs towards −x.
 fn fill_planes(sim: &Simulation, frame: &mut Frame) {
     frame.planes.clear();
-    let Some(stress) = sim.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
+    let Some(stress) = sim.work.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
         return;
     };
     let sign = sim.door.heading.sign();
@@ -219,10 +220,15 @@ fn mirror_columns(damage: &mut [f32], depths: usize) {
 
 /// The damage map of a body.
 fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) {
-    let found = sim.counting.as_ref().and_then(|counting| {
+    let found = sim.state.counting.as_ref().and_then(|counting| {
         let size = sim.size_now();
         let (map, unit) = counting.map(body, size)?;
-        Some((map, unit, counting.pit(body, size)?, sim.stress.as_ref()?))
+        Some((
+            map,
+            unit,
+            counting.pit(body, size)?,
+            sim.work.stress.as_ref()?,
+        ))
     });
     let Some((map, unit, pit, stress)) = found else {
         *block = None;
@@ -248,10 +254,10 @@ fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) 
 
 /// The shown point, its stress interpolated in the slice of its body.
 fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
-    let counting = sim.counting.as_ref()?;
+    let counting = sim.state.counting.as_ref()?;
     let shown = counting.shown?;
-    let stress = sim.stress.as_ref()?;
-    let (grid, depth) = (&sim.march.grid, counting.shown_depth());
+    let stress = sim.work.stress.as_ref()?;
+    let (grid, depth) = (&sim.work.solver.grid, counting.shown_depth());
     let place = ((shown.x - grid.x_min) / grid.dx).clamp(0.0, (grid.nx - 2) as f64);
     let (i, t) = (place as usize, place.fract());
     let at = depth * grid.nx + i;
@@ -267,6 +273,11 @@ fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
             .door
             .pa_from_p(effective(at) * (1.0 - t) + effective(at + 1) * t),
         tau_xz_pa: sim.door.heading.sign() * sim.door.pa_from_p(shown.tau_xz),
-        cycles_counted: shown.counted,
+        cycles_counted: f64::from(shown.peaks),
+        last_peak: shown.last_peak.map(|peak| PassedPeak {
+            x_m: sim.door.place_m(peak.x),
+            pressure_pa: sim.door.pa_from_p(peak.value),
+        }),
+        cycles_before: shown.closed_before,
     })
 }

@@ -41,22 +41,22 @@ impl Simulation {
     /// [`SimError::State`] when the neighbour's passage had not begun or its fields do not fit; the simulation
     /// is as it was.
     pub fn follow(&mut self, neighbour: &State) -> Result<(), SimError> {
-        let parts = self.handed_over(neighbour)?;
-        let dt = self.motion.nodes * self.plan.domain.dx_a();
+        self.take_over(neighbour)?;
+        let dt = self.state.motion.nodes * self.plan.domain.dx_a();
         let goal = self.cold_ways(dt);
-        self.march = parts.march;
         for knob in FREE {
-            let wanted = self.wanted.get(knob).target;
-            self.drive.jump(knob, parts.drive.get(knob).now);
-            self.drive.aim(knob, wanted);
+            let wanted = self.state.wanted.get(knob).target;
+            self.state.drive.jump(knob, neighbour.drive.get(knob).now);
+            self.state.drive.aim(knob, wanted);
         }
         for knob in [Knob::ForceN, Knob::ForceNPerM, Knob::EntrainmentMS] {
-            self.drive.jump(knob, self.wanted.get(knob).target);
+            self.state
+                .drive
+                .jump(knob, self.state.wanted.get(knob).target);
         }
-        self.motion.travelled = parts.travelled;
         let walk = FREE
             .map(|knob| {
-                let setting = self.drive.get(knob);
+                let setting = self.state.drive.get(knob);
                 (setting.target - setting.now).abs() / setting.rate
             })
             .into_iter()
@@ -72,14 +72,14 @@ impl Simulation {
             plan = Settling::new(walk.max(over), dt);
         }
         let lead = self.lead_after(&plan, goal);
-        self.motion.lead(lead, over);
-        self.motion.disturb(plan.length());
-        self.phase = Phase::Settle {
+        self.state.motion.lead(lead, over);
+        self.state.motion.disturb(plan.length());
+        self.state.phase = Phase::Settle {
             coarse: plan.coarse,
             fine: plan.fine,
         };
-        self.start_up_steps = (0, plan.coarse + plan.fine);
-        self.watched = self.motion.travelled;
+        self.state.start_up_steps = (0, plan.coarse + plan.fine);
+        self.state.watched = self.state.motion.travelled;
         self.see_again();
         Ok(())
     }
@@ -87,8 +87,8 @@ impl Simulation {
     /// What both surfaces lack of their places after settling.
     fn lead_after(&self, plan: &Settling, goal: [f64; 2]) -> [f64; 2] {
         let half = ways(
-            &self.drive,
-            self.motion.travelled,
+            &self.state.drive,
+            self.state.motion.travelled,
             (plan.coarse, COARSE * plan.dt),
         );
         let end = ways(&half.0, half.1, (plan.fine, plan.dt)).1;
@@ -98,7 +98,7 @@ impl Simulation {
     /// What a way is short of, modulo the body's wave: between −W/2 and W/2. A body without one wave along x
     /// has no place to be led to.
     fn missing(&self, body: usize, way: f64) -> f64 {
-        match self.terrain.wavenumbers(body).map(f64::abs) {
+        match self.work.terrain.wavenumbers(body).map(f64::abs) {
             [one, two] if one > 0.0 && (two == 0.0 || two == one) => {
                 let wave = std::f64::consts::TAU / one;
                 way - wave * (way / wave).round()
@@ -115,14 +115,14 @@ impl Simulation {
     fn cold_ways(&self, dt: f64) -> [f64; 2] {
         let smooth = self.smooth_way();
         let steps = (DEVELOP / dt).ceil() as u64;
-        let mut drive = self.wanted.clone();
+        let mut drive = self.state.wanted.clone();
         for knob in FREE {
             drive.jump(knob, 0.0);
-            drive.aim(knob, self.wanted.get(knob).target);
+            drive.aim(knob, self.state.wanted.get(knob).target);
         }
-        let developing = self.terrain.is_rough(0)
-            || self.terrain.is_rough(1)
-            || self.wanted.get(Knob::SlideRoll).target != 0.0;
+        let developing = self.work.terrain.is_rough(0)
+            || self.work.terrain.is_rough(1)
+            || self.state.wanted.get(Knob::SlideRoll).target != 0.0;
         let steps = if developing { steps } else { 0 };
         ways(&drive, [smooth; 2], (steps, dt)).1
     }

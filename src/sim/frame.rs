@@ -30,6 +30,8 @@ pub struct Frame {
     pub time_s: f64,
     /// Part of the run.
     pub stage: Stage,
+    /// How much of the start-up is done, 0 to 1.
+    pub start_up: f64,
     /// Point or line; a line's rows are all alike and its `b_m` is its `a_m`, for the sake of the picture.
     pub kind: ContactKind,
     /// Lengths of 4 a travelled at U since the start of the passage.
@@ -164,8 +166,22 @@ pub struct MaterialPoint {
     pub effective_pa: f64,
     /// Signed orthogonal shear at the point, Pa.
     pub tau_xz_pa: f64,
-    /// Cycles counted so far in this crossing (rainflow of the pressure, gate 5 % of p_h).
+    /// Peaks of the pressure passed so far in this crossing, each of which closes one cycle (a peak has passed
+    /// when the pressure has fallen from it by rainflow's gate, 5 % of p_h).
     pub cycles_counted: f64,
+    /// The last of them.
+    pub last_peak: Option<PassedPeak>,
+    /// Cycles that rainflow closed in the point's last whole crossing.
+    pub cycles_before: Option<f64>,
+}
+
+/// A peak of the pressure on a material point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PassedPeak {
+    /// Where, m.
+    pub x_m: f64,
+    /// How high, Pa.
+    pub pressure_pa: f64,
 }
 
 /// Scalars of one step. NaN never appears: what is not known yet is `None`.
@@ -218,13 +234,17 @@ pub struct Metrics {
     pub regime: LubricationRegime,
     /// |carried - asked|/asked.
     pub load_error: f64,
-    /// Σ|film equation's residual| over the mass in the pressurised zone; the next step takes it over.
+    /// Σ|film equation's residual| over the mass in the pressurised zone; the next step takes it over. Of a dry step the
+    /// greatest gap or overlap of touching nodes, over the film that p_h on one node makes.
     pub film_error: f64,
     /// The part of that which no step takes over: mass lost or made.
     pub mass_error: f64,
     /// Deepest overlap of the surfaces in a step that did not converge, or at an edge of the domain, where
     /// contact is cut off (a step that is then not called converged), m; else 0.
     pub overlap_m: f64,
+    /// What `residual` and `film_error` may be.
+    #[serde(default)]
+    pub asked: [f64; 2],
     /// Friction force over load, positive.
     pub friction_coefficient: f64,
     /// Greatest effective stress in the slice (or volume), Pa.
@@ -313,11 +333,12 @@ pub struct LifeEstimate {
     pub load_factor: f64,
     /// Relative life.
     pub life_relative: f64,
-    /// Lower end of the band from the discretisation error.
+    /// Lower end of the band: of the discretisation error, and of what a mean without a common period still wanders.
     pub life_relative_low: f64,
     /// Upper end of the band.
     pub life_relative_high: f64,
-    /// Whether a full period has been averaged since the last knob change.
+    /// Whether no step of a ramp, or of what the ramp left in the film, is in the average, and the average has stopped
+    /// moving within its own band.
     pub settled: bool,
     /// Both bodies, other forms, other models.
     pub detail: LifeDetail,

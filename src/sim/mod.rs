@@ -7,6 +7,7 @@ mod drive;
 mod error;
 mod fatigue_stage;
 mod fill;
+mod fitness;
 mod follow;
 mod frame;
 mod knob;
@@ -18,6 +19,7 @@ mod pace;
 mod present;
 mod reference;
 mod regime;
+mod settling;
 mod setup;
 mod simulation;
 mod smooth;
@@ -33,10 +35,10 @@ mod variant;
 mod watching;
 
 pub use caution::{Caution, CautionCode, Grounds};
-pub use error::{SimError, StepError};
+pub use error::{SimError, StepError, Unsolved};
 pub use frame::{
     DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,
-    Repeat, Rhythm, Stage, StressPlane, StressSlice,
+    PassedPeak, Repeat, Rhythm, Stage, StressPlane, StressSlice,
 };
 pub use knob::Knob;
 pub use lubrication::LubricationRegime;

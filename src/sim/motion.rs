@@ -47,6 +47,14 @@ impl Motion {
         }
     }
 
+    /// Whether a motion that was saved is of the same make as this one.
+    pub(super) fn fits(&self, saved: &Self) -> bool {
+        self.nodes == saved.nodes
+            && self.shear_rate == saved.shear_rate
+            && saved.unsettled >= 0.0
+            && saved.lead.1 >= 0.0
+    }
+
     /// Moves both bodies by a step of `nodes` nodes at slide-to-roll ratio `s`.
     pub(super) fn travel(&mut self, grid: &Grid, nodes: f64, s: f64) {
         let dt = nodes * grid.dx;
@@ -98,8 +106,8 @@ impl Motion {
         self.unsettled = 0.0;
     }
 
-    /// Whether the contact has been flushed since the last disturbance.
+    /// Whether the contact has been flushed since the last disturbance; what rounding leaves is no time.
     pub(super) fn is_flushed(&self) -> bool {
-        self.unsettled == 0.0
+        self.unsettled < 1e-9
     }
 }

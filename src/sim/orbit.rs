@@ -111,11 +111,12 @@ impl Orbit {
         }
     }
 
-    /// Whether every field has `len` nodes.
+    /// Whether every field has `len` nodes, and the period is one.
     pub(super) fn fits(&self, len: usize) -> bool {
-        std::iter::once(&self.reference)
-            .chain(&self.ring)
-            .all(|s| s.pressure.len() == len && s.film.len() == len)
+        self.period > 0.0
+            && std::iter::once(&self.reference)
+                .chain(&self.ring)
+                .all(|s| s.pressure.len() == len && s.film.len() == len)
     }
 
     /// Begins anew: what was before belongs to other conditions.

@@ -106,6 +106,11 @@ impl Pace {
         }
     }
 
+    /// Whether a pace that was read from a file can be kept.
+    pub(super) fn is_sound(&self) -> bool {
+        self.nodes > 0.0 && self.last.is_none_or(|last| last > 0.0)
+    }
+
     /// The next step, in nodes; `crest` is how many nodes of travel at U bring one crest past a material
     /// point.
     pub(super) fn next(&self, stepping: Stepping, crest: f64) -> f64 {

@@ -9,23 +9,23 @@ use crate::solve::march::Flow;
 impl Simulation {
     /// a and p_h of the present load over those of the scene's.
     pub(super) fn size_now(&self) -> f64 {
-        let load = self.drive.get(self.door.load_knob()).now / self.plan.force_n;
+        let load = self.state.drive.get(self.door.load_knob()).now / self.plan.force_n;
         self.door.size_ratio(load)
     }
 
     /// Films, regime and mesh error of the committed step.
     pub(super) fn publish_lubrication(&mut self, measured: &Measured) {
-        let film = self.regime.film_now(&self.door, &self.drive);
-        let flows = self.regime.flow_now(&self.door, &self.drive) != Flow::Dry;
+        let film = self.regime.film_now(&self.door, &self.state.drive);
+        let flows = self.regime.flow_now(&self.door, &self.state.drive) != Flow::Dry;
         let errors = self.mesh_errors_now(film);
-        let (m, door) = (&mut self.metrics, &self.door);
+        let (m, door) = (&mut self.state.metrics, &self.door);
         m.h_central_m = door.m_from_h(measured.h_central);
         m.h_min_m = door.m_from_h(measured.h_min);
         m.h_mean_m = door.m_from_h(measured.h_mean);
         m.contact_ratio = measured.contact_ratio;
         m.contact_load_ratio = measured.contact_load_ratio;
-        m.amplitude_1_m = self.drive.get(Knob::Amplitude1M).now;
-        m.amplitude_2_m = self.drive.get(Knob::Amplitude2M).now;
+        m.amplitude_1_m = self.state.drive.get(Knob::Amplitude1M).now;
+        m.amplitude_2_m = self.state.drive.get(Knob::Amplitude2M).now;
         let rq = (m.amplitude_1_m * self.composite[0]).hypot(m.amplitude_2_m * self.composite[1]);
         m.lambda_ratio = film.and_then(|film| film.lambda(rq));
         m.film_to_roughness = (rq > 0.0).then(|| m.h_mean_m / rq);
@@ -35,7 +35,7 @@ impl Simulation {
 
     /// Errors by the mesh that the start-up found, carried on to the present speed and load.
     fn mesh_errors_now(&self, film: Option<FilmPlan>) -> Option<MeshErrors> {
-        let found = self.mesh_errors?;
+        let found = self.state.mesh_errors?;
         let own = self.plan.film.map(|film| self.mesh_rule(&film, 1.0));
         let now = film.map(|film| self.mesh_rule(&film, self.size_now()));
         let films = own.zip(now).map_or(1.0, |(own, now)| now / own);
@@ -54,18 +54,18 @@ impl Simulation {
 
     /// What cautions rest on beside the scalars.
     pub(super) fn grounds(&self) -> Grounds {
-        let film = self.regime.film_now(&self.door, &self.drive);
-        let flows = self.regime.flow_now(&self.door, &self.drive) != Flow::Dry;
-        let measured = self.metrics.errors.map(|errors| errors.h_central);
+        let film = self.regime.film_now(&self.door, &self.state.drive);
+        let flows = self.regime.flow_now(&self.door, &self.state.drive) != Flow::Dry;
+        let measured = self.state.metrics.errors.map(|errors| errors.h_central);
         let by_rule = film.map(|film| self.mesh_rule(&film, self.size_now()));
         let mut grounds = Grounds {
-            steps: self.step,
+            steps: self.state.step,
             film_m: film.map(|film| film.central_m),
             flows,
             mesh_film: measured.or(by_rule).filter(|_| flows),
             ..self.grounds
         };
-        self.totals.ground(&mut grounds);
+        self.state.totals.ground(&mut grounds);
         grounds
     }
 }

@@ -19,7 +19,7 @@ use crate::scene::VolumeIntegral;
 use crate::solve::stress::Loading;
 
 /// Loading cycles of the smooth contact, where the scene gives a point of them.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Calibration {
     /// Cycles of the point.
     pub(super) cycles: f64,

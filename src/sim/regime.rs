@@ -10,10 +10,12 @@
 use super::door::Door;
 use super::drive::Drive;
 use super::knob::Knob;
+use super::motion::Motion;
 use super::smooth::Conditions;
 use crate::plan::{FilmPlan, Plan};
 use crate::solve::march::Flow;
 use crate::solve::newton::Tolerance;
+use crate::solve::traction::TractionLaw;
 
 /// The rule, and the tolerances on both sides of it.
 #[derive(Debug, Clone, Copy)]
@@ -74,6 +76,28 @@ impl Regime {
         match self.film_now(door, drive) {
             Some(film) if film.flows() => self.wet,
             _ => Flow::Dry,
+        }
+    }
+
+    /// The traction law at the knobs' present values: of the film, if there is one, and of contact. `law` is that of the
+    /// scene's oil.
+    pub(super) fn law_now(
+        &self,
+        law: &TractionLaw,
+        door: &Door,
+        drive: &Drive,
+        motion: &Motion,
+    ) -> TractionLaw {
+        let now = |knob| drive.get(knob).now;
+        let (s, u) = (now(Knob::SlideRoll), now(Knob::EntrainmentMS));
+        let mut law = *law;
+        law.direction = if s == 0.0 { 0.0 } else { s.signum() };
+        if let Some(film) = &mut law.film {
+            film.rate = motion.shear_rate * (s * u).abs();
+        }
+        match self.flow_now(door, drive) {
+            Flow::Dry => law.without_film(),
+            Flow::Film | Flow::MassConserving => law,
         }
     }
 

@@ -14,15 +14,17 @@ use super::orbit::{LONGEST, Orbit};
 use super::pace::{Pace, Stepping};
 use super::regime::Regime;
 use super::simulation::{Phase, Simulation};
+use super::state::{State, Work};
 use super::stepping::Attempted;
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
+use super::totals::Totals;
 use super::{Grounds, Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::strength;
 use crate::plan::Plan;
 use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
-use crate::solve::march::{Flow, March, Shape};
+use crate::solve::march::{Flow, Shape, Solver};
 use crate::solve::material::DamageBasis;
 use crate::solve::newton::Tolerance;
 use crate::solve::stress::{Cut, Purpose};
@@ -45,7 +47,8 @@ impl Simulation {
         let grid = grid_of(&plan, first, door.b_over_a);
         let film = plan.film.map_or(0.0, |film| film.central);
         let nodes = scene.time.step_nodes;
-        let march = pool.install(|| March::from_hertz(grid, &shape, film, nodes, flow));
+        let mut solver = pool.install(|| Solver::new(grid, &shape, nodes, flow));
+        let contact = pool.install(|| solver.hertz(&shape, film));
         let fine = grid_of(&plan, plan.domain.nodes, door.b_over_a);
         let stages = pool.install(|| Stages::new(scene, &plan, &fine, &door))?;
         let (wanted, drive) = drives(scene, &plan);
@@ -55,50 +58,60 @@ impl Simulation {
         let regime = Regime::new(&plan, flow, speed_m_s, |flow| {
             tolerance_of(scene, flow, &door)
         });
-        let mut this = Self {
-            traction: vec![0.0; fine.len()],
-            row_sums: vec![RowSums::default(); fine.ny],
-            counting: stages.counting,
-            cuts: cuts(scene),
-            iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
-            stress_error: stress_error(&plan),
-            terrain: Terrain::new(&fine, scene.surfaces(), door.a_m, door.heading),
-            law: traction_law(scene, &door),
-            motion: motion_of(scene, &door),
-            orbit: Orbit::new(fine.len(), plan.passage_a),
-            plan,
-            door,
-            march,
+        let state = State {
+            nodes: first,
+            contact,
             drive,
+            wanted,
+            motion: motion_of(scene, &door),
             watched: [0.0; 2],
-            stress: stages.stress,
+            counting: stages.counting,
             life: stages.life,
             smooth: None,
-            shape,
-            flow,
-            regime,
-            pool: Arc::new(pool),
             phase: Phase::Smooth { left: 0 },
-            wanted,
             metrics: Metrics::default(),
             stats: Stats::default(),
-            totals: super::totals::Totals::new(most_steps),
+            totals: Totals::default(),
             coarser: None,
             mesh_errors: None,
-            grounds: grounds_of(scene),
-            composite: scene.surfaces().map(rms_share),
+            orbit: Orbit::new(fine.len(), plan.passage_a),
             pace: Pace::new(stepping),
-            stepping,
             way: 0.0,
             next_volume: 0.0,
             step: 0,
             time_s: 0.0,
             start_up_steps: (0, 1),
         };
-        this.phase = Phase::Smooth {
+        let mut this = Self {
+            work: Work {
+                solver,
+                terrain: Terrain::new(&fine, scene.surfaces(), door.a_m, door.heading),
+                stress: stages.stress,
+                traction: vec![0.0; fine.len()],
+                row_sums: vec![RowSums::default(); fine.ny],
+                smooth: None,
+            },
+            cuts: cuts(scene),
+            iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
+            stress_error: stress_error(&plan),
+            law: traction_law(scene, &door),
+            composite: scene.surfaces().map(rms_share),
+            grounds: grounds_of(scene),
+            plan,
+            door,
+            shape,
+            flow,
+            regime,
+            stepping,
+            most_steps: most_steps.ceil() as usize,
+            pool: Arc::new(pool),
+            state,
+        };
+        this.make_room();
+        this.state.phase = Phase::Smooth {
             left: this.smooth_steps(first, this.plan.has_flow()),
         };
-        this.start_up_steps.1 = this.all_start_up_steps(first);
+        this.state.start_up_steps.1 = this.all_start_up_steps();
         let measured = this.measure();
         this.publish(&Attempted::default(), &measured);
         Ok(this)
@@ -190,26 +203,17 @@ fn flow_of(scene: &Scene) -> Flow {
 const LEAST_FILM_M: f64 = 1e-9;
 
 fn tolerance_of(scene: &Scene, flow: Flow, door: &Door) -> Tolerance {
-    let wet = |share: f64| {
-        if flow == Flow::Dry {
-            f64::INFINITY
-        } else {
-            share * scene.numerics.tolerance
-        }
-    };
+    let asked = scene.numerics.tolerance;
+    // A dry contact has no mass to balance; pressure and gap are judged by a tighter tolerance, which costs one
+    // iteration and leaves less than a picometre of overlap.
+    let by_flow = |wet: f64, dry: f64| if flow == Flow::Dry { dry } else { wet };
     Tolerance {
-        // A dry contact has no mass to balance; its gap is judged by a tighter change of pressure instead,
-        // which costs one iteration and leaves less than a picometre of overlap.
-        pressure: if flow == Flow::Dry {
-            1e-3 * scene.numerics.tolerance
-        } else {
-            scene.numerics.tolerance
-        },
+        pressure: by_flow(asked, 1e-3 * asked),
         // What a step leaves of its film equation the next one takes over, so it need not be small against
         // the pressure's tolerance: a hundredth of the film, at 1e-3. Films of one step are then within 5e-6
         // (`tests/converged_step.rs`), lives of a passage the same to five digits from 1e-2 to 1e-4 (accuracy study).
-        film: wet(10.0),
-        mass: wet(0.1),
+        film: by_flow(10.0 * asked, 1e-3 * asked),
+        mass: by_flow(0.1 * asked, f64::INFINITY),
         least_film: door.h_from_m(LEAST_FILM_M),
         load: 1e-5,
         max_iterations: scene.numerics.max_iterations,

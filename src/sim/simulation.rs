@@ -12,24 +12,14 @@ use std::sync::Arc;
 use rayon::ThreadPool;
 use serde::{Deserialize, Serialize};
 
-use super::counting::Counting;
 use super::door::Door;
-use super::drive::Drive;
-use super::fatigue_stage::LifeStage;
-use super::measure::{Measured, RowSums};
-use super::motion::Motion;
-use super::orbit::Orbit;
-use super::pace::{Pace, Stepping};
+use super::pace::Stepping;
 use super::regime::Regime;
-use super::smooth::Smooth;
+use super::state::{State, Work};
 use super::stepping::{Attempted, Mover};
-use super::stress_stage::StressStage;
-use super::terrain::Terrain;
-use super::{
-    Frame, Grounds, Knob, MeshErrors, Metrics, SimError, Stage, Stats, StepError, Summary,
-};
+use super::{Frame, Grounds, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
 use crate::plan::{March as Marching, Plan};
-use crate::solve::march::{Flow, March, Shape};
+use crate::solve::march::{Flow, Shape};
 use crate::solve::stress::Cut;
 use crate::solve::traction::TractionLaw;
 
@@ -50,52 +40,28 @@ pub(super) enum Phase {
     Passage,
 }
 
-/// The simulation of one scene.
+/// The simulation of one scene: what follows from the scene, the state, and the workspace.
 pub struct Simulation {
     pub(super) plan: Plan,
     pub(super) door: Door,
-    pub(super) march: March,
-    pub(super) terrain: Terrain,
-    pub(super) drive: Drive,
-    pub(super) motion: Motion,
-    pub(super) watched: [f64; 2],
-    pub(super) stress: Option<StressStage>,
-    pub(super) traction: Vec<f64>,
-    pub(super) row_sums: Vec<RowSums>,
-    pub(super) counting: Option<Counting>,
-    pub(super) cuts: Vec<Cut>,
-    pub(super) iso_load_ratio: Option<f64>,
-    pub(super) life: Option<LifeStage>,
-    /// On its way to the reference of now; `None`: that is known.
-    pub(super) smooth: Option<Box<Smooth>>,
-    pub(super) stress_error: f64,
-    pub(super) law: TractionLaw,
     pub(super) shape: Shape,
+    /// Flow of the films that are films.
     pub(super) flow: Flow,
     pub(super) regime: Regime,
-    pub(super) pool: Arc<ThreadPool>,
-    pub(super) phase: Phase,
-    pub(super) wanted: Drive,
-    pub(super) metrics: Metrics,
-    pub(super) stats: Stats,
-    pub(super) totals: super::totals::Totals,
-    /// The smooth contact on the last but one grid.
-    pub(super) coarser: Option<Measured>,
-    /// Errors by the mesh of the smooth contact at the scene's speed and load.
-    pub(super) mesh_errors: Option<MeshErrors>,
+    /// Traction law of the scene's oil; its speed is the step's.
+    pub(super) law: TractionLaw,
     /// What cautions rest on, as far as the scene gives it.
     pub(super) grounds: Grounds,
-    pub(super) composite: [f64; 2],
-    pub(super) orbit: Orbit,
     pub(super) stepping: Stepping,
-    pub(super) pace: Pace,
-    /// Way at U since the start-up, in a.
-    pub(super) way: f64,
-    /// Way at which the next volume integral is due, in a.
-    pub(super) next_volume: f64,
-    pub(super) step: u64,
-    pub(super) time_s: f64,
-    pub(super) start_up_steps: (u64, u64),
+    pub(super) cuts: Vec<Cut>,
+    pub(super) iso_load_ratio: Option<f64>,
+    pub(super) stress_error: f64,
+    pub(super) composite: [f64; 2],
+    /// Steps that the summary may have to average over.
+    pub(super) most_steps: usize,
+    pub(super) pool: Arc<ThreadPool>,
+    pub(super) state: State,
+    pub(super) work: Work,
 }
 
 impl Simulation {
@@ -115,128 +81,147 @@ impl Simulation {
     }
 
     fn step_inside(&mut self) -> Result<(), StepError> {
-        self.stats.steps += 1;
-        match self.phase {
+        self.state.stats.steps += 1;
+        match self.state.phase {
             Phase::Smooth { left: 0 } => self.refine_or_develop(),
             Phase::Smooth { left } => {
                 self.advance()?;
-                self.phase = Phase::Smooth { left: left - 1 };
-                self.start_up_steps.0 += 1;
+                self.state.phase = Phase::Smooth { left: left - 1 };
+                self.state.start_up_steps.0 += 1;
                 Ok(())
             }
             Phase::Settle { coarse: 0, fine: 0 } => {
-                self.phase = Phase::Develop { left: 0 };
-                self.stats.steps -= 1;
+                self.state.phase = Phase::Develop { left: 0 };
+                self.state.stats.steps -= 1;
                 self.step_inside()
             }
             Phase::Settle { coarse, fine } => {
                 self.advance()?;
-                self.phase = Phase::Settle {
+                self.state.phase = Phase::Settle {
                     coarse: coarse.saturating_sub(1),
                     fine: fine - u64::from(coarse == 0),
                 };
-                self.start_up_steps.0 += 1;
+                self.state.start_up_steps.0 += 1;
                 Ok(())
             }
             Phase::Develop { left: 0 } => {
-                self.phase = Phase::Passage;
-                (self.time_s, self.way) = (0.0, 0.0);
-                self.motion.launch();
+                self.state.phase = Phase::Passage;
+                (self.state.time_s, self.state.way) = (0.0, 0.0);
+                self.state.motion.launch();
                 self.forget_passage();
                 self.passage_step()
             }
             Phase::Develop { left } => {
                 self.step_smooth()?;
                 self.advance()?;
-                self.phase = Phase::Develop { left: left - 1 };
-                self.start_up_steps.0 += 1;
+                self.state.phase = Phase::Develop { left: left - 1 };
+                self.state.start_up_steps.0 += 1;
                 Ok(())
             }
             Phase::Passage => self.passage_step(),
         }
     }
 
-    /// Counts and phases seen so far belong to other conditions.
+    /// Counts and phases seen so far belong to other conditions. The next step is looked at.
     fn forget_passage(&mut self) {
-        self.orbit.restart();
+        self.state.orbit.restart();
         let window = self.averaged();
-        if let Some(life) = &mut self.life {
+        if let Some(life) = &mut self.state.life {
             life.restart(window);
         }
-        if let Some(counting) = &mut self.counting {
-            counting.restart(self.motion.travelled);
+        self.state.next_volume = self.state.way;
+        if let Some(counting) = &mut self.state.counting {
+            counting.restart(self.state.watched);
+        }
+    }
+
+    /// What a step of the passage leaves to be averaged: while a knob walks, and until what entered meanwhile has
+    /// left the contact, nothing. What was seen of it so far is shown as on its way, and forgotten here.
+    fn count_from_here(&mut self, walked: bool, was_flushed: bool) {
+        if self.state.phase != Phase::Passage {
+            return;
+        }
+        if walked {
+            self.state.motion.disturb(DEVELOP);
+        } else if !was_flushed && self.state.motion.is_flushed() {
+            self.forget_passage();
+            self.state.totals.restart();
         }
     }
 
     fn passage_step(&mut self) -> Result<(), StepError> {
         self.step_smooth()?;
-        let before = self.way;
-        let held = matches!(self.plan.march, Marching::Steady { .. }) && self.motion.is_flushed();
+        let before = self.state.way;
+        let held =
+            matches!(self.plan.march, Marching::Steady { .. }) && self.state.motion.is_flushed();
         if held {
-            self.time_s += self.motion.dt_s(&self.march.grid, &self.door, &self.drive);
-            let held = Attempted::held(&self.metrics, self.motion.nodes);
+            self.state.time_s +=
+                self.state
+                    .motion
+                    .dt_s(&self.work.solver.grid, &self.door, &self.state.drive);
+            let held = Attempted::held(&self.state.metrics, self.state.motion.nodes);
             self.watch(&held);
-            self.way += held.nodes * self.march.grid.dx;
+            self.state.way += held.nodes * self.work.solver.grid.dx;
         } else {
             self.advance()?;
         }
-        self.step += 1;
+        self.state.step += 1;
         self.look_for_orbit(before);
-        self.totals.push(&self.metrics, self.way, self.averaged());
+        self.state
+            .totals
+            .push(&self.state.metrics, self.state.way, self.averaged());
         Ok(())
     }
 
     /// One time step: solved, committed, measured.
     pub(super) fn advance(&mut self) -> Result<(), StepError> {
-        let law = self.law_of_oil();
         let (stepping, nodes) = self.next_step();
+        let (walked, was_flushed) = (
+            self.state.drive.is_walking(),
+            self.state.motion.is_flushed(),
+        );
+        let transforms = self.work.solver.transforms();
         let attempted = self.pool.install(|| {
             Mover {
-                march: &mut self.march,
-                terrain: &mut self.terrain,
-                drive: &mut self.drive,
-                motion: &mut self.motion,
+                state: &mut self.state.contact,
+                solver: &mut self.work.solver,
+                terrain: &mut self.work.terrain,
+                drive: &mut self.state.drive,
+                motion: &mut self.state.motion,
                 door: &self.door,
-                law,
+                law: &self.law,
                 regime: self.regime,
                 stepping,
             }
             .advance(nodes)
         });
-        self.count(&attempted);
-        if let Some(error) =
-            attempted.fatal(self.time_s, self.regime.tolerance(self.march.flow).pressure)
-        {
+        let made = self.work.solver.transforms() - transforms;
+        self.state.stats.add(&attempted, made);
+        if let Some(error) = attempted.fatal(self.state.time_s) {
             return Err(error);
         }
-        self.time_s += attempted.dt_s;
+        self.state.time_s += attempted.dt_s;
+        self.count_from_here(walked, was_flushed);
         self.watch(&attempted);
-        let dx = self.march.grid.dx;
-        self.way += attempted.nodes * dx;
-        self.pace
+        let dx = self.work.solver.grid.dx;
+        self.state.way += attempted.nodes * dx;
+        self.state
+            .pace
             .learn(stepping, attempted.path_error, attempted.nodes);
         Ok(())
     }
 
-    /// Adds up the work of a step.
-    pub(super) fn count(&mut self, attempted: &Attempted) {
-        self.stats.newton_iterations += u64::from(attempted.newton);
-        self.stats.linear_iterations += u64::from(attempted.linear);
-        self.stats.ffts += attempted.ffts;
-        self.stats.retries += u64::from(attempted.retries);
-        self.stats.halved += u64::from(attempted.halvings > 0);
-        self.stats.safer += u64::from(attempted.safer);
-        self.stats.rejected += u64::from(attempted.rejected);
-    }
-
     /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
     fn next_step(&self) -> (Stepping, f64) {
-        if let Phase::Settle { coarse: 1.., .. } = self.phase {
-            let nodes = super::follow::COARSE * self.motion.nodes;
+        if let Phase::Settle { coarse: 1.., .. } = self.state.phase {
+            let nodes = super::follow::COARSE * self.state.motion.nodes;
             return (Stepping::Fixed(nodes), nodes);
         }
-        if self.phase != Phase::Passage {
-            return (Stepping::Fixed(self.motion.nodes), self.motion.nodes);
+        if self.state.phase != Phase::Passage {
+            return (
+                Stepping::Fixed(self.state.motion.nodes),
+                self.state.motion.nodes,
+            );
         }
         let crests = self
             .plan
@@ -244,17 +229,17 @@ impl Simulation {
             .iter()
             .flatten()
             .map(|wave| wave.crests_per_m);
-        let sliding = self.drive.get(Knob::SlideRoll).now.abs();
-        let crest = match &self.counting {
+        let sliding = self.state.drive.get(Knob::SlideRoll).now.abs();
+        let crest = match &self.state.counting {
             Some(_) => 1.0 / (crests.fold(0.0, f64::max) * sliding * self.plan.dx_m),
             None => f64::INFINITY,
         };
-        (self.stepping, self.pace.next(self.stepping, crest))
+        (self.stepping, self.state.pace.next(self.stepping, crest))
     }
 
     /// Way over which the summary averages, in a.
     pub(super) fn averaged(&self) -> f64 {
-        self.orbit.window(self.plan.passage_a)
+        self.state.orbit.window(self.plan.passage_a)
     }
 
     /// Moves a knob's target.
@@ -299,15 +284,15 @@ impl Simulation {
             Knob::Amplitude2M => Some(1),
             _ => None,
         };
-        if body.is_some_and(|body| !self.terrain.is_rough(body)) {
+        if body.is_some_and(|body| !self.work.terrain.is_rough(body)) {
             return Err(refuse(
                 "this body is smooth: give it a surface in the scene".to_owned(),
             ));
         }
-        self.wanted.aim(knob, value);
-        if !matches!(self.phase, Phase::Smooth { .. }) {
-            self.drive.aim(knob, value);
-            self.motion.disturb(DEVELOP);
+        self.state.wanted.aim(knob, value);
+        if !matches!(self.state.phase, Phase::Smooth { .. }) {
+            self.state.drive.aim(knob, value);
+            self.state.motion.disturb(DEVELOP);
             self.forget_passage();
         }
         Ok(())
@@ -315,7 +300,7 @@ impl Simulation {
 
     /// Part of the run that the last step belongs to.
     pub fn stage(&self) -> Stage {
-        if self.phase == Phase::Passage && self.step > 0 {
+        if self.state.phase == Phase::Passage && self.state.step > 0 {
             Stage::Passage
         } else {
             Stage::StartUp
@@ -324,24 +309,33 @@ impl Simulation {
 
     /// How much of the run is done, 0 to 1, start-up included.
     pub fn progress(&self) -> f64 {
-        let (done, all) = self.start_up_steps;
+        let (done, all) = self.state.start_up_steps;
         let steps = self.plan.steps as f64;
         let passed = match self.stepping {
-            Stepping::Fixed(_) => self.step as f64,
-            Stepping::Adaptive { .. } => steps * self.way / self.plan.length_a,
+            Stepping::Fixed(_) => self.state.step as f64,
+            Stepping::Adaptive { .. } => steps * self.state.way / self.plan.length_a,
         };
         ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
     }
 
+    /// How much of the start-up is done, 0 to 1.
+    pub fn start_up_progress(&self) -> f64 {
+        let (done, all) = self.state.start_up_steps;
+        match self.stage() {
+            Stage::Passage => 1.0,
+            Stage::StartUp => (done as f64 / all.max(1) as f64).min(1.0),
+        }
+    }
+
     /// Time steps since the start-up.
     pub fn passage_steps(&self) -> u64 {
-        self.step
+        self.state.step
     }
 
     /// Simulated time since the start-up, s.
     pub fn time_s(&self) -> f64 {
-        if self.phase == Phase::Passage {
-            self.time_s
+        if self.state.phase == Phase::Passage {
+            self.state.time_s
         } else {
             0.0
         }
@@ -351,29 +345,31 @@ impl Simulation {
     pub fn is_done(&self) -> bool {
         let steady = matches!(self.plan.march, Marching::Steady { .. });
         let enough = match self.stepping {
-            Stepping::Adaptive { .. } if !steady => self.way >= self.plan.length_a * (1.0 - 1e-9),
-            _ => self.step >= self.plan.steps,
+            Stepping::Adaptive { .. } if !steady => {
+                self.state.way >= self.plan.length_a * (1.0 - 1e-9)
+            }
+            _ => self.state.step >= self.plan.steps,
         };
-        self.phase == Phase::Passage && enough
+        self.state.phase == Phase::Passage && enough
     }
 
     /// Scalars of the last step.
     pub fn metrics(&self) -> &Metrics {
-        &self.metrics
+        &self.state.metrics
     }
 
     /// Work done so far.
     pub fn stats(&self) -> &Stats {
-        &self.stats
+        &self.state.stats
     }
 
     /// Result so far.
     pub fn summary(&self) -> Summary {
         super::totals::summary(
             self,
-            &self.totals,
+            &self.state.totals,
             self.life_estimate().as_ref(),
-            self.stats,
+            self.state.stats,
         )
     }
 

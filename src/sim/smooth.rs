@@ -15,15 +15,14 @@ use serde::{Deserialize, Serialize};
 
 use super::drive::Drive;
 use super::motion::Motion;
+use super::pace::Stepping;
 use super::setup::{COARSEST, grid_of};
 use super::simulation::Simulation;
 use super::stepping::Mover;
 use super::terrain::Terrain;
 use super::{Knob, StepError};
-use crate::math::grid::Grid;
-use crate::plan::Plan;
 use crate::scene::Surface;
-use crate::solve::march::{self, March};
+use crate::solve::march::{Solver, State};
 
 /// Load (N, of a line N/m) and entrainment speed (m/s).
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -32,92 +31,46 @@ pub(super) struct Conditions {
     pub(super) speed_m_s: f64,
 }
 
-/// A smooth contact on its way to rest.
-pub(super) struct Smooth {
-    march: March,
-    terrain: Terrain,
-    drive: Drive,
-    motion: Motion,
-    at: Conditions,
-    left: u64,
-}
-
-/// What a restart needs of it.
+/// A smooth contact on its way to rest: state.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct State {
-    nodes: usize,
-    contact: march::State,
-    drive: Drive,
+pub(super) struct Smooth {
+    /// Nodes per side of its grid.
+    pub(super) nodes: usize,
+    contact: State,
+    pub(super) drive: Drive,
     motion: Motion,
-    at: Conditions,
-    left: u64,
+    pub(super) at: Conditions,
+    /// Steps to go on this grid.
+    pub(super) left: u64,
 }
 
-impl State {
-    /// Whether its fields are those of one of the plan's grids.
-    pub(super) fn fits(&self, plan: &Plan, b_over_a: f64) -> bool {
-        let finest = plan.domain.nodes;
-        let grids = std::iter::successors(Some(COARSEST.min(finest)), |n| Some(2 * (n - 1) + 1));
-        let known = grids.take_while(|n| *n <= finest).any(|n| n == self.nodes);
-        known && self.contact.fits(grid_of(plan, self.nodes, b_over_a).len())
-    }
+/// What solves it: workspace.
+pub(super) struct SmoothWork {
+    solver: Solver,
+    terrain: Terrain,
 }
 
 impl Smooth {
-    fn on(march: March, sim: &Simulation, at: Conditions, left: u64) -> Self {
-        let mut drive = sim.wanted.clone();
-        for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
-            drive.jump(knob, 0.0);
-        }
-        drive.jump(sim.door.load_knob(), at.load);
-        drive.jump(Knob::EntrainmentMS, at.speed_m_s);
-        Self {
-            terrain: smooth_terrain(&march.grid, sim),
-            march,
-            drive,
-            motion: Motion::new(sim.motion.nodes),
-            at,
-            left,
-        }
+    /// Whether its fields have `len` nodes; `unlike`: with deflection by traction.
+    pub(super) fn fits(&self, len: usize, unlike: bool) -> bool {
+        self.contact.fits(len, unlike) && self.contact.is_sound()
     }
-
-    /// What a restart needs.
-    pub(super) fn save(&self) -> State {
-        State {
-            nodes: self.march.grid.nx,
-            contact: self.march.state.clone(),
-            drive: self.drive.clone(),
-            motion: self.motion.clone(),
-            at: self.at,
-            left: self.left,
-        }
-    }
-}
-
-fn smooth_terrain(grid: &Grid, sim: &Simulation) -> Terrain {
-    let smooth = Surface::Smooth {};
-    Terrain::new(grid, [&smooth, &smooth], sim.door.a_m, sim.door.heading)
 }
 
 impl Simulation {
     /// Load and speed that the knobs go to.
     fn conditions(&self) -> Conditions {
+        let target = |knob| self.state.drive.get(knob).target;
         Conditions {
-            load: self.drive.get(self.door.load_knob()).target,
-            speed_m_s: self.drive.get(Knob::EntrainmentMS).target,
+            load: target(self.door.load_knob()),
+            speed_m_s: target(Knob::EntrainmentMS),
         }
-    }
-
-    /// Load and speed that the scene begins with.
-    pub(super) fn base(&self) -> Conditions {
-        self.regime.base()
     }
 
     /// Whether the reference is that of the load and speed that the knobs go to.
     pub(super) fn has_reference_of_now(&self) -> bool {
-        self.life
-            .as_ref()
-            .is_none_or(|life| life.reference_at == self.conditions())
+        let life = self.state.life.as_ref();
+        life.is_none_or(|life| life.reference_at == self.conditions())
     }
 
     /// One step of the smooth contact, where the reference is another one's.
@@ -125,111 +78,116 @@ impl Simulation {
     /// # Errors
     /// [`StepError`] as of the run's own steps.
     pub(super) fn step_smooth(&mut self) -> Result<(), StepError> {
-        let mut smooth = match self.smooth.take() {
+        let mut smooth = match self.state.smooth.take() {
             Some(smooth) => smooth,
             None if self.has_reference_of_now() => return Ok(()),
-            None => Box::new(self.begin_smooth(self.conditions())),
+            None => self.begin_smooth(self.conditions()),
         };
         if smooth.left == 0 {
-            let nx = smooth.march.grid.nx;
-            if nx == self.plan.domain.nodes {
+            if smooth.nodes == self.plan.domain.nodes {
+                self.work.smooth = None;
                 self.take_smooth(&smooth);
                 return Ok(());
             }
-            self.refine_smooth(&mut smooth, 2 * (nx - 1) + 1);
+            self.refine_smooth(&mut smooth);
         }
         self.advance_smooth(&mut smooth)?;
         smooth.left -= 1;
-        self.smooth = Some(smooth);
+        self.state.smooth = Some(smooth);
         Ok(())
+    }
+
+    /// A Hertz contact of that load on the coarsest grid.
+    fn begin_smooth(&mut self, at: Conditions) -> Smooth {
+        let nodes = COARSEST.min(self.plan.domain.nodes);
+        let size = self.door.size_ratio(at.load / self.plan.force_n);
+        let film = self.regime.film_at(at);
+        let central = film.map_or(0.0, |film| self.door.h_from_m(film.central_m));
+        let mut drive = self.state.wanted.clone();
+        for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
+            drive.jump(knob, 0.0);
+        }
+        drive.jump(self.door.load_knob(), at.load);
+        drive.jump(Knob::EntrainmentMS, at.speed_m_s);
+        let mut work = self.smooth_work(nodes);
+        let hertz = || work.solver.hertz_of_size(&self.shape, (size, central));
+        let contact = self.pool.install(hertz);
+        self.work.smooth = Some(work);
+        Smooth {
+            nodes,
+            contact,
+            drive,
+            motion: Motion::new(self.state.motion.nodes),
+            at,
+            left: self.smooth_steps(nodes, self.flows_at(at)),
+        }
     }
 
     fn flows_at(&self, at: Conditions) -> bool {
         self.regime.film_at(at).is_some_and(|film| film.flows())
     }
 
-    /// A Hertz contact of that load on the coarsest grid.
-    fn begin_smooth(&self, at: Conditions) -> Smooth {
-        let nodes = COARSEST.min(self.plan.domain.nodes);
+    /// The solver for a grid of so many nodes per side, made where there is none.
+    fn smooth_work(&mut self, nodes: usize) -> SmoothWork {
+        let there = self.work.smooth.take();
+        if let Some(work) = there.filter(|work| work.solver.grid.nx == nodes) {
+            return work;
+        }
         let grid = grid_of(&self.plan, nodes, self.door.b_over_a);
-        let load = at.load / self.plan.force_n;
-        let size = self.door.size_ratio(load);
-        let film = self.regime.film_at(at);
-        let central = film.map_or(0.0, |film| self.door.h_from_m(film.central_m));
-        let march = self.pool.install(|| {
-            March::from_hertz_of_size(
-                grid,
-                &self.shape,
-                (size, central),
-                self.motion.nodes,
-                self.flow,
-            )
-        });
-        let left = self.smooth_steps(nodes, self.flows_at(at));
-        Smooth::on(march, self, at, left)
+        let smooth = Surface::Smooth {};
+        let terrain = Terrain::new(&grid, [&smooth, &smooth], self.door.a_m, self.door.heading);
+        let usual = self.state.motion.nodes;
+        let (shape, flow) = (&self.shape, self.flow);
+        let solver = self.pool.install(|| Solver::new(grid, shape, usual, flow));
+        SmoothWork { solver, terrain }
     }
 
-    fn refine_smooth(&self, smooth: &mut Smooth, nodes: usize) {
-        let grid = grid_of(&self.plan, nodes, self.door.b_over_a);
-        let usual = self.motion.nodes;
-        smooth.march = self
-            .pool
-            .install(|| March::refined(&smooth.march, grid, &self.shape, usual, self.flow));
-        smooth.terrain = smooth_terrain(&smooth.march.grid, self);
-        smooth.left = self.smooth_steps(nodes, self.flows_at(smooth.at));
+    fn refine_smooth(&self, smooth: &mut Smooth) {
+        let grid = |nodes| grid_of(&self.plan, nodes, self.door.b_over_a);
+        let next = 2 * (smooth.nodes - 1) + 1;
+        smooth.contact = smooth.contact.refined(&grid(smooth.nodes), &grid(next));
+        smooth.nodes = next;
+        smooth.left = self.smooth_steps(next, self.flows_at(smooth.at));
     }
 
     fn advance_smooth(&mut self, smooth: &mut Smooth) -> Result<(), StepError> {
-        let mut law = self.law;
-        law.direction = 0.0;
-        let usual = self.motion.nodes;
+        let mut work = self.smooth_work(smooth.nodes);
+        let usual = self.state.motion.nodes;
+        let before = work.solver.transforms();
         let attempted = self.pool.install(|| {
             Mover {
-                march: &mut smooth.march,
-                terrain: &mut smooth.terrain,
+                state: &mut smooth.contact,
+                solver: &mut work.solver,
+                terrain: &mut work.terrain,
                 drive: &mut smooth.drive,
                 motion: &mut smooth.motion,
                 door: &self.door,
-                law,
+                law: &self.law,
                 regime: self.regime,
-                stepping: super::pace::Stepping::Fixed(usual),
+                stepping: Stepping::Fixed(usual),
             }
             .advance(usual)
         });
-        self.count(&attempted);
-        let tolerance = self.regime.tolerance(smooth.march.flow).pressure;
-        attempted.fatal(self.time_s, tolerance).map_or(Ok(()), Err)
+        let made = work.solver.transforms() - before;
+        self.work.smooth = Some(work);
+        self.state.stats.add(&attempted, made);
+        attempted.fatal(self.state.time_s).map_or(Ok(()), Err)
     }
 
     /// Its integrals become the reference of now; the slices below the run's own contact are made again.
     fn take_smooth(&mut self, smooth: &Smooth) {
         let size = self.door.size_ratio(smooth.at.load / self.plan.force_n);
-        if let (Some(stress), Some(life)) = (&mut self.stress, &mut self.life) {
+        let state = &mut self.state;
+        if let (Some(stress), Some(life)) = (&mut self.work.stress, &mut state.life) {
             self.pool.install(|| {
-                stress.slice(&smooth.march.state.pressure, &[], 0.0);
+                stress.slice(&smooth.contact.pressure, &[], 0.0);
                 life.move_reference(stress, size, smooth.at);
-                self.stats.stress_volumes += u64::from(life.integrates());
-                if let Some(counting) = &mut self.counting {
+                state.stats.stress_volumes += u64::from(life.integrates());
+                if let Some(counting) = &mut state.counting {
                     counting.set_reference(stress, size);
                 }
             });
         }
-        if self.stage_has_stress() {
-            self.slice_again();
-        }
-    }
-
-    /// Goes on with a saved one.
-    pub(super) fn restore_smooth(&mut self, saved: Option<State>) {
-        self.smooth = saved.map(|saved| {
-            let grid = grid_of(&self.plan, saved.nodes, self.door.b_over_a);
-            let mut march = self.pool.install(|| {
-                March::from_hertz(grid, &self.shape, 0.0, self.motion.nodes, self.flow)
-            });
-            march.state = saved.contact;
-            let mut smooth = Smooth::on(march, self, saved.at, saved.left);
-            (smooth.drive, smooth.motion) = (saved.drive, saved.motion);
-            Box::new(smooth)
-        });
+        self.slice_again();
     }
 }

@@ -1,70 +1,71 @@
 //! From Hertz to the developed rough contact.
 
+use super::fitness::climb;
 use super::setup::{COARSEST, grid_of};
 use super::simulation::{DEVELOP, Phase, Simulation};
 use super::{Knob, MeshErrors, StepError};
-use crate::solve::march::March;
 
 impl Simulation {
     /// The next finer grid, or the reference and the development.
     pub(super) fn refine_or_develop(&mut self) -> Result<(), StepError> {
-        let nx = self.march.grid.nx;
+        let nx = self.work.solver.grid.nx;
         if nx < self.plan.domain.nodes {
             let next = 2 * (nx - 1) + 1;
-            self.coarser = Some(self.measure());
+            self.state.coarser = Some(self.measure());
             let grid = grid_of(&self.plan, next, self.door.b_over_a);
-            let nodes = self.motion.nodes;
-            self.march = self
-                .pool
-                .install(|| March::refined(&self.march, grid, &self.shape, nodes, self.flow));
-            self.phase = Phase::Smooth {
+            self.state.contact = self.state.contact.refined(&self.work.solver.grid, &grid);
+            self.state.nodes = next;
+            self.solve_on(next);
+            self.state.phase = Phase::Smooth {
                 left: self.smooth_steps(next, self.plan.has_flow()),
             };
             return self.step_within();
         }
         let measured = self.measure();
-        self.mesh_errors = self.coarser.map(|coarser| MeshErrors {
+        self.state.mesh_errors = self.state.coarser.map(|coarser| MeshErrors {
             h_central: (coarser.h_central / measured.h_central - 1.0).abs(),
             h_min: (coarser.h_min / measured.h_min - 1.0).abs(),
             p_max: (coarser.p_max / measured.p_max - 1.0).abs() + self.stress_error,
         });
-        let base = self.base();
-        if let (Some(stress), Some(life)) = (&mut self.stress, &mut self.life) {
-            let (p, q) = (&self.march.state.pressure, &self.traction);
+        let base = self.regime.base();
+        if let (Some(stress), Some(life)) = (&mut self.work.stress, &mut self.state.life) {
+            let (p, q) = (&self.state.contact.pressure, &self.work.traction);
             self.pool.install(|| {
                 stress.slice(p, q, 0.0);
                 life.set_reference(stress, base);
-                if let Some(counting) = &mut self.counting {
+                if let Some(counting) = &mut self.state.counting {
                     counting.set_reference(stress, 1.0);
                 }
             });
         }
         for knob in Knob::ALL {
-            self.drive.aim(knob, self.wanted.get(knob).target);
+            self.state
+                .drive
+                .aim(knob, self.state.wanted.get(knob).target);
         }
-        let developing = self.terrain.is_rough(0)
-            || self.terrain.is_rough(1)
-            || self.wanted.get(Knob::SlideRoll).target != 0.0;
+        let developing = self.work.terrain.is_rough(0)
+            || self.work.terrain.is_rough(1)
+            || self.state.wanted.get(Knob::SlideRoll).target != 0.0;
         let left = if developing {
             self.steps_of(DEVELOP)
         } else {
             0
         };
-        self.motion.flush();
+        self.state.motion.flush();
         if developing {
-            self.motion.disturb(DEVELOP);
+            self.state.motion.disturb(DEVELOP);
         }
-        self.phase = Phase::Develop { left };
+        self.state.phase = Phase::Develop { left };
         self.step_within()
     }
 
     fn step_within(&mut self) -> Result<(), StepError> {
-        self.stats.steps -= 1;
+        self.state.stats.steps -= 1;
         self.step()
     }
 
     fn steps_of(&self, time: f64) -> u64 {
-        (time / (self.motion.nodes * self.march.grid.dx)).ceil() as u64
+        (time / (self.state.motion.nodes * self.work.solver.grid.dx)).ceil() as u64
     }
 
     /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, the
@@ -80,30 +81,25 @@ impl Simulation {
             0.75
         };
         let dx = length / (nodes - 1) as f64;
-        (share * length / (self.motion.nodes * dx)).ceil() as u64
+        (share * length / (self.state.motion.nodes * dx)).ceil() as u64
     }
 
     /// Way of both bodies, in a, in the smooth part of the start-up.
     pub(super) fn smooth_way(&self) -> f64 {
-        let finest = self.plan.domain.nodes;
         let length = self.plan.domain.x_max_a - self.plan.domain.x_min_a;
-        let grids = std::iter::successors(Some(COARSEST.min(finest)), |n| Some(2 * (n - 1) + 1));
-        grids
-            .take_while(|nodes| *nodes <= finest)
+        climb(&self.plan)
             .map(|nodes| {
                 let dx = length / (nodes - 1) as f64;
-                self.smooth_steps(nodes, self.plan.has_flow()) as f64 * self.motion.nodes * dx
+                self.smooth_steps(nodes, self.plan.has_flow()) as f64 * self.state.motion.nodes * dx
             })
             .sum()
     }
 
-    pub(super) fn all_start_up_steps(&self, first: usize) -> u64 {
-        let (mut nodes, mut total) = (first, 0);
-        while nodes <= self.plan.domain.nodes {
-            total += self.smooth_steps(nodes, self.plan.has_flow());
-            nodes = 2 * (nodes - 1) + 1;
-        }
+    pub(super) fn all_start_up_steps(&self) -> u64 {
+        let smooth: u64 = climb(&self.plan)
+            .map(|nodes| self.smooth_steps(nodes, self.plan.has_flow()))
+            .sum();
         let dx = self.plan.domain.dx_a();
-        total + (DEVELOP / (self.motion.nodes * dx)).ceil() as u64
+        smooth + (DEVELOP / (self.state.motion.nodes * dx)).ceil() as u64
     }
 }

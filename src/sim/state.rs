@@ -1,66 +1,75 @@
 //! What a restart needs. Everything else of a [`Simulation`] is scratch or follows from the scene.
 //!
 //! ```text
-//! Simulation = scene, plan (given again) + State (saved) + workspace (made again, or measured again)
+//! Simulation = scene, plan (given again) + State (saved) + Work (made again, or measured again)
 //! ```
-//! A run that goes on from a saved state equals the uninterrupted one bit for bit, in every field of
-//! every frame (`tests/restart.rs`). Both directions take the structures apart field by field, so that a
-//! new field must be sorted as state or as workspace before this compiles.
+//! [`Simulation::save`] is a copy of the state, [`Simulation::restore`] an assignment after a check. A run that goes on
+//! from a saved state equals the uninterrupted one bit for bit, in every field of every frame, even when its workspace is
+//! thrown away before every step (`tests/restart.rs`).
 
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
-use super::measure::Measured;
+use super::measure::{Measured, RowSums};
 use super::motion::Motion;
 use super::orbit::Orbit;
 use super::pace::Pace;
-use super::setup::{COARSEST, grid_of};
+use super::setup::grid_of;
 use super::simulation::{Phase, Simulation};
-use super::smooth::{self, Smooth};
+use super::smooth::{Smooth, SmoothWork};
 use super::stepping::place_surfaces;
 use super::stress_stage::StressStage;
+use super::terrain::Terrain;
 use super::totals::Totals;
 use super::{MeshErrors, Metrics, SimError, Stats};
-use crate::solve::march::{self, March};
+use crate::solve::march::{self, Solver};
 
 /// State of a simulation; opaque, made by [`Simulation::save`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct State {
     /// Nodes per side of the grid that the contact is on: the start-up climbs through several.
-    nodes: usize,
-    contact: march::State,
-    drive: Drive,
-    wanted: Drive,
-    motion: Motion,
-    watched: [f64; 2],
-    counting: Option<Counting>,
-    life: Option<LifeStage>,
-    smooth: Option<smooth::State>,
-    phase: Phase,
-    metrics: Metrics,
-    stats: Stats,
-    totals: Totals,
-    coarser: Option<Measured>,
-    mesh_errors: Option<MeshErrors>,
-    orbit: Orbit,
-    pace: Pace,
-    way: f64,
-    next_volume: f64,
-    step: u64,
-    time_s: f64,
-    start_up_steps: (u64, u64),
+    pub(super) nodes: usize,
+    pub(super) contact: march::State,
+    pub(super) drive: Drive,
+    /// The knobs as they were asked for; in the smooth start-up the drive does not follow yet.
+    pub(super) wanted: Drive,
+    pub(super) motion: Motion,
+    /// Where both bodies were when they were looked at last, in a.
+    pub(super) watched: [f64; 2],
+    pub(super) counting: Option<Counting>,
+    pub(super) life: Option<LifeStage>,
+    /// On its way to the reference of now; `None`: that is known.
+    pub(super) smooth: Option<Smooth>,
+    pub(super) phase: Phase,
+    pub(super) metrics: Metrics,
+    pub(super) stats: Stats,
+    pub(super) totals: Totals,
+    /// The smooth contact on the last but one grid.
+    pub(super) coarser: Option<Measured>,
+    /// Errors by the mesh of the smooth contact at the scene's speed and load.
+    pub(super) mesh_errors: Option<MeshErrors>,
+    pub(super) orbit: Orbit,
+    pub(super) pace: Pace,
+    /// Way at U since the start-up, in a.
+    pub(super) way: f64,
+    /// Way at which the next volume integral is due, in a.
+    pub(super) next_volume: f64,
+    pub(super) step: u64,
+    pub(super) time_s: f64,
+    /// Steps of the start-up: made, and in all.
+    pub(super) start_up_steps: (u64, u64),
 }
 
-/// What a neighbour leaves to the run that follows it.
-pub(super) struct HandedOver {
-    /// Its contact on the finest grid.
-    pub(super) march: March,
-    /// Its knobs.
-    pub(super) drive: Drive,
-    /// Ways of both bodies, in a.
-    pub(super) travelled: [f64; 2],
+/// What may be dropped between two steps.
+pub(super) struct Work {
+    pub(super) solver: Solver,
+    pub(super) terrain: Terrain,
+    pub(super) stress: Option<StressStage>,
+    pub(super) traction: Vec<f64>,
+    pub(super) row_sums: Vec<RowSums>,
+    pub(super) smooth: Option<SmoothWork>,
 }
 
 impl State {
@@ -73,70 +82,7 @@ impl State {
 impl Simulation {
     /// What a restart needs, as it is between two steps.
     pub fn save(&self) -> State {
-        let Self {
-            plan: _,
-            door: _,
-            march,
-            terrain: _,
-            drive,
-            motion,
-            watched,
-            stress: _,
-            cuts: _,
-            iso_load_ratio: _,
-            traction: _,
-            row_sums: _,
-            counting,
-            life,
-            smooth,
-            stress_error: _,
-            law: _,
-            shape: _,
-            flow: _,
-            regime: _,
-            pool: _,
-            phase,
-            wanted,
-            metrics,
-            stats,
-            totals,
-            coarser,
-            mesh_errors,
-            grounds: _,
-            composite: _,
-            stepping: _,
-            orbit,
-            pace,
-            way,
-            next_volume,
-            step,
-            time_s,
-            start_up_steps,
-        } = self;
-        State {
-            nodes: march.grid.nx,
-            contact: march.state.clone(),
-            drive: drive.clone(),
-            wanted: wanted.clone(),
-            motion: motion.clone(),
-            watched: *watched,
-            counting: counting.clone(),
-            life: life.clone(),
-            smooth: smooth.as_deref().map(Smooth::save),
-            phase: *phase,
-            metrics: metrics.clone(),
-            stats: *stats,
-            totals: totals.clone(),
-            coarser: *coarser,
-            mesh_errors: *mesh_errors,
-            orbit: orbit.clone(),
-            pace: *pace,
-            way: *way,
-            next_volume: *next_volume,
-            step: *step,
-            time_s: *time_s,
-            start_up_steps: *start_up_steps,
-        }
+        self.state.clone()
     }
 
     /// Goes on from `state`, saved by a simulation of the same scene.
@@ -145,119 +91,68 @@ impl Simulation {
     /// [`SimError::State`] when the state does not fit the scene; the simulation is as it was.
     pub fn restore(&mut self, state: State) -> Result<(), SimError> {
         self.check(&state)?;
-        let State {
-            nodes,
-            contact,
-            drive,
-            wanted,
-            motion,
-            watched,
-            counting,
-            life,
-            smooth,
-            phase,
-            metrics,
-            stats,
-            totals,
-            coarser,
-            mesh_errors,
-            orbit,
-            pace,
-            way,
-            next_volume,
-            step,
-            time_s,
-            start_up_steps,
-        } = state;
-        if nodes != self.march.grid.nx {
-            let grid = grid_of(&self.plan, nodes, self.door.b_over_a);
-            self.march = self
-                .pool
-                .install(|| March::from_hertz(grid, &self.shape, 0.0, motion.nodes, self.flow));
-        }
-        self.march.state = contact;
-        (self.drive, self.wanted, self.motion) = (drive, wanted, motion);
-        (self.counting, self.life) = (counting, life);
-        self.watched = watched;
-        self.phase = phase;
-        (self.metrics, self.stats) = (metrics, stats);
-        self.totals.take(totals);
-        if let Some(counting) = &mut self.counting {
-            counting.make_room();
-        }
-        if let Some(life) = &mut self.life {
-            life.make_room();
-        }
-        (self.coarser, self.mesh_errors) = (coarser, mesh_errors);
-        self.orbit = orbit;
-        (self.pace, self.way, self.next_volume) = (pace, way, next_volume);
-        (self.step, self.time_s) = (step, time_s);
-        self.start_up_steps = start_up_steps;
-        self.restore_smooth(smooth);
+        self.check_course(&state)?;
+        self.solve_on(state.nodes);
+        self.state = state;
+        self.make_room();
         self.see_again();
         Ok(())
     }
 
-    /// What a neighbour hands over to [`Simulation::follow`]; its reference is taken over at once.
+    /// Makes the solver for a grid of so many nodes per side, if it is for another one.
+    pub(super) fn solve_on(&mut self, nodes: usize) {
+        if nodes != self.work.solver.grid.nx {
+            let grid = grid_of(&self.plan, nodes, self.door.b_over_a);
+            let usual = self.state.motion.nodes;
+            let (shape, flow) = (&self.shape, self.flow);
+            self.work.solver = self.pool.install(|| Solver::new(grid, shape, usual, flow));
+        }
+    }
+
+    /// Makes the room again that a copy or a file does not keep: a warm step allocates nothing.
+    pub(super) fn make_room(&mut self) {
+        let state = &mut self.state;
+        state.totals.make_room(self.most_steps);
+        if let Some(counting) = &mut state.counting {
+            counting.make_room();
+        }
+        if let Some(life) = &mut state.life {
+            life.make_room();
+        }
+    }
+
+    /// Takes over what a neighbour leaves to [`Simulation::follow`]: its contact and its references.
     ///
     /// # Errors
     /// As [`Simulation::restore`].
-    pub(super) fn handed_over(&mut self, neighbour: &State) -> Result<HandedOver, SimError> {
+    pub(super) fn take_over(&mut self, neighbour: &State) -> Result<(), SimError> {
         self.check(neighbour)?;
-        let State {
-            nodes,
-            contact,
-            drive,
-            wanted: _,
-            motion,
-            watched: _,
-            counting,
-            life,
-            smooth: _,
-            phase,
-            metrics: _,
-            stats: _,
-            totals: _,
-            coarser,
-            mesh_errors,
-            orbit: _,
-            pace: _,
-            way: _,
-            next_volume: _,
-            step: _,
-            time_s: _,
-            start_up_steps: _,
-        } = neighbour;
-        if *nodes != self.plan.domain.nodes || *phase != Phase::Passage {
+        if neighbour.nodes != self.plan.domain.nodes || neighbour.phase != Phase::Passage {
             let early = "its passage has not begun".to_owned();
             return Err(SimError::State(early));
         }
-        let grid = grid_of(&self.plan, *nodes, self.door.b_over_a);
-        let mut march = self
-            .pool
-            .install(|| March::from_hertz(grid, &self.shape, 0.0, motion.nodes, self.flow));
-        march.state = contact.clone();
-        if let (Some(own), Some(other)) = (&mut self.life, life) {
+        self.solve_on(neighbour.nodes);
+        let state = &mut self.state;
+        state.nodes = neighbour.nodes;
+        state.contact.clone_from(&neighbour.contact);
+        if let (Some(own), Some(other)) = (&mut state.life, &neighbour.life) {
             own.take_base(other, self.regime.base());
         }
-        if let (Some(own), Some(other)) = (&mut self.counting, counting) {
+        if let (Some(own), Some(other)) = (&mut state.counting, &neighbour.counting) {
             own.take_reference(other);
         }
-        (self.coarser, self.mesh_errors) = (*coarser, *mesh_errors);
-        Ok(HandedOver {
-            march,
-            drive: drive.clone(),
-            travelled: motion.travelled,
-        })
+        (state.coarser, state.mesh_errors) = (neighbour.coarser, neighbour.mesh_errors);
+        state.motion.travelled = neighbour.motion.travelled;
+        Ok(())
     }
 
     /// Roughness, traction and slice of the restored step, which follow from the state.
     pub(super) fn see_again(&mut self) {
         place_surfaces(
-            &mut self.march,
-            &mut self.terrain,
-            &self.drive,
-            &self.motion,
+            &mut self.work.solver,
+            &mut self.work.terrain,
+            &self.state.drive,
+            &self.state.motion,
             &self.door,
         );
         self.slice_again();
@@ -266,58 +161,12 @@ impl Simulation {
     /// The slices below the run's own contact.
     pub(super) fn slice_again(&mut self) {
         let measured = self.measure();
-        let on_fine = self.march.grid.nx == self.plan.domain.nodes;
+        let on_fine = self.state.nodes == self.plan.domain.nodes;
         if on_fine && self.stage_has_stress() {
-            let (p, q) = (&self.march.state.pressure, &self.traction);
-            if let Some(stress) = &mut self.stress {
+            let (p, q) = (&self.state.contact.pressure, &self.work.traction);
+            if let Some(stress) = &mut self.work.stress {
                 self.pool.install(|| stress.slice(p, q, measured.friction));
             }
         }
-    }
-
-    /// A state comes from a file, and a file may come from anywhere.
-    fn check(&self, state: &State) -> Result<(), SimError> {
-        let refuse = |what: &str| Err(SimError::State(what.to_owned()));
-        let finest = self.plan.domain.nodes;
-        let first = COARSEST.min(finest);
-        let climbs = std::iter::successors(Some(first), |n| Some(2 * (n - 1) + 1));
-        if !climbs
-            .take_while(|n| *n <= finest)
-            .any(|n| n == state.nodes)
-        {
-            return refuse("its grid is none of this scene's");
-        }
-        let len = grid_of(&self.plan, state.nodes, self.door.b_over_a).len();
-        if !state.contact.fits(len) {
-            return refuse("its fields do not fill the grid");
-        }
-        let fine = grid_of(&self.plan, finest, self.door.b_over_a);
-        if !state.orbit.fits(fine.len()) {
-            return refuse("its orbit is spoiled");
-        }
-        let depths = self.stress.as_ref().map_or(0, StressStage::depth_count);
-        if state
-            .counting
-            .as_ref()
-            .is_some_and(|c| !c.fits(&fine, depths))
-        {
-            return refuse("its counts are spoiled");
-        }
-        if state.counting.is_some() != self.counting.is_some()
-            || state.life.is_some() != self.life.is_some()
-        {
-            return refuse("it was saved with other stages for stress and life");
-        }
-        if let Some(smooth) = &state.smooth
-            && !smooth.fits(&self.plan, self.door.b_over_a)
-        {
-            return refuse("its smooth contact does not fill a grid");
-        }
-        if let (Some(own), Some(saved)) = (&self.life, &state.life)
-            && !own.fits(saved)
-        {
-            return refuse("its life is of another make");
-        }
-        Ok(())
     }
 }

@@ -4,12 +4,11 @@
 //! 1  as asked           from the extrapolated pressure, then from the last one
 //! 2  in halves          at most five times, each part from rung 1 on
 //! 3  on the safe side   backward Euler, symbols of the preconditioner made for this step, thrice the iterations
-//! 4  named              kept where the mass error is below 5 % (exit code 2: where and how much are told),
-//!                       else not kept: the run ends (exit code 3)
+//! 4  named              kept where the film error is below 5 % (exit code 2: where and how much are told),
+//!                       else not kept: the run ends (exit code 3); a dry step by its gap error in the same way
 //! ```
 //! Each rung is counted in [`super::Stats`] and shown by `tests/ladder.rs`.
 
-use super::StepError;
 use super::door::Door;
 use super::drive::Drive;
 use super::frame::Metrics;
@@ -18,7 +17,8 @@ use super::motion::Motion;
 use super::pace::{Judgement, Stepping};
 use super::regime::Regime;
 use super::terrain::Terrain;
-use crate::solve::march::{Conditions, Flow, Guess, March};
+use super::{StepError, Unsolved};
+use crate::solve::march::{Conditions, Flow, Guess, Solver, State};
 use crate::solve::newton::{NewtonReport, Verdict};
 use crate::solve::traction::TractionLaw;
 
@@ -26,7 +26,8 @@ use crate::solve::traction::TractionLaw;
 const MAX_HALVINGS: u32 = 5;
 /// Newton iterations of one step after which it is halved no more: what 32 parts cost if all coarser ones failed.
 const MOST_NEWTON: u32 = 1500;
-/// Film error above which an unconverged step is not kept: it would pump mass into the history.
+/// Film error above which an unconverged step is not kept: it would pump mass into the history. Of a dry step the error is
+/// a gap or overlap over the film that p_h on one node makes: this much is wrong by as much of p_h at that node.
 const HOPELESS: f64 = 0.05;
 
 /// What a step took and reached.
@@ -48,8 +49,6 @@ pub(super) struct Attempted {
     pub(super) newton: u32,
     /// Krylov iterations.
     pub(super) linear: u32,
-    /// Transforms.
-    pub(super) ffts: u64,
     /// Attempts beyond the first.
     pub(super) retries: u32,
     /// Times that it was halved.
@@ -73,7 +72,12 @@ pub(super) struct Attempted {
 #[derive(Debug, Clone, Copy)]
 enum Failure {
     NotFinite,
-    Hopeless { x_m: f64, y_m: f64 },
+    /// Where it is worst, and what was asked.
+    Hopeless {
+        x_m: f64,
+        y_m: f64,
+        asked: Unsolved,
+    },
 }
 
 impl Attempted {
@@ -91,14 +95,16 @@ impl Attempted {
     }
 
     /// The error, when nothing was kept.
-    pub(super) fn fatal(&self, t_s: f64, tolerance: f64) -> Option<StepError> {
+    pub(super) fn fatal(&self, t_s: f64) -> Option<StepError> {
         Some(match self.failure? {
             Failure::NotFinite => StepError::NotFinite { t_s },
-            Failure::Hopeless { x_m, y_m } => StepError::Stalled {
+            Failure::Hopeless { x_m, y_m, asked } => StepError::Stalled {
                 t_s,
-                residual: self.residual,
-                tolerance,
-                film_error: self.film_error,
+                unsolved: Unsolved {
+                    residual: self.residual,
+                    film_error: self.film_error,
+                    ..asked
+                },
                 retries: self.retries,
                 x_m,
                 y_m,
@@ -109,8 +115,6 @@ impl Attempted {
     fn take(&mut self, report: &NewtonReport) {
         self.newton += report.iterations;
         self.linear += report.linear_iterations;
-        // A residual is one transform pair, a Krylov iteration one pair and six half-size ones.
-        self.ffts += 2 * u64::from(report.evaluations) + 8 * u64::from(report.linear_iterations);
     }
 
     fn keep(&mut self, report: &NewtonReport) {
@@ -124,20 +128,20 @@ impl Attempted {
 
 /// Both surfaces where the bodies now are, and the gap that they leave.
 pub(super) fn place_surfaces(
-    march: &mut March,
+    solver: &mut Solver,
     terrain: &mut Terrain,
     drive: &Drive,
     motion: &Motion,
     door: &Door,
 ) {
-    let grid = &march.grid;
+    let grid = &solver.grid;
     // Roughness is made for the finest grid; on the coarser ones of the start-up there is none yet.
     if terrain
         .heights
         .iter()
         .any(|heights| !heights.is_empty() && heights.len() != grid.len())
     {
-        march.gap.copy_from_slice(&march.macroscopic);
+        solver.gap.copy_from_slice(&solver.macroscopic);
         return;
     }
     let rough = [Knob::Amplitude1M, Knob::Amplitude2M];
@@ -145,17 +149,19 @@ pub(super) fn place_surfaces(
     for (body, (way, amplitude)) in motion.ways().into_iter().zip(amplitude).enumerate() {
         terrain.place(grid, body, way, amplitude);
     }
-    terrain.gap_into(&march.macroscopic, &mut march.gap);
+    terrain.gap_into(&solver.macroscopic, &mut solver.gap);
 }
 
 /// Everything that a step moves.
 pub(super) struct Mover<'a> {
-    pub(super) march: &'a mut March,
+    pub(super) state: &'a mut State,
+    pub(super) solver: &'a mut Solver,
     pub(super) terrain: &'a mut Terrain,
     pub(super) drive: &'a mut Drive,
     pub(super) motion: &'a mut Motion,
     pub(super) door: &'a Door,
-    pub(super) law: TractionLaw,
+    /// Traction law of the scene's oil.
+    pub(super) law: &'a TractionLaw,
     pub(super) regime: Regime,
     pub(super) stepping: Stepping,
 }
@@ -173,13 +179,12 @@ impl Mover<'_> {
             let before = (self.drive.clone(), self.motion.clone());
             self.place(nodes);
             let Some(report) = self.solve(nodes, &mut done) else {
-                (*self.drive, *self.motion) = before;
-                self.in_halves(nodes, 1, &mut done);
+                self.in_parts(nodes, before, &mut done);
                 return done;
             };
             let error = match self.stepping {
                 Stepping::Fixed(_) => None,
-                Stepping::Adaptive { .. } => self.march.path_error(nodes),
+                Stepping::Adaptive { .. } => self.solver.path_error(self.state, nodes),
             };
             match self.stepping.judge(error, nodes, done.rejected) {
                 Judgement::Good => {
@@ -209,6 +214,24 @@ impl Mover<'_> {
         None
     }
 
+    /// All that comes after the first rung; a step that fails leaves everything as it was `before`, its first parts too.
+    fn in_parts(&mut self, nodes: f64, before: (Drive, Motion), done: &mut Attempted) {
+        let contact = self.state.clone();
+        (*self.drive, *self.motion) = before.clone();
+        self.in_halves(nodes, 1, done);
+        if done.failure.is_some() {
+            *self.state = contact;
+            (*self.drive, *self.motion) = before;
+            place_surfaces(
+                self.solver,
+                self.terrain,
+                self.drive,
+                self.motion,
+                self.door,
+            );
+        }
+    }
+
     /// Second rung: two parts of half the length, each from the first rung on.
     fn in_halves(&mut self, nodes: f64, halvings: u32, done: &mut Attempted) {
         done.halvings = done.halvings.max(halvings);
@@ -229,17 +252,15 @@ impl Mover<'_> {
             self.in_halves(nodes, halvings + 1, done);
         } else {
             self.safely(nodes, done);
-            if done.failure.is_some() {
-                (*self.drive, *self.motion) = before;
-            }
         }
     }
 
     /// Third rung: the safe settings. Fourth: kept and named, or not kept and the end of the run.
     fn safely(&mut self, nodes: f64, done: &mut Attempted) {
         done.safer += 1;
-        let report =
-            self.with_conditions(|march, conditions| march.attempt_safely(conditions, nodes));
+        let report = self.with_conditions(|solver, state, conditions| {
+            solver.attempt_safely(state, conditions, nodes)
+        });
         done.take(&report);
         if report.verdict == Verdict::NotFinite {
             done.keep(&report);
@@ -247,14 +268,21 @@ impl Mover<'_> {
         } else if report.verdict != Verdict::Converged && report.film_error > HOPELESS {
             done.keep(&report);
             let (x_m, y_m) = self.place_of(report.worst_node);
-            done.failure = Some(Failure::Hopeless { x_m, y_m });
+            let (flow, tolerance) = (self.solver.flow, self.regime.tolerance(self.solver.flow));
+            let asked = Unsolved {
+                residual_asked: tolerance.pressure,
+                film_error_asked: tolerance.film,
+                dry: flow == Flow::Dry,
+                ..Unsolved::default()
+            };
+            done.failure = Some(Failure::Hopeless { x_m, y_m, asked });
         } else {
             self.commit(nodes, &report, done);
         }
     }
 
     fn place_of(&self, node: usize) -> (f64, f64) {
-        let grid = &self.march.grid;
+        let grid = &self.solver.grid;
         let (i, j) = (node % grid.nx, node / grid.nx);
         (self.door.place_m(grid.x(i)), self.door.m_from_x(grid.y(j)))
     }
@@ -266,36 +294,44 @@ impl Mover<'_> {
             done.overlap = done.overlap.max(report.overlap);
         }
         if let Some((node, overlap)) = self
-            .march
-            .overlap_at_edge(self.regime.tolerance(self.march.flow).least_film)
+            .solver
+            .overlap_at_edge(self.regime.tolerance(self.solver.flow).least_film)
         {
             // Solved as it stands; but contact reaches beyond the domain, so it is not the scene's.
             done.converged = false;
             done.worst = Some(self.place_of(node));
             done.overlap = done.overlap.max(overlap);
         }
-        self.march.commit(nodes);
+        self.solver.commit(self.state, nodes);
         done.nodes += nodes;
         done.dt_s +=
-            nodes * self.march.grid.dx * self.door.a_m / self.drive.get(Knob::EntrainmentMS).now;
+            nodes * self.solver.grid.dx * self.door.a_m / self.drive.get(Knob::EntrainmentMS).now;
     }
 
     /// Walks the knobs, moves the bodies, makes the gap.
     fn place(&mut self, nodes: f64) {
-        let grid = &self.march.grid;
+        let grid = &self.solver.grid;
         self.drive.walk(nodes * grid.dx);
         self.motion
             .travel(grid, nodes, self.drive.get(Knob::SlideRoll).now);
-        place_surfaces(self.march, self.terrain, self.drive, self.motion, self.door);
+        place_surfaces(
+            self.solver,
+            self.terrain,
+            self.drive,
+            self.motion,
+            self.door,
+        );
     }
 
     fn attempt(&mut self, nodes: f64, guess: Guess) -> NewtonReport {
-        self.with_conditions(|march, conditions| march.attempt(conditions, nodes, guess))
+        self.with_conditions(|solver, state, conditions| {
+            solver.attempt(state, conditions, nodes, guess)
+        })
     }
 
     fn with_conditions(
         &mut self,
-        solve: impl FnOnce(&mut March, &Conditions) -> NewtonReport,
+        solve: impl FnOnce(&mut Solver, &State, &Conditions) -> NewtonReport,
     ) -> NewtonReport {
         let value = |knob| self.drive.get(knob).now;
         let flow = self.regime.flow_now(self.door, self.drive);
@@ -304,17 +340,17 @@ impl Mover<'_> {
             Flow::Dry => self.door.medium_at_rest(),
             Flow::Film | Flow::MassConserving => self.door.medium(speed, slide_roll),
         };
-        let law = match flow {
-            Flow::Dry => self.law.without_film(),
-            Flow::Film | Flow::MassConserving => self.law,
-        };
+        // Of the knobs as this step has moved them.
+        let law = self
+            .regime
+            .law_now(self.law, self.door, self.drive, self.motion);
         let conditions = Conditions {
             medium: &medium,
             law: Some(&law),
             load: self.door.load(value(self.door.load_knob())),
             tolerance: self.regime.tolerance(flow),
         };
-        self.march.flow = flow;
-        solve(self.march, &conditions)
+        self.solver.flow = flow;
+        solve(self.solver, self.state, &conditions)
     }
 }

@@ -12,10 +12,16 @@ use super::{Caution, LubricationRegime, Rhythm, Stats};
 pub struct Summary {
     /// Preset or file.
     pub scene: String,
-    /// Whether every step converged.
+    /// Whether every step that was made converged.
     pub converged: bool,
+    /// Whether somebody ended it before it had done all that was asked for.
+    #[serde(default)]
+    pub stopped: bool,
     /// Time steps after the start-up.
     pub steps: u64,
+    /// How many the whole run has by its plan; `None`: it has no end of its own (the explorer).
+    #[serde(default)]
+    pub steps_planned: Option<u64>,
     /// Those that did not converge.
     pub steps_not_converged: u64,
     /// Time taken, s.

@@ -309,6 +309,7 @@ mod tests {
                 unit_m: 1.0,
                 amplitude_m: None,
                 start_x_m: Some(-0.5e-3),
+                digest: None,
                 map: Some(Arc::clone(&map)),
             };
             let mut terrain = Terrain::new(

@@ -33,25 +33,15 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    /// With memory for `most` steps.
-    pub(super) fn new(most: f64) -> Self {
-        Self {
-            recent: VecDeque::with_capacity(most.ceil() as usize + 2),
-            ..Self::default()
-        }
+    /// Makes the memory for `most` steps, which a copy or a file does not keep.
+    pub(super) fn make_room(&mut self, most: usize) {
+        let room = (most + 2).saturating_sub(self.recent.len());
+        self.recent.reserve_exact(room);
     }
 
-    /// Takes up what was saved, with the room that this one has.
-    pub(super) fn take(&mut self, saved: Self) {
-        let Self {
-            recent,
-            window,
-            way,
-            not_converged,
-        } = saved;
+    /// Forgets the steps so far, but not those that failed.
+    pub(super) fn restart(&mut self) {
         self.recent.clear();
-        self.recent.extend(recent);
-        (self.window, self.way, self.not_converged) = (window, way, not_converged);
     }
 
     /// Takes a step that ended at `way` (in a); keeps what the last `window` (in a) touches.
@@ -131,11 +121,13 @@ pub(super) fn summary(
     let m = sim.metrics();
     let size = sim.size_now();
     let stress = totals.greatest_stress();
-    let stage = sim.life.as_ref();
+    let stage = sim.state.life.as_ref();
     Summary {
         scene: String::new(),
         converged: totals.not_converged == 0,
+        stopped: false,
         steps: sim.passage_steps(),
+        steps_planned: None,
         steps_not_converged: totals.not_converged,
         wall_s: 0.0,
         steps_per_s: None,
@@ -213,10 +205,10 @@ pub(super) fn summary(
 
 /// Where the pit of a body starts.
 fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
-    let counting = sim.counting.as_ref()?;
+    let counting = sim.state.counting.as_ref()?;
     let size = sim.size_now();
     let pit = counting.pit(body, size)?;
-    let depth = *sim.stress.as_ref()?.depths().get(pit.depth)?;
+    let depth = *sim.work.stress.as_ref()?.depths().get(pit.depth)?;
     let length = counting.map(body, size)?.0.spec().length;
     Some(PitStart {
         depth_m: sim.door.m_from_x(depth),
@@ -227,8 +219,8 @@ fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
 
 /// Depth from which on a crossing counts less than 1.5 cycles of signed shear.
 fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
-    let counts = sim.counting.as_ref()?.shear_counts(body)?;
-    let depths = sim.stress.as_ref()?.depths();
+    let counts = sim.state.counting.as_ref()?.shear_counts(body)?;
+    let depths = sim.work.stress.as_ref()?.depths();
     let last = counts.iter().rposition(|count| *count >= 1.5);
     let k = last.map_or(0, |k| (k + 1).min(depths.len() - 1));
     Some(sim.door.m_from_x(depths[k]))

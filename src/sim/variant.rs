@@ -105,7 +105,7 @@ impl Variant {
         let depths = self.by_depth[0].len();
         self.model == saved.model
             && self.law == saved.law
-            && saved.meter.is_sound(depths)
+            && self.meter.fits(&saved.meter)
             && saved.swept.is_sound(depths)
             && [&saved.reference, &saved.base].map(Vec::len) == [4; 2]
             && saved.by_depth.iter().all(|list| list.len() == depths)

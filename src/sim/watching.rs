@@ -7,58 +7,68 @@ use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
 use super::{Follow, Knob, LifeEstimate};
 use crate::physics::cycles::BodyId;
-use crate::solve::march::Flow;
-use crate::solve::traction::TractionLaw;
 
 impl Simulation {
     /// Traction, stress, life and scalars of the committed step.
     pub(super) fn watch(&mut self, attempted: &Attempted) {
-        let before = self.watched;
-        self.watched = self.motion.travelled;
-        let on_fine = self.march.grid.nx == self.plan.domain.nodes;
+        let before = self.state.watched;
+        self.state.watched = self.state.motion.travelled;
+        let on_fine = self.work.solver.grid.nx == self.plan.domain.nodes;
         let measured = self.measure();
         if on_fine && self.stage_has_stress() {
             self.measure_stress(&measured);
         }
         if on_fine
-            && self.phase == Phase::Passage
-            && let Some(counting) = &mut self.counting
+            && self.state.phase == Phase::Passage
+            && let Some(counting) = &mut self.state.counting
         {
-            let travel = [0, 1].map(|body: usize| self.watched[body] - before[body]);
-            let pressure = &self.march.state.pressure;
-            counting.step(&self.march.grid, travel, pressure, self.stress.as_ref());
+            let travel = [0, 1].map(|body: usize| self.state.watched[body] - before[body]);
+            let pressure = &self.state.contact.pressure;
+            counting.step(
+                &self.work.solver.grid,
+                travel,
+                pressure,
+                self.work.stress.as_ref(),
+            );
         }
         self.publish(attempted, &measured);
     }
 
     fn measure_stress(&mut self, measured: &Measured) {
-        let Some(stress) = &mut self.stress else {
+        let Some(stress) = &mut self.work.stress else {
             return;
         };
-        let (p, q) = (&self.march.state.pressure, &self.traction);
+        let (p, q) = (&self.state.contact.pressure, &self.work.traction);
         let every = self.plan.life.map_or(f64::INFINITY, |life| {
-            life.volume_every_steps as f64 * self.motion.nodes * self.march.grid.dx
+            life.volume_every_steps as f64 * self.state.motion.nodes * self.work.solver.grid.dx
         });
         // By the way at the step's beginning, so that the first step of a passage is looked at.
-        let due = self.phase == Phase::Passage && self.way >= self.next_volume - 1e-9;
+        let due =
+            self.state.phase == Phase::Passage && self.state.way >= self.state.next_volume - 1e-9;
+        let flushed = self.state.motion.is_flushed();
+        let repeat = self.state.metrics.repeat;
+        let stress_error = self.stress_error;
         self.pool.install(|| {
             stress.slice(p, q, measured.friction);
-            if let Some(life) = &mut self.life
+            if let Some(life) = &mut self.state.life
                 && due
             {
                 life.push(every, stress);
-                self.stats.stress_volumes += u64::from(life.integrates());
-                self.next_volume = next_due(self.next_volume, self.way, every);
+                if flushed {
+                    life.judge(stress_error, repeat);
+                }
+                self.state.stats.stress_volumes += u64::from(life.integrates());
+                self.state.next_volume = next_due(self.state.next_volume, self.state.way, every);
             }
         });
     }
 
     /// Shows another material point; nothing that is computed changes.
     pub fn show_point(&mut self, follow: Follow) {
-        let Some(counting) = &mut self.counting else {
+        let Some(counting) = &mut self.state.counting else {
             return;
         };
-        let depths = self.stress.as_ref().map_or(&[][..], |s| s.depths());
+        let depths = self.work.stress.as_ref().map_or(&[][..], |s| s.depths());
         let away = |k: usize| (self.door.m_from_x(depths[k]) - follow.depth_m).abs();
         let nearest = (0..depths.len()).min_by(|&one, &two| away(one).total_cmp(&away(two)));
         let body = if follow.body == 2 {
@@ -74,64 +84,51 @@ impl Simulation {
 
     /// Whether the passage repeats, after a step that began at the way `before`.
     pub(super) fn look_for_orbit(&mut self, before: f64) {
-        let s = self.drive.get(Knob::SlideRoll).now;
+        let s = self.state.drive.get(Knob::SlideRoll).now;
         let mut frequencies = [0.0; 4];
         for (body, speed) in [1.0 - 0.5 * s, 1.0 + 0.5 * s].into_iter().enumerate() {
             let amplitude = [Knob::Amplitude1M, Knob::Amplitude2M][body];
-            if self.drive.get(amplitude).now != 0.0 {
-                for (plane, k) in self.terrain.wavenumbers(body).into_iter().enumerate() {
+            if self.state.drive.get(amplitude).now != 0.0 {
+                for (plane, k) in self.work.terrain.wavenumbers(body).into_iter().enumerate() {
                     frequencies[2 * body + plane] = k * speed / std::f64::consts::TAU;
                 }
             }
         }
         let passage = self.plan.passage_a;
-        if self.orbit.listen(frequencies, passage)
-            && let Some(life) = &mut self.life
+        if self.state.orbit.listen(frequencies, passage)
+            && let Some(life) = &mut self.state.life
         {
-            life.set_period(self.orbit.window(passage));
+            life.set_period(self.state.orbit.window(passage));
         }
-        let state = &self.march.state;
-        let fields = (&state.pressure[..], &state.film[..]);
-        self.orbit
-            .push(self.way, self.way - before, fields, &self.metrics);
-        let second_per_a = self.door.a_m / self.drive.get(Knob::EntrainmentMS).now;
-        self.metrics.repeat = Some(self.orbit.repeat(second_per_a));
-    }
-
-    /// The traction law at the knobs' present values: of the film, if there is one, and of contact.
-    pub(super) fn law_now(&self) -> TractionLaw {
-        let law = self.law_of_oil();
-        match self.regime.flow_now(&self.door, &self.drive) {
-            Flow::Dry => law.without_film(),
-            Flow::Film | Flow::MassConserving => law,
+        if self.state.motion.is_flushed() {
+            let contact = &self.state.contact;
+            let fields = (&contact.pressure[..], &contact.film[..]);
+            self.state.orbit.push(
+                self.state.way,
+                self.state.way - before,
+                fields,
+                &self.state.metrics,
+            );
         }
-    }
-
-    /// The same where oil flows; a step decides that for itself, because its knobs have moved on.
-    pub(super) fn law_of_oil(&self) -> TractionLaw {
-        let s = self.drive.get(Knob::SlideRoll).now;
-        let u = self.drive.get(Knob::EntrainmentMS).now;
-        let mut law = self.law;
-        law.direction = if s == 0.0 { 0.0 } else { s.signum() };
-        if let Some(film) = &mut law.film {
-            film.rate = self.motion.shear_rate * (s * u).abs();
-        }
-        law
+        let second_per_a = self.door.a_m / self.state.drive.get(Knob::EntrainmentMS).now;
+        self.state.metrics.repeat = Some(self.state.orbit.repeat(second_per_a));
     }
 
     pub(super) fn measure(&mut self) -> Measured {
-        let law = self.law_now();
+        let law = self
+            .regime
+            .law_now(&self.law, &self.door, &self.state.drive, &self.state.motion);
         let scale = self.size_now();
-        let state = &self.march.state;
-        self.traction.resize(self.march.grid.len(), 0.0);
+        let state = &self.state.contact;
+        self.work.traction.resize(self.work.solver.grid.len(), 0.0);
         let fields = Fields {
-            grid: &self.march.grid,
+            grid: &self.work.solver.grid,
             law: &law,
             p: &state.pressure,
             h: &state.film,
             ellipse: (scale, scale * self.door.b_over_a),
         };
-        let (traction, rows) = (&mut self.traction, &mut self.row_sums);
+        let (traction, rows) = (&mut self.work.traction, &mut self.work.row_sums);
         self.pool.install(|| measure(&fields, traction, rows))
     }
 
@@ -140,7 +137,7 @@ impl Simulation {
         let has_stress = self.stage_has_stress();
         let a_m = self.plan.hertz.a_m * self.size_now();
         let door = &self.door;
-        let m = &mut self.metrics;
+        let m = &mut self.state.metrics;
         m.converged = attempted.converged;
         m.residual = attempted.residual;
         m.newton_iterations = attempted.newton;
@@ -150,14 +147,21 @@ impl Simulation {
         m.mass_error = attempted.mass_error;
         m.load_error = attempted.load_error;
         m.overlap_m = door.m_from_h(attempted.overlap);
+        let flow = self.regime.flow_now(door, &self.state.drive);
+        let tolerance = self.regime.tolerance(flow);
+        m.asked = [tolerance.pressure, tolerance.film];
         let load = door.load_knob();
-        let (s, force) = (self.drive.get(Knob::SlideRoll), self.drive.get(load));
-        (m.slide_roll, m.slide_roll_target) = (s.now, self.wanted.get(Knob::SlideRoll).target);
-        (m.load_n, m.load_target_n) = (force.now, self.wanted.get(load).target);
-        m.entrainment_m_s = door.heading.sign() * self.drive.get(Knob::EntrainmentMS).now;
+        let (s, force) = (
+            self.state.drive.get(Knob::SlideRoll),
+            self.state.drive.get(load),
+        );
+        (m.slide_roll, m.slide_roll_target) =
+            (s.now, self.state.wanted.get(Knob::SlideRoll).target);
+        (m.load_n, m.load_target_n) = (force.now, self.state.wanted.get(load).target);
+        m.entrainment_m_s = door.heading.sign() * self.state.drive.get(Knob::EntrainmentMS).now;
         m.p_max_pa = door.pa_from_p(measured.p_max);
         m.friction_coefficient = measured.friction.abs();
-        if let Some(stress) = self.stress.as_ref().filter(|_| has_stress) {
+        if let Some(stress) = self.work.stress.as_ref().filter(|_| has_stress) {
             let peak = stress.slice.peak;
             m.sigma_eff_max_pa = Some(door.pa_from_p(peak.value));
             m.sigma_eff_max_depth_m = Some(door.m_from_x(peak.z));
@@ -170,28 +174,34 @@ impl Simulation {
             [m.amplitude_1_m, m.amplitude_2_m],
         );
         (m.n_body_1, m.n_body_2) = (n[0], n[1]);
-        if let Some(counting) = &self.counting {
+        if let Some(counting) = &self.state.counting {
             let counted = counting.counted();
             (m.n_counted_body_1, m.n_counted_body_2) = (counted[0], counted[1]);
         }
-        self.metrics.life = self.life_estimate();
+        self.state.metrics.life = self.life_estimate();
     }
 
     /// Whether the slice belongs to the present step: the smooth contact's is taken once, and while a contact
     /// settles in the wake of a neighbour nobody looks.
     pub(super) fn stage_has_stress(&self) -> bool {
-        !matches!(self.phase, Phase::Smooth { .. } | Phase::Settle { .. })
+        !matches!(
+            self.state.phase,
+            Phase::Smooth { .. } | Phase::Settle { .. }
+        )
     }
 
     pub(super) fn life_estimate(&self) -> Option<LifeEstimate> {
         let now = Now {
-            n: [self.metrics.n_body_1, self.metrics.n_body_2],
-            slide_roll: self.metrics.slide_roll,
+            n: [self.state.metrics.n_body_1, self.state.metrics.n_body_2],
+            slide_roll: self.state.metrics.slide_roll,
             size: self.size_now(),
             stress_error: self.stress_error,
             has_reference: self.has_reference_of_now(),
         };
-        self.life.as_ref()?.estimate(&now, self.counting.as_ref())
+        self.state
+            .life
+            .as_ref()?
+            .estimate(&now, self.state.counting.as_ref())
     }
 }
 

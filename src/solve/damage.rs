@@ -63,12 +63,11 @@ impl DamageMap {
         &self.spec
     }
 
-    /// Whether a map that was read from a file is whole.
-    pub fn is_sound(&self, depths: usize) -> bool {
-        self.spec.depths == depths
-            && self.spec.columns > 0
-            && self.crossings.len() == self.spec.columns
-            && self.sums.len() == self.spec.columns * depths
+    /// Whether a map that was saved is of the same make as this one.
+    pub fn fits(&self, saved: &Self) -> bool {
+        self.spec == saved.spec
+            && self.crossings.len() == saved.crossings.len()
+            && self.sums.len() == saved.sums.len()
     }
 
     /// Forgets all.

@@ -46,7 +46,7 @@ pub struct DryProblem<'a> {
     /// ∬P.
     pub load: f64,
     /// Tolerances: `pressure` bounds ∬|z|/load and max |r|/K00, `max_iterations` the directions, 25 to a Newton iteration;
-    /// `mass` and `load` are not read, the load holds by construction.
+    /// the others are not read, the load holds by construction.
     pub tolerance: Tolerance,
 }
 
@@ -97,8 +97,14 @@ impl Dry {
         }
     }
 
+    /// Transforms made so far by the preconditioner.
+    pub fn transforms(&self) -> u64 {
+        self.inverse.transforms()
+    }
+
     /// Solves from the pressure given, which is the warm start; leaves P, H and H0.
     ///
+    /// `film_error` of the report is the greatest gap or overlap on the contact set, max |r|/K00.
     /// `linear_iterations` of the report counts directions (a deflection in single precision and a
     /// preconditioning each), `iterations` those of them that began a new search, `evaluations` the
     /// deflections in double precision.
@@ -124,6 +130,7 @@ impl Dry {
             }
             let worst;
             (report.worst_node, worst) = self.worst();
+            report.film_error = worst / elastic.k00;
             let allowed = problem.tolerance.pressure;
             let small = report.change <= allowed && worst <= allowed * elastic.k00;
             if small && since == 0 {
@@ -303,7 +310,9 @@ impl Dry {
         };
         let beta = if beta.is_finite() { beta as f32 } else { 0.0 };
         for ((t, &z), &inside) in self.direction.iter_mut().zip(&self.z).zip(&self.in_contact) {
-            *t = if inside { z + beta * *t } else { 0.0 };
+            // What is left of another solution may be anything, and no factor makes it nothing.
+            let old = if beta == 0.0 { 0.0 } else { beta * *t };
+            *t = if inside { z + old } else { 0.0 };
         }
     }
 

@@ -146,6 +146,11 @@ impl Elastic {
         self.symbol[kx * (self.double.ly() / 2 + 1) + ky]
     }
 
+    /// Transforms made so far.
+    pub fn transforms(&self) -> u64 {
+        self.double.transforms() + self.single.transforms()
+    }
+
     /// `out = K p`.
     pub fn deflect(&mut self, p: &[f64], out: &mut [f64]) {
         self.double.apply(p, out);

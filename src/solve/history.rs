@@ -96,11 +96,17 @@ impl History {
         .all(|field| field.len() == len)
     }
 
-    /// C* and s for a step of `nodes` nodes.
-    pub fn convect(&self, grid: &Grid, nodes: f64, c_star: &mut [f64], s: &mut [f64]) {
+    /// C* and s for a step of `nodes` nodes after one of `before` nodes: the last one, or 0 for backward Euler.
+    pub fn convect(
+        &self,
+        grid: &Grid,
+        (nodes, before): (f64, f64),
+        c_star: &mut [f64],
+        s: &mut [f64],
+    ) {
         let dt = nodes * grid.dx;
-        let (weight, implicit) = if self.last_nodes > 0.0 {
-            let omega = nodes / self.last_nodes;
+        let (weight, implicit) = if before > 0.0 {
+            let omega = nodes / before;
             (
                 omega * omega / (1.0 + 2.0 * omega),
                 (1.0 + omega) / (1.0 + 2.0 * omega),
@@ -108,7 +114,7 @@ impl History {
         } else {
             (0.0, 1.0)
         };
-        let (back_1, back_2) = (Shift::new(nodes), Shift::new(nodes + self.last_nodes));
+        let (back_1, back_2) = (Shift::new(nodes), Shift::new(nodes + before));
         let nx = grid.nx;
         let rows = c_star.par_chunks_mut(nx).zip(s.par_chunks_mut(nx));
         rows.enumerate()
@@ -255,7 +261,7 @@ mod tests {
         history.mass_2 = row(1.0);
         history.last_nodes = 0.5;
         let (mut c, mut s) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
-        history.convect(&grid, 0.5, &mut c, &mut s);
+        history.convect(&grid, (0.5, history.last_nodes), &mut c, &mut s);
         for n in 5..30 {
             assert!((c[n] - cubic(grid.x(n))).abs() < 1e-10);
             assert!((s[n] - 0.5 * grid.dx * 2.0 / 3.0).abs() < 1e-12);
@@ -280,7 +286,7 @@ mod tests {
             let error = history.path_error(&grid, (&now, &pressed), nodes);
             // BDF2 with the exact slope 3 g t² at the new time.
             let (mut c, mut s) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
-            history.convect(&grid, nodes, &mut c, &mut s);
+            history.convect(&grid, (nodes, last), &mut c, &mut s);
             let slope = 3.0 * g * nodes * nodes / grid.dx;
             let true_error = (c[8] + s[8] * slope - now[8]).abs() / now[8] / nodes;
             let ratio = error.expect("three steps") / true_error;

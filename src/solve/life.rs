@@ -9,8 +9,10 @@
 //! The integral is averaged, not the life (the *snapshot* form of the literature); the *swept* form takes for
 //! every track the greatest stress that passes over it, which is what a material point sees once S ≠ 0, and is
 //! the bound. Integrals are kept and added as logarithms. τ is the length of the step in whatever the period
-//! is given in (time, or distance at U). Memory is bounded: when the samples of one period do not fit,
-//! neighbours are merged in pairs, which leaves the mean as it is. A warm `push` allocates nothing.
+//! is given in (time, or distance at U); of the oldest sample counts what lies within the period, so that the mean
+//! of what repeats with the period stands still. Memory is bounded: when the samples of one period do not fit,
+//! neighbours are merged in pairs, which leaves the mean as it is. How far ln J has moved of late is kept at marks
+//! an eighth of a period apart. A warm `push` allocates nothing.
 
 use serde::{Deserialize, Serialize};
 
@@ -83,16 +85,18 @@ pub struct LifeMeter {
     total: f64,
     samples: u32,
     mean: Shares,
+    /// Way pushed since the last restart, and at which the next mark is due.
+    way: f64,
+    next_mark: f64,
+    /// ln J under the full load of body 1 and of body 2, mark by mark, the oldest first.
+    #[serde(with = "ln_list")]
+    marks: Vec<f64>,
 }
 
-/// How much of a period a mean covers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Coverage {
-    /// Less than one period since the last restart.
-    Partial,
-    /// One full period.
-    Settled,
-}
+/// Marks in a period.
+const MARKS: f64 = 8.0;
+/// Marks kept: those of two periods, and the one that they began with.
+const MARKS_KEPT: usize = 17;
 
 impl LifeMeter {
     /// Meter of `depths` depths over `period`, with memory for `capacity` samples (at least 16).
@@ -110,14 +114,24 @@ impl LifeMeter {
             total: 0.0,
             samples: 0,
             mean: Shares::new(depths),
+            way: 0.0,
+            next_mark: 0.0,
+            marks: Vec::with_capacity(2 * (MARKS_KEPT + 1)),
         }
     }
 
-    /// Whether a meter that was read from a file has as many depths everywhere.
-    pub fn is_sound(&self, depths: usize) -> bool {
-        let all = self.phases.iter().chain(&self.spare).map(|p| &p.shares);
-        all.chain([&self.mean])
-            .all(|shares| shares.is_sound(depths))
+    /// Whether a meter that was saved is of the same make as this one, with as many depths everywhere.
+    pub fn fits(&self, saved: &Self) -> bool {
+        let depths = self.mean.depths;
+        let all = saved.phases.iter().chain(&saved.spare);
+        let mut shares = all.map(|p| &p.shares).chain([&saved.mean]);
+        self.capacity == saved.capacity
+            && saved.phases.len() + saved.spare.len() == self.capacity + 1
+            && saved.phases.iter().all(|phase| phase.span > 0.0)
+            && saved.period > 0.0
+            && shares.all(|shares| shares.is_sound(depths))
+            && saved.marks.len() <= 2 * MARKS_KEPT
+            && saved.marks.len().is_multiple_of(2)
     }
 
     /// Makes the room again that a copy or a file does not keep.
@@ -125,18 +139,30 @@ impl LifeMeter {
         let room = |held: usize| (self.capacity + 1).saturating_sub(held);
         self.phases.reserve_exact(room(self.phases.len()));
         self.spare.reserve_exact(room(self.spare.len()));
+        let marks = 2 * (MARKS_KEPT + 1);
+        self.marks
+            .reserve_exact(marks.saturating_sub(self.marks.len()));
     }
 
     /// Takes the mean over `period` from now on.
     pub fn set_period(&mut self, period: f64) {
-        self.period = period;
+        if period != self.period {
+            self.period = period;
+            self.forget_marks();
+        }
+    }
+
+    fn forget_marks(&mut self) {
+        self.marks.clear();
+        self.next_mark = 0.0;
     }
 
     /// Forgets the samples (after a change of load, speed or roughness).
     pub fn restart(&mut self) {
         self.spare.extend(self.phases.drain(..));
-        (self.total, self.samples) = (0.0, 0);
+        (self.total, self.samples, self.way) = (0.0, 0, 0.0);
         self.mean.clear();
+        self.forget_marks();
     }
 
     /// Takes the shares of a step of length `span`.
@@ -151,6 +177,7 @@ impl LifeMeter {
         phase.shares.logs.copy_from_slice(&shares.logs);
         self.phases.push_back(phase);
         self.total += span;
+        self.way += span;
         self.samples = self.samples.saturating_add(1);
         while let Some(first) = self.phases.front()
             && self.total - first.span >= self.period * (1.0 - 1e-9)
@@ -162,6 +189,34 @@ impl LifeMeter {
             self.merge_pairs();
         }
         self.take_mean();
+        if self.covers() && self.way >= self.next_mark * (1.0 - 1e-9) {
+            self.mark();
+        }
+    }
+
+    fn mark(&mut self) {
+        self.next_mark = self.way + self.period / MARKS;
+        if self.marks.len() == 2 * MARKS_KEPT {
+            self.marks.drain(..2);
+        }
+        let now = BodyId::BOTH.map(|body| self.mean.ln(Loading::Full(body)));
+        self.marks.extend(now);
+    }
+
+    /// Greatest change of ln J of either body over the last so many `periods`, at most two; `None` where the mean
+    /// has not covered a period for so long. Shifted by whole periods the two ends of the mean meet the same phases.
+    pub fn moved(&self, periods: f64) -> Option<f64> {
+        let back = 2 * (MARKS * periods).round() as usize;
+        let recent = self.marks.get(self.marks.len().checked_sub(back + 2)?..)?;
+        let range = |body: usize| {
+            let ln = recent.iter().skip(body).step_by(2);
+            let (low, high) = ln.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), ln| {
+                (low.min(*ln), high.max(*ln))
+            });
+            // Nothing at any time has not moved.
+            if low == high { 0.0 } else { high - low }
+        };
+        Some(range(0).max(range(1)))
     }
 
     fn merge_pairs(&mut self) {
@@ -181,10 +236,14 @@ impl LifeMeter {
     }
 
     fn take_mean(&mut self) {
-        let span: f64 = self.phases.iter().map(|p| p.span).sum();
+        let all: f64 = self.phases.iter().map(|p| p.span).sum();
+        let beyond = (all - self.period).max(0.0);
         for (i, mean) in self.mean.logs.iter_mut().enumerate() {
-            let terms = self.phases.iter().map(|p| (p.span, p.shares.logs[i]));
-            *mean = ln_sum(terms) - span.ln();
+            let terms = self.phases.iter().enumerate().map(|(k, phase)| {
+                let outside = if k == 0 { beyond } else { 0.0 };
+                (phase.span - outside, phase.shares.logs[i])
+            });
+            *mean = ln_sum(terms) - (all - beyond).ln();
         }
     }
 
@@ -198,14 +257,10 @@ impl LifeMeter {
         self.samples
     }
 
-    /// How much of the period the mean covers.
-    pub fn coverage(&self) -> Coverage {
+    /// Whether the mean covers a period.
+    pub fn covers(&self) -> bool {
         let span: f64 = self.phases.iter().map(|p| p.span).sum();
-        if span >= self.period * (1.0 - 1e-9) {
-            Coverage::Settled
-        } else {
-            Coverage::Partial
-        }
+        span >= self.period * (1.0 - 1e-9)
     }
 }
 
@@ -305,7 +360,7 @@ mod tests {
         assert!(meter.mean().is_none());
         for (i, value) in [100.0, 1.0, 2.0, 3.0, 6.0].into_iter().enumerate() {
             meter.push(1.0, &shares(value, 2.0 * value));
-            assert_eq!(meter.coverage() == Coverage::Settled, i >= 3);
+            assert_eq!(meter.covers(), i >= 3);
         }
         let mean = meter.mean().expect("sampled");
         assert_relative_eq!(mean.ln(FULL).exp(), 6.0, max_relative = 1e-12);
@@ -316,6 +371,29 @@ mod tests {
         assert_eq!(f.cycle, 0.25);
         meter.restart();
         assert!(meter.mean().is_none());
+    }
+
+    #[test]
+    fn the_mean_of_what_repeats_with_the_period_stands_still_and_a_drift_moves_it() {
+        // 6.4 samples a period: 2 + sin, whose mean is 2 wherever the period begins.
+        let period = 6.4;
+        let at = |way: f64| 2.0 + (std::f64::consts::TAU * way / period).sin();
+        let (mut still, mut drifting) =
+            (LifeMeter::new(2, period, 64), LifeMeter::new(2, period, 64));
+        for step in 0..60 {
+            let way = f64::from(step) + 0.5;
+            still.push(1.0, &shares(at(way), at(way)));
+            let drift = at(way) * (0.01 * way).exp();
+            drifting.push(1.0, &shares(drift, drift));
+            if way < 1.5 * period - 1.0 {
+                assert_eq!(still.moved(0.5), None, "{way}");
+            }
+        }
+        let [still, drifting] = [&still, &drifting].map(|m| m.moved(0.5).expect("marks"));
+        println!("moved: periodic {still:.4}, drifting {drifting:.4}");
+        // Samples are taken for constant over their length, which leaves what is a fraction of a sample's share.
+        assert!(still < 0.01, "{still}");
+        assert_relative_eq!(drifting, 0.01 * 0.5 * period, max_relative = 0.35);
     }
 
     #[test]

@@ -34,6 +34,7 @@ pub use super::axis::Line;
 use super::damage::{BlockSpec, DamageMap};
 use super::tally::{Crossing, History, mean};
 pub use super::tally::{DamageBasis, Tally};
+use crate::physics::turning::{Peak, Peaks};
 
 /// Fraction of the golden section: multiples of it, modulo 1, spread evenly and never fall into step with
 /// the ripples, as equal spacing may.
@@ -101,11 +102,23 @@ struct Point {
     /// Place on the body, a: does not change during a crossing.
     place: f64,
     pressure: History,
+    /// Of the pressure, as they pass.
+    peaks: Peaks,
     shear: Vec<History>,
     effective: Vec<History>,
 }
 
 impl Point {
+    /// Whether a point that was saved is of the same make as this one.
+    fn fits(&self, saved: &Self) -> bool {
+        let all = |own: &[History], saved: &[History]| {
+            own.len() == saved.len() && own.iter().zip(saved).all(|(own, saved)| own.fits(saved))
+        };
+        self.pressure.fits(&saved.pressure)
+            && all(&self.shear, &saved.shear)
+            && all(&self.effective, &saved.effective)
+    }
+
     fn histories(&mut self) -> impl Iterator<Item = &mut History> {
         std::iter::once(&mut self.pressure)
             .chain(&mut self.shear)
@@ -122,8 +135,12 @@ pub struct Sample {
     pub pressure: f64,
     /// Signed orthogonal shear at the shown depth, p_h.
     pub tau_xz: f64,
-    /// Pressure cycles of this crossing so far.
-    pub counted: f64,
+    /// Peaks of the pressure passed so far in this crossing: each closes one cycle.
+    pub peaks: u32,
+    /// The last of them.
+    pub last_peak: Option<Peak>,
+    /// Closed cycles of the pressure in its last whole crossing.
+    pub closed_before: Option<f64>,
 }
 
 /// Points of one body under way.
@@ -154,6 +171,7 @@ impl MaterialTracker {
             crossing: Crossing::New,
             place: 0.0,
             pressure: History::new(spec.pressure_gate, DamageBasis::Ranges, History::OPEN),
+            peaks: Peaks::new(spec.pressure_gate),
             // Each made anew: a clone would not have the room.
             shear: (0..spec.depths)
                 .map(|_| below(spec.shear_gate, DamageBasis::Ranges))
@@ -186,16 +204,26 @@ impl MaterialTracker {
         self.trace.reserve_exact(room);
     }
 
-    /// Whether a tracker that was read from a file can be used.
-    pub fn is_sound(&self) -> bool {
-        let depths = self.spec.depths;
-        let whole = |p: &Point| p.shear.len() == depths && p.effective.len() == depths;
-        !self.points.is_empty()
-            && self.points.iter().all(whole)
-            && self.map.as_ref().is_none_or(|map| map.is_sound(depths))
-            && self.oldest < self.trace.len().max(1)
-            && self.shown < self.points.len()
-            && self.spec.shown_depth < depths.max(1)
+    /// Whether a tracker that was saved is of the same make as this one, and nothing in it points astray.
+    pub fn fits(&self, saved: &Self) -> bool {
+        let spec = TrackerSpec {
+            shown_depth: saved.spec.shown_depth,
+            ..self.spec
+        };
+        let mut points = self.points.iter().zip(&saved.points);
+        spec == saved.spec
+            && spec.shown_depth < spec.depths.max(1)
+            && self.points.len() == saved.points.len()
+            && points.all(|(own, saved)| own.fits(saved))
+            && self.map.is_some() == saved.map.is_some()
+            && self
+                .map
+                .iter()
+                .zip(&saved.map)
+                .all(|(own, saved)| own.fits(saved))
+            && saved.trace.len() <= spec.trace.max(1)
+            && saved.oldest < saved.trace.len().max(1)
+            && saved.shown < saved.points.len()
     }
 
     /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are, and the
@@ -210,6 +238,7 @@ impl MaterialTracker {
                 history.start(exponent);
                 history.last = None;
             }
+            point.peaks.start();
         }
         if let Some(map) = &mut self.map {
             map.clear();
@@ -260,6 +289,7 @@ impl MaterialTracker {
                 history.end(exponent, crossing);
                 history.start(exponent);
             }
+            point.peaks.start();
             if let (Some(map), Some((_, basis)), Crossing::Whole) =
                 (&mut self.map, self.spec.map, crossing)
             {
@@ -289,6 +319,7 @@ impl MaterialTracker {
             };
         }
         point.pressure.push(pressure, exponent);
+        point.peaks.push(point.x, pressure);
         if line.tau_xz.is_some() {
             for (k, history) in point.shear.iter_mut().enumerate() {
                 history.push(line.shear_at(k, point.x), exponent);
@@ -323,7 +354,9 @@ impl MaterialTracker {
             x: point.x,
             pressure: line.pressure_at(point.x),
             tau_xz: line.shear_at(self.spec.shown_depth, point.x),
-            counted: point.pressure.tally.count,
+            peaks: point.peaks.passed(),
+            last_peak: point.peaks.last(),
+            closed_before: point.pressure.last.map(|tally| tally.count),
         }
     }
 

@@ -7,6 +7,7 @@ pub mod damage;
 pub mod dry;
 mod faces;
 pub mod film;
+mod fluidity;
 pub mod history;
 pub mod jacobian;
 pub mod krylov;

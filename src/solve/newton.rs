@@ -23,7 +23,7 @@ use super::newton_rows::{film_row, move_pressure, set_rhs, split_row};
 use super::precondition::Preconditioner;
 use super::reynolds::{Linearisation, Medium, Reynolds};
 use super::tangential::Shear;
-use super::traction::TractionLaw;
+pub use super::tangential::Sheared;
 use crate::math::grid::Grid;
 
 /// Most halvings of the line search.
@@ -35,8 +35,8 @@ pub struct Problem<'a> {
     pub grid: &'a Grid,
     /// Fluid.
     pub medium: &'a Medium,
-    /// Traction law, for the deflection by traction (bodies of different materials only).
-    pub law: Option<&'a TractionLaw>,
+    /// What shears bodies of different materials; `None`: they are alike.
+    pub sheared: Option<Sheared<'a>>,
     /// Undeformed gap without H0: macroscopic minus roughness.
     pub gap: &'a [f64],
     /// C*.
@@ -121,22 +121,20 @@ impl Newton {
         }
     }
 
+    /// Transforms made so far.
+    pub fn transforms(&self) -> u64 {
+        let shear = self.shear.as_ref().map_or(0, Shear::transforms);
+        self.elastic.transforms() + self.precondition.transforms() + shear
+    }
+
     /// Solves one time step from the iterate given.
     pub fn solve(&mut self, problem: &Problem, iterate: &mut Iterate) -> NewtonReport {
-        let mut report = NewtonReport {
-            verdict: Verdict::Stalled,
-            iterations: 0,
-            linear_iterations: 0,
-            evaluations: 0,
-            change: f64::INFINITY,
-            left: f64::INFINITY,
-            film_error: f64::INFINITY,
-            mass_error: f64::INFINITY,
-            load_error: f64::INFINITY,
-            overlap: f64::INFINITY,
-            worst_node: 0,
-        };
-        let mut now = self.evaluate(problem, iterate, &mut report);
+        let mut report = NewtonReport::nothing();
+        if let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) {
+            shear.begin(sheared.deflection);
+        }
+        self.evaluate(problem, iterate, &mut report);
+        let mut now = self.judge_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
         loop {
             // Dry: there is no flow whose mass could be lost.
@@ -174,13 +172,8 @@ impl Newton {
             && report.overlap <= OVERLAP * tolerance.least_film
     }
 
-    /// Film, properties, F and D of the iterate; the merit uses the frozen D in `reference`.
-    fn evaluate(
-        &mut self,
-        problem: &Problem,
-        iterate: &mut Iterate,
-        report: &mut NewtonReport,
-    ) -> Evaluation {
+    /// Film, properties, F and D of the iterate.
+    fn evaluate(&mut self, problem: &Problem, iterate: &mut Iterate, report: &mut NewtonReport) {
         let grid = problem.grid;
         report.evaluations += 1;
         self.elastic.deflect(iterate.p, &mut self.deflection);
@@ -192,8 +185,8 @@ impl Newton {
             .zip(self.deflection.par_chunks(nx))
             .with_min_len(8)
             .for_each(|((h, gap), u)| film_row(h0, gap, u, h));
-        if let (Some(shear), Some(law)) = (&mut self.shear, problem.law) {
-            shear.add_to(law, iterate.p, iterate.h);
+        if let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) {
+            shear.add_to(sheared.law, iterate.p, iterate.h);
         }
         self.reynolds
             .properties(grid, problem.medium, iterate.p, iterate.h);
@@ -206,9 +199,15 @@ impl Newton {
             problem.c_star,
             problem.s,
         );
+    }
+
+    /// [`Self::judge`] with the D of this evaluation.
+    fn judge_anew(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
+        self.reference.copy_from_slice(&self.reynolds.diagonal);
         self.judge(problem, iterate)
     }
 
+    /// Sums of the evaluation; the merit uses the frozen D in `reference`.
     fn judge(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
         let (grid, nx) = (problem.grid, problem.grid.nx);
         let interior = grid.interior_rows();
@@ -363,15 +362,18 @@ impl Newton {
         report: &mut NewtonReport,
     ) -> Evaluation {
         self.old_p.copy_from_slice(iterate.p);
-        self.reference.copy_from_slice(&self.reynolds.diagonal);
-        let base = self.judge(problem, iterate).merit;
+        if let Some(shear) = &mut self.shear {
+            shear.accept();
+        }
+        let base = self.judge_anew(problem, iterate).merit;
         let old_h0 = *iterate.h0;
         let mut t = 1.0;
         for halving in 0..=MAX_HALVINGS {
             let (moved, total) = move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
-            let mut new = self.evaluate(problem, iterate, report);
+            self.evaluate(problem, iterate, report);
+            let mut new = self.judge(problem, iterate);
             new.reduction = new.merit / base;
             report.left = left_of(report.change, new.reduction);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {

@@ -129,6 +129,11 @@ impl Preconditioner {
         self.sweeps.factor(jacobian, &self.extra);
     }
 
+    /// Transforms made so far.
+    pub fn transforms(&self) -> u64 {
+        self.filter.transforms()
+    }
+
     /// `z = M⁻¹ r` (without the border).
     pub fn apply(&mut self, grid: &Grid, jacobian: &Jacobian, r: &[f32], z: &mut [f32]) {
         self.sweeps.solve(r, &ORDER, z);

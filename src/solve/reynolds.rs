@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! F = ρ̄H − C* − s ∇·(τ ∇P) = 0 where P > 0,   F ≥ 0 where P = 0
-//! τ at a face = harmonic mean of ρ̄H³ × logarithmic mean of 1/η̄*, over λ
+//! τ at a face = harmonic mean of ρ̄H³ × logarithmic mean of g, over λ;   g: fluidity 1/η̄* along or across (`fluidity.rs`)
 //! J v = A_P v + A_H (K v + h0),   A_P = ∂F/∂P at fixed H,   A_H = ∂F/∂H
 //! ```
 //! | symbol | meaning | shape |
@@ -25,11 +25,12 @@ use rayon::prelude::*;
 
 pub use linearise::Linearisation;
 
-use super::faces::{Faces, Nodes, conductances};
+use super::faces::{Faces, conductances};
+use super::fluidity::{Fluidity, Way};
 use super::jacobian::Jacobian;
-use super::reynolds_rows::{balance_row, density_values, finish_row, shear_values};
+use super::reynolds_rows::{balance_row, density_values, finish_row};
 use crate::math::grid::Grid;
-use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 
 /// Rows per parallel task.
 const ROWS: usize = 4;
@@ -45,6 +46,8 @@ pub struct Medium {
     pub lambda: f64,
     /// Z = η0 |U2−U1| Rx/(τ0 a²); 0: Newtonian.
     pub sliding: f64,
+    /// How the pressure's flow sees oil that is sheared.
+    pub sheared: ShearedFlow,
 }
 
 /// Scratch of one block of rows.
@@ -59,11 +62,8 @@ struct Scratch {
 pub struct Reynolds {
     /// ρ̄H³.
     q: Vec<f64>,
-    /// g = 1/η̄*, its logarithm and the logarithm's derivatives.
-    g: Vec<f64>,
-    ln_g: Vec<f64>,
-    ln_g_p: Vec<f64>,
-    ln_g_h: Vec<f64>,
+    /// g.
+    fluidity: Fluidity,
     /// ρ̄ and its derivative.
     rho: Vec<f64>,
     rho_p: Vec<f64>,
@@ -99,10 +99,7 @@ impl Reynolds {
             .collect();
         Self {
             q: zero.clone(),
-            g: zero.clone(),
-            ln_g: zero.clone(),
-            ln_g_p: zero.clone(),
-            ln_g_h: zero.clone(),
+            fluidity: Fluidity::new(n),
             rho: vec![1.0; n],
             rho_p: zero.clone(),
             q_p: zero.clone(),
@@ -132,29 +129,14 @@ impl Reynolds {
         let block = ROWS * grid.nx;
         self.q
             .par_chunks_mut(block)
-            .zip(self.g.par_chunks_mut(block))
-            .zip(self.ln_g.par_chunks_mut(block))
-            .zip(self.ln_g_p.par_chunks_mut(block))
-            .zip(self.ln_g_h.par_chunks_mut(block))
             .zip(self.rho.par_chunks_mut(block))
             .zip(self.rho_p.par_chunks_mut(block))
             .zip(p.par_chunks(block))
             .zip(h.par_chunks(block))
-            .for_each(
-                |((((((((q, g), ln_g), ln_g_p), ln_g_h), rho), rho_p), p), h)| {
-                    density_values(medium.density, p, h, q, rho, rho_p);
-                    shear_values(medium, p, h, g, ln_g, ln_g_p, ln_g_h);
-                },
-            );
-    }
-
-    /// Values of grid row `j` that faces need.
-    fn nodes(&self, range: std::ops::Range<usize>) -> Nodes<'_> {
-        Nodes {
-            q: &self.q[range.clone()],
-            g: &self.g[range.clone()],
-            ln_g: &self.ln_g[range],
-        }
+            .for_each(|((((q, rho), rho_p), p), h)| {
+                density_values(medium.density, p, h, q, rho, rho_p);
+            });
+        self.fluidity.evaluate(grid, medium, p, h, block);
     }
 
     /// Conductances of all faces.
@@ -170,13 +152,14 @@ impl Reynolds {
             .enumerate()
             .with_min_len(ROWS)
             .for_each(|(j, (east, north))| {
-                let a = this.nodes(j * nx..(j + 1) * nx - 1);
-                let b = this.nodes(j * nx + 1..(j + 1) * nx);
+                let nodes = |way, range| this.fluidity.nodes(way, &this.q, range);
+                let a = nodes(Way::Along, j * nx..(j + 1) * nx - 1);
+                let b = nodes(Way::Along, j * nx + 1..(j + 1) * nx);
                 let out = &mut east[..nx - 1];
                 conductances(a.q, a.g, a.ln_g, b.q, b.g, b.ln_g, 1.0 / lambda, out);
                 if j + 1 < grid.ny {
-                    let a = this.nodes(j * nx..(j + 1) * nx);
-                    let b = this.nodes((j + 1) * nx..(j + 2) * nx);
+                    let a = nodes(Way::Across, j * nx..(j + 1) * nx);
+                    let b = nodes(Way::Across, (j + 1) * nx..(j + 2) * nx);
                     conductances(a.q, a.g, a.ln_g, b.q, b.g, b.ln_g, 1.0 / lambda, north);
                 }
             });
@@ -307,9 +290,21 @@ mod tests {
         (reynolds, h)
     }
 
+    /// One law for both directions; tangent along and secant across, nowhere at the limiting stress; at
+    /// it at some of the nodes.
+    const FLOWS: [ShearedFlow; 3] = [
+        ShearedFlow::Secant,
+        ShearedFlow::AlongAcross { limit: 1e3 },
+        ShearedFlow::AlongAcross { limit: 6.0 },
+    ];
+
     #[test]
     fn the_linearisation_is_the_derivative() {
-        for symmetry in [Symmetry::MirrorY, Symmetry::General, Symmetry::Line] {
+        let symmetries = [Symmetry::MirrorY, Symmetry::General, Symmetry::Line];
+        for (symmetry, sheared) in symmetries
+            .into_iter()
+            .flat_map(|symmetry| FLOWS.map(|sheared| (symmetry, sheared)))
+        {
             let grid = Grid::new(17, -2.0, 1.5, 1.6, symmetry);
             let mut elastic = Elastic::new(&grid, 0.2);
             let medium = Medium {
@@ -317,6 +312,7 @@ mod tests {
                 density: Density::DowsonHigginson { p_hertz_gpa: 0.5 },
                 lambda: 0.05,
                 sliding: 0.3,
+                sheared,
             };
             let n = grid.len();
             let (mut p, mut v) = (vec![0.0; n], vec![0.0; n]);
@@ -356,7 +352,7 @@ mod tests {
                 let size = exact.abs().max(reynolds.diagonal[n]);
                 assert!(
                     (exact - ours).abs() < 2e-5 * size,
-                    "{symmetry:?} {n}: {exact} {ours}"
+                    "{symmetry:?} {sheared:?} {n}: {exact} {ours}"
                 );
             }
         }

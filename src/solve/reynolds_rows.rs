@@ -1,15 +1,13 @@
-//! The discrete Reynolds equation row by row, for the vector units: fluid laws, balance, linearisation.
+//! The discrete Reynolds equation row by row, for the vector units: density, balance, linearisation.
 //!
 //! ```text
-//! q = ρ̄H³,  g = 1/η̄* = e^{−ln η̄ + ln(ζ/asinh ζ)}
+//! q = ρ̄H³
 //! F = ρ̄H − C* − s Σ_faces w τ (P_m − P_n),   D = ρ̄K00 + s Σ w τ
 //! ∂F: own + w s (τ − τ_P dP), −w s τ_H dP;  neighbour −w s (τ + τ_P' dP), −w s τ_H' dP
 //! ```
 //! Symbols as in `reynolds.rs`, which calls these; test there: the linearisation is the derivative.
 
-use super::reynolds::Medium;
-use crate::math::elementary::exp;
-use crate::physics::fluid::{Density, Viscosity, eyring_ln_factor};
+use crate::physics::fluid::Density;
 
 dispatched! {
 pub(super) fn density_values(
@@ -28,52 +26,6 @@ pub(super) fn density_values(
         rho[i] = value;
         rho_p[i] = slope;
         q[i] = value * open * open * open;
-    }
-}
-}
-
-dispatched! {
-pub(super) fn shear_values(
-    medium: &Medium,
-    p: &[f64],
-    h: &[f64],
-    g: &mut [f64],
-    ln_g: &mut [f64],
-    ln_g_p: &mut [f64],
-    ln_g_h: &mut [f64],
-) {
-    let n = p.len();
-    let (h, g, ln_g) = (&h[..n], &mut g[..n], &mut ln_g[..n]);
-    let (ln_g_p, ln_g_h) = (&mut ln_g_p[..n], &mut ln_g_h[..n]);
-    // One loop a law, so that the law is no branch inside of it.
-    if let law @ Viscosity::Barus { .. } = medium.viscosity {
-        for i in 0..n {
-            (ln_g[i], ln_g_p[i]) = law.ln_eta(p[i]);
-        }
-    } else {
-        let law = medium.viscosity;
-        for i in 0..n {
-            (ln_g[i], ln_g_p[i]) = law.ln_eta(p[i]);
-        }
-    }
-    if medium.sliding > 0.0 {
-        for i in 0..n {
-            let (ln_eta, slope) = (ln_g[i], ln_g_p[i]);
-            // A closed gap conducts nothing, whatever its viscosity.
-            let open = if h[i] > 0.0 { h[i] } else { 1.0 };
-            let (factor, by_zeta) = eyring_ln_factor(medium.sliding / open * exp(ln_eta));
-            ln_g[i] = factor - ln_eta;
-            ln_g_p[i] = slope * (by_zeta - 1.0);
-            ln_g_h[i] = if h[i] > 0.0 { -by_zeta / open } else { 0.0 };
-            g[i] = exp(ln_g[i]);
-        }
-    } else {
-        for i in 0..n {
-            ln_g[i] = -ln_g[i];
-            ln_g_p[i] = -ln_g_p[i];
-            ln_g_h[i] = 0.0;
-            g[i] = exp(ln_g[i]);
-        }
     }
 }
 }

@@ -69,6 +69,11 @@ impl History {
         }
     }
 
+    /// Whether a history that was saved is of the same make as this one.
+    pub(super) fn fits(&self, saved: &Self) -> bool {
+        self.basis == saved.basis && self.flow.fits(&saved.flow)
+    }
+
     /// Makes the room again that a copy or a file does not keep.
     pub(super) fn make_room(&mut self) {
         self.flow.make_room();

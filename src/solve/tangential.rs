@@ -59,22 +59,63 @@ impl Tangential {
     }
 }
 
-/// Deflection by traction and its fields. The traction follows the iterate; its derivative is left out
-/// of the linearisation, because u^s is at most βμ, some per cent, of u^p.
+/// Deflection by traction and its fields.
+///
+/// ```text
+/// u^s_new = S q(P, H_e + u^s),   H = H_e + u^s_new          H_e: gap and deflection by pressure
+/// ```
+/// u^s belongs to the iterate: an evaluation reads that of the iterate at which the line search began (of a step that
+/// begins, the last step's, which the state holds) and leaves the next one, so that what a step gives does not depend
+/// on what was evaluated before it. The derivative of q is left out of the linearisation, because u^s is at most βμ,
+/// some per cent, of u^p.
 pub struct Shear {
     tangential: Tangential,
     traction: Vec<f64>,
+    /// u^s of the iterate.
+    iterate: Vec<f64>,
+    /// u^s as it was added last.
     deflection: Vec<f64>,
+}
+
+/// What the deflection by traction follows from, beside the iterate.
+#[derive(Clone, Copy)]
+pub struct Sheared<'a> {
+    /// Traction law.
+    pub law: &'a TractionLaw,
+    /// u^s of the last step.
+    pub deflection: &'a [f64],
 }
 
 impl Shear {
     /// Buffers for `grid`.
     pub fn new(grid: &Grid, tangential: Tangential) -> Self {
+        let zero = vec![0.0; grid.len()];
         Self {
             tangential,
-            traction: vec![0.0; grid.len()],
-            deflection: vec![0.0; grid.len()],
+            traction: zero.clone(),
+            iterate: zero.clone(),
+            deflection: zero,
         }
+    }
+
+    /// u^s as it was added last.
+    pub(super) fn deflection(&self) -> &[f64] {
+        &self.deflection
+    }
+
+    /// Transforms made so far.
+    pub(super) fn transforms(&self) -> u64 {
+        self.tangential.filter.transforms()
+    }
+
+    /// A step begins at the last one's u^s.
+    pub(super) fn begin(&mut self, before: &[f64]) {
+        self.iterate.copy_from_slice(before);
+    }
+
+    /// The evaluation made last is the iterate now.
+    pub(super) fn accept(&mut self) {
+        self.iterate.copy_from_slice(&self.deflection);
     }
 
     /// Adds u^s to the gap of a dry contact, where the traction follows from the pressure alone.
@@ -82,22 +123,22 @@ impl Shear {
         for (q, &p) in self.traction.iter_mut().zip(p) {
             *q = law.traction(p, 0.0);
         }
-        self.tangential
-            .deflect(&self.traction, &mut self.deflection);
-        for (gap, &u) in gap.iter_mut().zip(&self.deflection) {
-            *gap += u;
-        }
+        self.deflect_and_add(gap);
     }
 
-    /// Adds u^s to the film, the traction taken at the film with the last u^s.
+    /// Adds u^s to the film.
     pub(super) fn add_to(&mut self, law: &TractionLaw, p: &[f64], h: &mut [f64]) {
         for (n, q) in self.traction.iter_mut().enumerate() {
-            *q = law.traction(p[n], h[n] + self.deflection[n]);
+            *q = law.traction(p[n], h[n] + self.iterate[n]);
         }
+        self.deflect_and_add(h);
+    }
+
+    fn deflect_and_add(&mut self, to: &mut [f64]) {
         self.tangential
             .deflect(&self.traction, &mut self.deflection);
-        for (h, &u) in h.iter_mut().zip(&self.deflection) {
-            *h += u;
+        for (to, &u) in to.iter_mut().zip(&self.deflection) {
+            *to += u;
         }
     }
 }

@@ -15,7 +15,7 @@ use std::time::Instant;
 use super::table::Table;
 use super::{Extent, Progress, StudyError};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::physics::stress_exact::hertz_axis_maximum;
 use crate::solve::dry::{Dry, DryProblem};
 use crate::solve::film::Elastic;
@@ -124,6 +124,7 @@ fn hertz(n: usize, tolerance: f64) -> Result<Row, String> {
         density: Density::Incompressible,
         lambda: f64::INFINITY,
         sliding: 0.0,
+        sheared: ShearedFlow::Secant,
     };
     let conditions = Conditions {
         medium: &medium,
@@ -138,9 +139,10 @@ fn hertz(n: usize, tolerance: f64) -> Result<Row, String> {
         march
     };
     let solve = |march: &mut March| march.attempt(&conditions, 1.0, Guess::Last);
-    let (march, report, set_up_s, solve_s) = timed(prepare, solve);
+    let (mut march, report, set_up_s, solve_s) = timed(prepare, solve);
     converged("Hertz", &report)?;
-    let (grid, p) = (&march.grid, &march.state.pressure);
+    march.commit(1.0);
+    let (grid, p) = (&march.solver.grid, &march.state.pressure);
     let exact = |at: usize| {
         let r2 = grid.x(at % grid.nx).powi(2) + grid.y(at / grid.nx).powi(2);
         (1.0 - r2).max(0.0).sqrt()

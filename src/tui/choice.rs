@@ -261,7 +261,8 @@ pub struct Draft {
     pub row: usize,
     /// The plan in short, or why there is none.
     pub verdict: Result<String, String>,
-    preset: Option<&'static str>,
+    /// The preset that was chosen.
+    pub preset: Option<&'static str>,
 }
 
 impl Draft {

@@ -102,7 +102,7 @@ impl Figure {
             Self::Counted1 => metrics.n_counted_body_1,
             Self::Counted2 => metrics.n_counted_body_2,
             Self::Lambda => metrics.lambda_ratio,
-            Self::ContactPercent => Some(100.0 * metrics.contact_ratio),
+            Self::ContactPercent => (frame.nx > 0).then_some(100.0 * metrics.contact_ratio),
             Self::PeakPressure => Some(metrics.p_max_pa / frame.p_hertz_pa),
             Self::PeakDepth => metrics.sigma_eff_max_depth_m.map(|z| z / frame.a_m),
             Self::LeftPercent => ripple_left(frame).map(|part| 100.0 * part),
@@ -147,6 +147,14 @@ pub struct Claim {
     pub least: f64,
     /// Greatest value.
     pub most: f64,
+}
+
+impl Claim {
+    /// Whether a frame bears it out; what a frame does not know bears nothing out.
+    pub fn holds(&self, frame: &Frame) -> bool {
+        let value = self.figure.of(frame);
+        value.is_some_and(|value| (self.least..=self.most).contains(&value))
+    }
 }
 
 /// One beat: scene, knobs, a map, words, and how long they stay.
@@ -263,6 +271,46 @@ mod tests {
                     assert_eq!(scene.err(), None, "{staging:?}");
                 }
             }
+        }
+    }
+
+    /// Nothing computed, nothing counted, or no cycle in what was counted: no claim of a count survives it, and no
+    /// claim at all the first.
+    #[test]
+    fn no_claim_holds_where_nothing_is_counted() {
+        let counts = [Figure::Counted1, Figure::Counted2];
+        let mut idle = Frame::default();
+        (idle.nx, idle.p_hertz_pa) = (3, 1.0);
+        (idle.metrics.n_body_1, idle.metrics.n_body_2) = (Some(14.0), Some(9.0));
+        let mut zero = idle.clone();
+        (zero.metrics.n_counted_body_1, zero.metrics.n_counted_body_2) = (Some(0.0), Some(0.0));
+        for beat in LESSONS.iter().flat_map(|lesson| lesson.beats) {
+            for claim in beat.claims {
+                assert!(
+                    !claim.holds(&Frame::default()),
+                    "{}: {claim:?}",
+                    beat.caption
+                );
+                if counts.contains(&claim.figure) {
+                    assert!(
+                        !claim.holds(&idle) && !claim.holds(&zero),
+                        "{}: {claim:?}",
+                        beat.caption
+                    );
+                }
+            }
+        }
+    }
+
+    /// A formula knows nothing of the simulation: beside each n stands what was counted.
+    #[test]
+    fn beside_each_n_stands_its_count() {
+        for beat in LESSONS.iter().flat_map(|lesson| lesson.beats) {
+            let claims = |figure| beat.claims.iter().any(|claim| claim.figure == figure);
+            let lonely = |n, counted| claims(n) && !claims(counted);
+            assert!(!lonely(Figure::N1, Figure::Counted1), "{}", beat.caption);
+            assert!(!lonely(Figure::N2, Figure::Counted2), "{}", beat.caption);
+            assert!(!beat.claims.is_empty(), "{}", beat.caption);
         }
     }
 

@@ -33,6 +33,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
+use crossterm::terminal::{BeginSynchronizedUpdate, EndSynchronizedUpdate};
+use crossterm::{execute, queue};
 use ratatui::layout::Rect;
 
 use crate::run::Command;
@@ -110,6 +112,7 @@ fn setup_of(wiring: &Wiring, theme: Theme) -> Setup {
     ];
     Setup {
         scene: wiring.scene.clone(),
+        name: wiring.name.clone(),
         load_n: wiring.load_n,
         half_width_m: wiring.half_width_m,
         p_hertz_pa: wiring.p_hertz_pa,
@@ -179,7 +182,15 @@ impl Show<'_> {
         }
     }
 
+    /// One picture, shown whole: the terminal is told when it begins and when it ends.
     fn draw(&mut self) -> io::Result<()> {
+        queue!(io::stdout(), BeginSynchronizedUpdate)?;
+        let drawn = self.draw_all();
+        execute!(io::stdout(), EndSynchronizedUpdate)?;
+        drawn
+    }
+
+    fn draw_all(&mut self) -> io::Result<()> {
         let app = &*self.app;
         let size = self.stage.terminal.size()?;
         let screen = Rect::new(0, 0, size.width, size.height);
@@ -250,7 +261,7 @@ impl Show<'_> {
                     self.sweep = start.and_then(|start| start(*order));
                 }
                 Effect::EndSweep => self.sweep = None,
-                Effect::Rebuild(scene) => self.rebuild(&scene),
+                Effect::Rebuild(scene, name) => self.rebuild(&scene, &name),
                 Effect::Suspend => {
                     self.canvas.forget();
                     self.stage.suspend()?;
@@ -262,11 +273,11 @@ impl Show<'_> {
     }
 
     /// Another scene: another run behind the same screen.
-    fn rebuild(&mut self, scene: &Scene) {
+    fn rebuild(&mut self, scene: &Scene, name: &str) {
         let Some(mut rebuild) = self.wiring.rebuild.take() else {
             return;
         };
-        let made = rebuild(scene);
+        let made = rebuild(scene, name);
         match made {
             Ok(next) => {
                 self.sweep = None;

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use crossterm::cursor::MoveTo;
 use crossterm::queue;
-use crossterm::terminal::{BeginSynchronizedUpdate, EndSynchronizedUpdate, window_size};
+use crossterm::terminal::window_size;
 use ratatui::backend::{Backend as _, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -133,7 +133,7 @@ impl Canvas {
         };
         let area = picture.area;
         let mut out = stdout().lock();
-        queue!(out, BeginSynchronizedUpdate, MoveTo(area.x, area.y))?;
+        queue!(out, MoveTo(area.x, area.y))?;
         match app.pixels() {
             Pixels::Sixel => out.write_all(&sixel::encode(&picture))?,
             Pixels::Kitty => out.write_all(&kitty::encode(&picture))?,
@@ -144,7 +144,6 @@ impl Canvas {
             (cell.symbol() != " ").then_some((at.x, at.y, cell))
         });
         CrosstermBackend::new(&mut out).draw(letters)?;
-        queue!(out, EndSynchronizedUpdate)?;
         out.flush()?;
         self.drawn = Some((app.pixels(), area));
         self.last = Some(Instant::now());

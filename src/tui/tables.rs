@@ -50,10 +50,15 @@ fn centre_line(frame: &Frame) -> String {
     )
 }
 
+/// The whole crossing before (0) and the present one so far (1); of a replay the whole one, which it is part of.
 fn material_point(app: &App) -> String {
     let point = app.point_now();
-    let samples = app.trace.current().iter().map(|sample| {
+    let before = app.trace.before().iter().map(|sample| (0.0, sample));
+    let now = app.trace.current().iter().map(|sample| (1.0, sample));
+    let now = now.filter(|_| app.replay.is_none());
+    let samples = before.chain(now).map(|(crossing, sample)| {
         vec![
+            Some(crossing),
             point.map(|point| f64::from(point.body)),
             point.map(|point| point.depth_m),
             Some(sample.x_m),
@@ -64,7 +69,7 @@ fn material_point(app: &App) -> String {
         ]
     });
     table(
-        "body,depth_m,x_m,pressure_pa,tau_xz_pa,effective_pa,cycles_counted",
+        "crossing,body,depth_m,x_m,pressure_pa,tau_xz_pa,effective_pa,cycles_counted",
         samples,
     )
 }

@@ -188,6 +188,21 @@ impl Theme {
         self.capabilities.glyphs == Glyphs::Ascii
     }
 
+    /// Whether there are no colours at all.
+    pub fn is_mono(self) -> bool {
+        self.capabilities.depth == ColorDepth::Mono
+    }
+
+    /// Paper and ink of the whole screen, where they are not the terminal's own: dark colours on a dark background
+    /// would not be read.
+    pub fn page(self) -> Option<Style> {
+        let light = self.contrast == Contrast::Light && !self.is_mono();
+        light.then(|| match self.capabilities.depth {
+            ColorDepth::Basic => Style::new().bg(Color::White).fg(Color::Black),
+            _ => Style::new().bg(self.rgb(PAPER)).fg(self.rgb(INK)),
+        })
+    }
+
     /// `unicode`, or `ascii` where only that may be drawn.
     pub fn pick(self, unicode: &'static str, ascii: &'static str) -> &'static str {
         if self.is_ascii() { ascii } else { unicode }
@@ -248,9 +263,11 @@ impl Theme {
     fn role_color(self, role: Role) -> Option<Color> {
         match self.capabilities.depth {
             ColorDepth::Mono => None,
+            ColorDepth::Basic if self.contrast == Contrast::Light => Some(basic_on_white(role)),
             ColorDepth::Basic => Some(basic(role)),
             ColorDepth::True | ColorDepth::Indexed => {
                 let rgb = match (role, self.contrast) {
+                    (Role::Text | Role::Strong | Role::Title, Contrast::Light) => INK,
                     (Role::Text | Role::Strong, _) => return Some(Color::Reset),
                     (Role::Dim, Contrast::Normal) => [140, 146, 162],
                     (Role::Border, Contrast::Normal) => [84, 92, 112],
@@ -267,6 +284,10 @@ impl Theme {
         }
     }
 }
+
+/// Of the light contrast.
+const PAPER: [u8; 3] = [250, 250, 247];
+const INK: [u8; 3] = [24, 26, 32];
 
 /// The same hue for a light background.
 fn darkened(rgb: [u8; 3]) -> [u8; 3] {
@@ -305,6 +326,19 @@ fn basic(role: Role) -> Color {
         Role::Film | Role::Formula => Color::Cyan,
         Role::Traction | Role::Good => Color::Green,
         Role::Bad => Color::Red,
+    }
+}
+
+/// The dark ones of the sixteen.
+fn basic_on_white(role: Role) -> Color {
+    match role {
+        Role::Text | Role::Strong | Role::Title => Color::Black,
+        Role::Dim | Role::Border | Role::Hertz => Color::DarkGray,
+        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Blue,
+        Role::Body2 | Role::Shear => Color::Magenta,
+        Role::Pressure | Role::Peaks | Role::Bad => Color::Red,
+        Role::Film | Role::Formula => Color::Blue,
+        Role::Traction | Role::Good => Color::Green,
     }
 }
 

@@ -6,6 +6,7 @@
 //! ```
 
 use crate::physics::rainflow::{Ends, Rainflow};
+use crate::physics::turning::Peaks;
 use crate::run::Settled;
 use crate::sim::{Frame, MaterialPoint, StressSlice};
 
@@ -23,8 +24,17 @@ pub struct TraceSample {
     pub effective_pa: f64,
     /// Signed orthogonal shear, Pa.
     pub tau_xz_pa: f64,
-    /// Cycles counted so far.
+    /// Peaks of the pressure passed so far.
     pub cycles: f64,
+}
+
+/// A peak of the pressure that has passed, and which of the crossing it is, from 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tick {
+    /// Where it was, m.
+    pub x_m: f64,
+    /// Its number.
+    pub number: u32,
 }
 
 impl TraceSample {
@@ -47,6 +57,8 @@ pub struct Trace {
     depth_m: f64,
     current: Vec<TraceSample>,
     before: Vec<TraceSample>,
+    /// Peaks of this crossing that have passed.
+    ticks: Vec<Tick>,
     counted: Option<f64>,
 }
 
@@ -71,31 +83,43 @@ impl Default for Chosen {
     }
 }
 
-/// Rainflow of the pressure of one crossing, as the simulation counts it.
+/// The pressure of one crossing: its peaks, and its cycles, as the simulation counts them.
 struct Counter {
+    peaks: Peaks,
     flow: Rainflow,
-    count: f64,
+    closed: f64,
 }
 
 impl Counter {
     fn new(gate_pa: f64) -> Self {
         let mut flow = Rainflow::new(Ends::Repeating, gate_pa, 512);
         flow.push(0.0, &mut |_| {});
-        Self { flow, count: 0.0 }
+        Self {
+            peaks: Peaks::new(gate_pa),
+            flow,
+            closed: 0.0,
+        }
     }
 
-    fn push(&mut self, pressure_pa: f64) -> f64 {
-        let count = &mut self.count;
+    /// The peak that the sample shows to have passed.
+    fn push(&mut self, sample: &TraceSample) -> Option<Tick> {
+        let closed = &mut self.closed;
+        let pressure_pa = sample.pressure_pa;
         self.flow
-            .push(pressure_pa, &mut |cycle| *count += cycle.count);
-        self.count
+            .push(pressure_pa, &mut |cycle| *closed += cycle.count);
+        let peak = self.peaks.push(sample.x_m, pressure_pa)?;
+        Some(Tick {
+            x_m: peak.x,
+            number: self.peaks.passed(),
+        })
     }
 
+    /// Closed cycles of the whole crossing.
     fn finish(mut self) -> f64 {
-        self.push(0.0);
-        let count = &mut self.count;
-        self.flow.finish(&mut |cycle| *count += cycle.count);
-        self.count
+        let closed = &mut self.closed;
+        self.flow.push(0.0, &mut |cycle| *closed += cycle.count);
+        self.flow.finish(&mut |cycle| *closed += cycle.count);
+        self.closed
     }
 }
 
@@ -168,10 +192,12 @@ impl Trace {
             }
             let place = (step as i64).rem_euclid(settled.frames.len() as i64) as usize;
             let mut sample = sample(&settled.frames[place], point, x_m);
-            sample.cycles = counter.push(sample.pressure_pa);
+            let tick = counter.push(&sample);
+            sample.cycles = f64::from(counter.peaks.passed());
             trace.before.push(sample);
             if t <= at_s {
                 trace.current.push(sample);
+                trace.ticks.extend(tick);
             }
             step += 1.0;
         }
@@ -196,6 +222,7 @@ impl Trace {
         if other_point {
             self.current.clear();
             self.before.clear();
+            self.ticks.clear();
             self.body = point.body;
             self.depth_m = point.depth_m;
         }
@@ -207,7 +234,16 @@ impl Trace {
             if jumped || sample.cycles < last.cycles {
                 std::mem::swap(&mut self.before, &mut self.current);
                 self.current.clear();
+                self.ticks.clear();
             }
+        }
+        let ticked = self.ticks.last().map_or(0, |tick| tick.number);
+        let number = point.cycles_counted as u32;
+        if let Some(peak) = point.last_peak.filter(|_| number > ticked) {
+            self.ticks.push(Tick {
+                x_m: peak.x_m,
+                number,
+            });
         }
         if self.current.len() < CAPACITY {
             self.current.push(sample);
@@ -224,22 +260,16 @@ impl Trace {
         &self.before
     }
 
-    /// Places where the count of this crossing went up by one, m.
-    pub fn ticks(&self) -> impl Iterator<Item = f64> + '_ {
-        let known = match self.counted {
-            Some(_) => &self.before,
-            None => &self.current,
-        };
-        known.windows(2).filter_map(|pair| {
-            let [first, second] = pair else { return None };
-            (second.cycles.floor() > first.cycles.floor()).then_some(second.x_m)
-        })
+    /// Peaks of this crossing that have passed.
+    pub fn ticks(&self) -> &[Tick] {
+        &self.ticks
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::PassedPeak;
 
     fn at(x_m: f64, cycles_counted: f64) -> MaterialPoint {
         MaterialPoint {
@@ -261,19 +291,28 @@ mod tests {
     }
 
     #[test]
-    fn ticks_stand_where_the_count_rose() {
+    fn a_tick_stands_at_its_peak_until_the_point_has_left() {
         let mut trace = Trace::default();
-        for (x, cycles) in [
-            (0.0, 0.0),
-            (1e-5, 0.5),
-            (2e-5, 1.0),
-            (3e-5, 1.5),
-            (4e-5, 2.5),
+        let passed = |x_m: f64, peak_m: f64, number: f64| MaterialPoint {
+            last_peak: (number > 0.0).then_some(PassedPeak {
+                x_m: peak_m,
+                pressure_pa: 1e9,
+            }),
+            ..at(x_m, number)
+        };
+        for (x, peak, number) in [
+            (0.0, 0.0, 0.0),
+            (2e-5, 1e-5, 1.0),
+            (3e-5, 1e-5, 1.0),
+            // Steps that the screen missed: the second peak is not known, the third is.
+            (6e-5, 5e-5, 3.0),
         ] {
-            trace.push(&at(x, cycles), 1e-4);
+            trace.push(&passed(x, peak, number), 1e-4);
         }
-        let ticks: Vec<f64> = trace.ticks().collect();
-        assert_eq!(ticks, [2e-5, 4e-5]);
+        let ticks: Vec<_> = trace.ticks().iter().map(|t| (t.x_m, t.number)).collect();
+        assert_eq!(ticks, [(1e-5, 1), (5e-5, 3)]);
+        trace.push(&at(-2e-4, 0.0), 1e-4);
+        assert_eq!(trace.ticks(), []);
     }
 
     /// A ripple that stands on body 2 under a dome, S = 0.5: body 1 is overtaken by its crests.
@@ -320,6 +359,7 @@ mod tests {
             let count = trace.counted().expect("whole");
             assert!((count - f_delta).abs() <= 1.0, "{count}");
             assert!(trace.current().len() <= trace.before().len());
+            assert!(trace.ticks().len() as f64 <= count);
             let mate = Chosen { body: 2, ..point };
             let mate = Trace::replayed(&settled, mate, 2.0).expect("a crossing");
             // Its own crest stays the same crest, or its own trough is never loaded.

@@ -93,14 +93,16 @@ pub struct Shown {
 /// Writes what is shown on a thread of its own; the answer is one line for the status bar.
 pub type WriteShown = Box<dyn FnMut(Shown) -> Receiver<Result<String, String>>>;
 
-/// Ends the run and starts one of another scene; what it gives replaces the whole wiring (but for
+/// Ends the run and starts one of another scene, whose files get the name; what it gives replaces the whole wiring (but for
 /// [`Wiring::rebuild`] itself, which stays).
-pub type Rebuild = Box<dyn FnMut(&Scene) -> Result<Wiring, String>>;
+pub type Rebuild = Box<dyn FnMut(&Scene, &str) -> Result<Wiring, String>>;
 
 /// What the program itself fills in. An errand that is `None` has no key and no row in the help.
 pub struct Wiring {
     /// The scene that runs.
     pub scene: Arc<Scene>,
+    /// Its name: that of its preset or file.
+    pub name: String,
     /// The load, N, of a line N/m (the scene may give it as a Hertz pressure).
     pub load_n: f64,
     /// Hertz half-width along x at that load, m.

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, Viscosity};
+use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::physics::groups::OperatingPoint;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{NewtonReport, Tolerance, Verdict};
@@ -41,6 +41,7 @@ impl Fluid {
             density,
             lambda,
             sliding: 0.0,
+            sheared: ShearedFlow::Secant,
         }
     }
 }
@@ -114,6 +115,7 @@ impl Case {
             },
             lambda,
             sliding: 0.0,
+            sheared: ShearedFlow::Secant,
         };
         Self {
             medium,
@@ -135,15 +137,15 @@ impl Case {
         let mut march = March::from_hertz(self.grid(65), &CIRCLE, guess, 1.0, Flow::Film);
         let mut way = self.domain.1 - self.domain.0;
         loop {
-            let steps = (way / march.grid.dx) as usize;
+            let steps = (way / march.solver.grid.dx) as usize;
             for _ in 0..steps {
                 ladder.step(self, &mut march);
             }
             each(&march);
-            if march.grid.nx >= nodes {
+            if march.solver.grid.nx >= nodes {
                 return (march, ladder);
             }
-            let finer = self.grid(2 * (march.grid.nx - 1) + 1);
+            let finer = self.grid(2 * (march.solver.grid.nx - 1) + 1);
             march = March::refined(&march, finer, &CIRCLE, 1.0, Flow::Film);
             way = 3.0;
         }
@@ -154,15 +156,15 @@ impl Case {
         let guess = 1.2 * self.lambda.powf(0.67);
         let mut march = March::from_hertz(self.grid(65), &CIRCLE, guess, 1.0, Flow::Film);
         loop {
-            let length = (self.domain.1 - self.domain.0) / march.grid.dx;
+            let length = (self.domain.1 - self.domain.0) / march.solver.grid.dx;
             for _ in 0..length as usize {
                 self.step(&mut march, 1.0);
             }
             each(&march);
-            if march.grid.nx >= nodes {
+            if march.solver.grid.nx >= nodes {
                 return march;
             }
-            let finer = self.grid(2 * (march.grid.nx - 1) + 1);
+            let finer = self.grid(2 * (march.solver.grid.nx - 1) + 1);
             march = March::refined(&march, finer, &CIRCLE, 1.0, Flow::Film);
         }
     }
@@ -175,9 +177,9 @@ impl Case {
             Guess::Extrapolated,
         );
         assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+        march.commit(nodes);
         assert!(march.state.pressure.iter().all(|&p| p >= 0.0));
         assert!(march.state.film.iter().all(|&h| h > 0.0 && h.is_finite()));
-        march.commit(nodes);
         report
     }
 }
@@ -280,7 +282,7 @@ impl<'a> Row<'a> {
 
 /// H at the origin.
 pub(crate) fn central(march: &March) -> f64 {
-    let grid = &march.grid;
+    let grid = &march.solver.grid;
     let i = (-grid.x_min / grid.dx).round() as usize;
     assert!(grid.x(i).abs() < 1e-12, "the origin is a node");
     march.state.film[grid.axis_row() * grid.nx + i]
@@ -288,7 +290,7 @@ pub(crate) fn central(march: &March) -> f64 {
 
 /// Least H inside r < 1.1, by a parabola through the lowest node along y and x.
 pub(crate) fn minimum(march: &March) -> f64 {
-    let grid = &march.grid;
+    let grid = &march.solver.grid;
     let film = &march.state.film;
     let mut best = (f64::INFINITY, 0, 0);
     for j in grid.interior_rows() {

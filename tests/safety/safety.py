@@ -1,7 +1,7 @@
 """What becomes of a recording when things go wrong, with the release binary and the real reader.
 
     python3 -m venv venv && venv/bin/pip install rerun-sdk==0.36.3 numpy
-    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|live|memory|cost|table ...]
+    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|live|memory|cost|table|footer ...]
 
 kill    twenty runs ended by SIGKILL at random moments: every file opens and holds all but the last second
 disk    a full disk (a small tmpfs where that may be mounted) and a folder that may not be written: a clear
@@ -11,6 +11,7 @@ live    a real viewer (without a screen) that is closed or freezes in mid-run: t
 memory  ten thousand steps, recorded and not: resident memory after the first tenth and at the end
 cost    the default scene with and without a recording in turns; ratio of the steps per second
 table   recorded h_min and life against the CSV of the same run, to rounding
+footer  a run that is stopped and let go on a hundred times: the viewer's own tool finds nothing wrong with its file
 
 Moments and timings vary from run to run, which is why this is a script to look at and not a unit test; it
 ends with code 1 when something does not hold.
@@ -195,9 +196,32 @@ def table(program, folder):
     check(np.allclose(*zip(*pairs), rtol=1e-6, atol=0), f"table: life of {len(pairs)} steps agrees to 1e-6")
 
 
+def footer(program, folder):
+    """The clock goes on while the run stands: rows are sent in many more parts than on a quiet machine."""
+    random.seed(2)
+    viewer = pathlib.Path(sys.executable).parent / "rerun"
+    for number, halts in enumerate((0, 100)):
+        out = folder / f"{number}.rrd"
+        command = [program, "run", *SMALL, "--passages", "8", "--out", out]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        for _ in range(halts):
+            time.sleep(0.02)
+            if process.poll() is None:
+                process.send_signal(signal.SIGSTOP)
+                time.sleep(random.uniform(0.0, 0.4))
+                process.send_signal(signal.SIGCONT)
+        process.wait()
+        seen = subprocess.run([viewer, "rrd", "verify", out], capture_output=True, text=True)
+        check(process.returncode == 0 and seen.returncode == 0, f"footer, {halts} halts: verify ends with {seen.returncode}")
+        chunks = sorted((c.entity_path, c.num_rows) for c in rx.RrdReader(out).stream() if not c.is_static)
+        if number == 0:
+            quiet = chunks
+        check(chunks == quiet, f"footer, {halts} halts: {len(chunks)} chunks, the same as on a quiet machine")
+
+
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
-    parts = {"kill": kill, "disk": disk, "live": live, "memory": memory, "cost": cost, "table": table}
+    parts = {"kill": kill, "disk": disk, "live": live, "memory": memory, "cost": cost, "table": table, "footer": footer}
     for name in sys.argv[2:] or parts:
         with tempfile.TemporaryDirectory() as folder:
             parts[name](program, pathlib.Path(folder))

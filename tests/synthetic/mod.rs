@@ -10,7 +10,7 @@ use asperity::scene::{
     Surface, Time,
 };
 use asperity::sim::{
-    Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, Stage, StressSlice,
+    Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage, StressSlice,
 };
 
 /// Half-width, m.
@@ -170,6 +170,7 @@ fn point(t: f64, pressure: &dyn Fn(f64, f64) -> f64) -> MaterialPoint {
     let speed = ENTRAINMENT * (1.0 - 0.5 * SLIDE_ROLL);
     let x_m = (speed * t + 2.2 * A).rem_euclid(3.4 * A) - 2.2 * A;
     let pressure_pa = pressure(x_m, 0.0);
+    let passed = ((x_m / A + 1.0).clamp(0.0, 2.0) * 2.2).floor();
     MaterialPoint {
         body: 1,
         x_m,
@@ -177,7 +178,12 @@ fn point(t: f64, pressure: &dyn Fn(f64, f64) -> f64) -> MaterialPoint {
         pressure_pa,
         effective_pa: 0.55 * pressure_pa,
         tau_xz_pa: 0.2 * pressure_pa * x_m / A,
-        cycles_counted: ((x_m / A + 1.0).clamp(0.0, 2.0) * 2.2).floor(),
+        cycles_counted: passed,
+        last_peak: (passed > 0.0).then(|| PassedPeak {
+            x_m: (passed / 2.2 - 1.0) * A - 0.1 * A,
+            pressure_pa,
+        }),
+        cycles_before: Some(4.0),
     }
 }
 
@@ -260,6 +266,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         film_error: 1e-3 * (1.3 + wobble),
         mass_error: 2e-5 * (1.3 + wobble),
         overlap_m: 0.0,
+        asked: [1e-3, 1e-2],
         friction_coefficient: 0.052 + 0.002 * wobble,
         sigma_eff_max_pa: Some(sigma),
         sigma_eff_max_depth_m: Some(depth),

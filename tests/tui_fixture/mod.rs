@@ -9,7 +9,7 @@ use std::time::Duration;
 use asperity::run::{Command, Settled};
 use asperity::scene::{Body, Contact, ContactKind, Life, Load, Motion, Record, Scene, Surface};
 use asperity::sim::{
-    Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, Stage, StressSlice,
+    Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage, StressSlice,
 };
 use asperity::study::sweep::{Began, Conditions, Found};
 use asperity::tui::app::{App, Effect, ErrandKind, Setup};
@@ -106,6 +106,7 @@ pub(crate) fn theme(depth: ColorDepth, glyphs: Glyphs) -> Theme {
 pub(crate) fn app(theme: Theme) -> App {
     App::new(Setup {
         scene: Arc::new(scene()),
+        name: "demonstration".into(),
         load_n: 800.0,
         half_width_m: A_M,
         p_hertz_pa: P_HERTZ_PA,
@@ -251,6 +252,7 @@ fn point(frame: &Frame, state: &State, travelled: f64) -> MaterialPoint {
     let inside = f64::midpoint(x_m / frame.a_m, 1.0).clamp(0.0, 1.0);
     let n = 1.0 + 2.0 * frame.a_m / WAVE_M * state.slide_roll.abs() / own;
     let pressure_pa = pressure(state, frame.a_m, frame.p_hertz_pa, x_m, 0.0, travelled);
+    let passed = (n * inside).floor();
     MaterialPoint {
         body: 1,
         x_m,
@@ -258,7 +260,12 @@ fn point(frame: &Frame, state: &State, travelled: f64) -> MaterialPoint {
         pressure_pa,
         effective_pa: 0.5 * pressure_pa,
         tau_xz_pa: 0.2 * pressure_pa * (TAU * x_m / WAVE_M).sin(),
-        cycles_counted: (2.0 * n * inside).floor() / 2.0,
+        cycles_counted: passed,
+        last_peak: (passed > 0.0).then(|| PassedPeak {
+            x_m: frame.a_m * (2.0 * (passed - 0.3) / n - 1.0),
+            pressure_pa,
+        }),
+        cycles_before: Some(n.floor()),
     }
 }
 
@@ -306,6 +313,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         film_error: 1.2e-3,
         mass_error: 3.3e-5,
         overlap_m: 0.0,
+        asked: [1e-3, 1e-2],
         friction_coefficient: 0.047,
         sigma_eff_max_pa: Some(1.12e9),
         sigma_eff_max_depth_m: Some(0.46 * frame.a_m),
@@ -397,6 +405,7 @@ pub(crate) fn sent(effects: &[Effect]) -> Vec<Command> {
 pub(crate) fn setup_of(scene: Scene) -> Setup {
     Setup {
         scene: Arc::new(scene),
+        name: "demonstration".into(),
         load_n: 800.0,
         half_width_m: A_M,
         p_hertz_pa: P_HERTZ_PA,

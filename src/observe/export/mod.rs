@@ -9,13 +9,15 @@ mod npz;
 mod png;
 
 use std::fs::File;
-use std::io::{BufWriter, Write as _};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use self::npz::Npz;
 use self::png::Pictures;
-use super::{ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent};
+use super::{
+    NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
+};
 use crate::sim::{Frame, Stage};
 
 /// What is written of a step.
@@ -31,8 +33,11 @@ pub enum Format {
 #[derive(Debug)]
 pub struct Export {
     folder: PathBuf,
+    /// The folder was not there before.
+    is_new: bool,
     overwrite: Overwrite,
     formats: Vec<Format>,
+    scene_toml: String,
     pictures: Pictures,
     frames: u64,
     bytes: u64,
@@ -49,6 +54,7 @@ impl Export {
         formats: &[Format],
     ) -> Result<Self, ObserveError> {
         let failed = |reason: String| ObserveError::new(folder.display().to_string(), reason);
+        let is_new = !folder.exists();
         std::fs::create_dir_all(folder)
             .map_err(|error| failed(format!("the folder cannot be made: {error}")))?;
         let mut entries = std::fs::read_dir(folder)
@@ -57,10 +63,18 @@ impl Export {
             let reason = "the folder is not empty; choose another or ask for overwriting (--force)";
             return Err(failed(reason.to_owned()));
         }
+        let scene = folder.join(SCENE);
+        if scene.exists() && !is_ours(&scene) {
+            let reason = "holds a scene.toml that no export wrote; choose another folder";
+            return Err(failed(reason.to_owned()));
+        }
+        overwrite.check(&scene)?;
         Ok(Self {
             folder: folder.to_owned(),
+            is_new,
             overwrite,
             formats: formats.to_vec(),
+            scene_toml: String::new(),
             pictures: Pictures::default(),
             frames: 0,
             bytes: 0,
@@ -77,10 +91,10 @@ impl Export {
     fn draw(&mut self, frame: &Frame) -> Result<u64, ObserveError> {
         let mut bytes = 0;
         for (subject, path) in Pictures::files(frame, &self.folder) {
-            // Made here, so that nothing is overwritten unasked and an error has its path.
-            drop(self.overwrite.create(&path)?);
-            let drawn = self.pictures.draw(frame, subject, &path);
-            drawn.map_err(|reason| ObserveError::new(path.display().to_string(), reason))?;
+            self.overwrite.write_by(&path, |at| {
+                let drawn = self.pictures.draw(frame, subject, at);
+                drawn.map_err(std::io::Error::other)
+            })?;
             bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
         }
         Ok(bytes)
@@ -88,9 +102,45 @@ impl Export {
 
     fn write(&self, frame: &Frame) -> Result<u64, ObserveError> {
         let path = self.folder.join(format!("step_{:06}.npz", frame.step));
-        let file = self.overwrite.create(&path)?;
-        write_frame(file, frame).map_err(|error| self.failed(&error))
+        self.overwrite
+            .write_by(&path, |at| write_frame(File::create(at)?, frame))
     }
+
+    /// Puts the scene into the folder, in place of what an earlier run left there: its steps beside another scene
+    /// would pass for this one's. Not before there is a step to put beside it.
+    fn move_in(&mut self) -> Result<(), ObserveError> {
+        let entries = std::fs::read_dir(&self.folder).into_iter().flatten();
+        let names = entries.flatten().map(|entry| entry.file_name());
+        for name in names.filter(|name| is_a_step(&name.to_string_lossy())) {
+            let removed = std::fs::remove_file(self.folder.join(name));
+            removed.map_err(|error| self.failed(&error))?;
+        }
+        let scene = self.folder.join(SCENE);
+        self.overwrite.write(&scene, self.scene_toml.as_bytes())
+    }
+}
+
+/// The scene beside the steps.
+const SCENE: &str = "scene.toml";
+
+/// Whether a file begins as the scenes do that this program writes.
+fn is_ours(path: &Path) -> bool {
+    let head = crate::files::read_up_to(path, 1 << 20).unwrap_or_default();
+    head.starts_with(b"# A scene of asperity.")
+}
+
+/// Whether a file of that name is one that an export writes: `step_000128.npz`, `step_000128_pressure.png`, the
+/// scene.
+pub fn is_exported(name: &str) -> bool {
+    name == SCENE || is_a_step(name)
+}
+
+fn is_a_step(name: &str) -> bool {
+    let Some(rest) = name.strip_prefix("step_") else {
+        return false;
+    };
+    let what = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+    rest.len() - what.len() >= 6 && (what == ".npz" || Pictures::are_named(what))
 }
 
 /// All arrays of a frame; the bytes written.
@@ -142,15 +192,16 @@ fn write_frame(file: File, frame: &Frame) -> std::io::Result<u64> {
 
 impl Observer for Export {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
-        let mut file = self.overwrite.create(&self.folder.join("scene.toml"))?;
-        file.write_all(context.scene_toml.as_bytes())
-            .map_err(|error| self.failed(&error))?;
+        self.scene_toml.clone_from(&context.scene_toml);
         self.pictures = Pictures::new(&context.scene.title);
         Ok(())
     }
 
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
         if frame.stage == Stage::Passage {
+            if self.frames == 0 {
+                self.move_in()?;
+            }
             if self.formats.contains(&Format::Npz) {
                 self.bytes += self.write(frame)?;
             }
@@ -167,13 +218,24 @@ impl Observer for Export {
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        let is_empty = self.frames == 0;
         Ok(ObserverReport {
             output: self.folder.display().to_string(),
             frames: self.frames,
             skipped: 0,
             bytes: self.bytes,
-            note: String::new(),
+            note: if is_empty { NOTHING_CAME } else { "" }.to_owned(),
             queue: None,
         })
+    }
+}
+
+impl Drop for Export {
+    /// A folder that was made for nothing goes again.
+    fn drop(&mut self) {
+        if self.is_new && self.frames == 0 {
+            // Only an empty folder can be taken away like this.
+            drop(std::fs::remove_dir(&self.folder));
+        }
     }
 }

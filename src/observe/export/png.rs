@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::drawing::{Curve, Drawing, Figure, Map, Right};
 use crate::observe::ramp::Ramp;
-use crate::observe::scales::{GPA, MM, MPA, Ranges, UM, number};
+use crate::observe::scales::{GPA, MM, MPA, Ranges, ToCome, UM, number};
 use crate::scene::ContactKind;
 use crate::sim::{Frame, StressSlice};
 
@@ -31,22 +31,22 @@ impl Pictures {
 
     /// A frame's pictures and their files.
     pub(super) fn files(frame: &Frame, folder: &Path) -> Vec<(Subject, PathBuf)> {
-        let all = [
-            Subject::Pressure,
-            Subject::Film,
-            Subject::Traction,
-            Subject::Roughness(1),
-            Subject::Roughness(2),
-            Subject::EffectiveStress,
-            Subject::ShearStress,
-            Subject::CentreLine,
-        ];
         let file = |subject: Subject| {
             let name = format!("step_{:06}_{}.png", frame.step, subject.name());
             (subject, folder.join(name))
         };
-        let shown = all.into_iter().filter(|subject| subject.is_in(frame));
+        let shown = Subject::ALL
+            .into_iter()
+            .filter(|subject| subject.is_in(frame));
         shown.map(file).collect()
+    }
+
+    /// Whether `_pressure.png` and so on stands behind the number of a step.
+    pub(super) fn are_named(what: &str) -> bool {
+        let name = what
+            .strip_prefix('_')
+            .and_then(|what| what.strip_suffix(".png"));
+        name.is_some_and(|name| Subject::ALL.iter().any(|subject| subject.name() == name))
     }
 
     /// Draws one picture.
@@ -59,7 +59,9 @@ impl Pictures {
         subject: Subject,
         file: &Path,
     ) -> Result<(), String> {
-        let ranges = *self.ranges.get_or_insert_with(|| Ranges::of(frame));
+        let ranges = *self
+            .ranges
+            .get_or_insert_with(|| Ranges::of(frame, &ToCome::of(None, frame)));
         let drawing = Drawing {
             file,
             title: format!("{}: {}", self.scene, subject.title()),
@@ -90,6 +92,17 @@ pub(super) enum Subject {
 }
 
 impl Subject {
+    const ALL: [Self; 8] = [
+        Self::Pressure,
+        Self::Film,
+        Self::Traction,
+        Self::Roughness(1),
+        Self::Roughness(2),
+        Self::EffectiveStress,
+        Self::ShearStress,
+        Self::CentreLine,
+    ];
+
     fn name(self) -> &'static str {
         match self {
             Self::Pressure => "pressure",

@@ -10,14 +10,36 @@ pub(super) use crate::observe::ramp::Ramp;
 pub(super) const ORANGE: [u8; 3] = [230, 159, 0];
 pub(super) const SKY: [u8; 3] = [86, 180, 233];
 pub(super) const GREEN: [u8; 3] = [0, 158, 115];
-pub(super) const YELLOW: [u8; 3] = [240, 228, 66];
-pub(super) const BLUE: [u8; 3] = [70, 130, 220];
-pub(super) const VERMILION: [u8; 3] = [213, 94, 0];
+
 pub(super) const PURPLE: [u8; 3] = [204, 121, 167];
+pub(super) const YELLOW: [u8; 3] = [240, 228, 66];
 pub(super) const WHITE: [u8; 3] = [235, 235, 235];
 pub(super) const GREY: [u8; 3] = [150, 155, 165];
+/// A colour as text has it: the viewer puts a sheet under labels, black or white by its theme and half transparent, so
+/// that a light theme turns [`BACKGROUND`] to a middle grey, on which only bright text can be read.
+pub(super) fn for_text(colour: [u8; 3]) -> [u8; 3] {
+    colour.map(|value| u8::MAX - ((u16::from(u8::MAX - value) * 2 + 2) / 5) as u8)
+}
+
 /// Background of spatial views: light enough for the dark end of the colour maps to show.
 pub(super) const BACKGROUND: [u8; 3] = [38, 42, 50];
+
+/// Colours of curves in plots, whose background is the viewer's own: dark or light by its theme. All of them stand out
+/// from black and from white by 3 : 1 (WCAG 2.2, 1.4.11), and are near those above.
+pub(super) mod curve {
+    pub(in super::super) const ORANGE: [u8; 3] = [216, 120, 0];
+    pub(in super::super) const SKY: [u8; 3] = [40, 140, 215];
+    pub(in super::super) const GREEN: [u8; 3] = [0, 150, 105];
+    pub(in super::super) const OLIVE: [u8; 3] = [150, 135, 0];
+    pub(in super::super) const BLUE: [u8; 3] = [80, 90, 215];
+    pub(in super::super) const VERMILION: [u8; 3] = [205, 80, 20];
+    pub(in super::super) const PURPLE: [u8; 3] = [195, 100, 160];
+    pub(in super::super) const GREY: [u8; 3] = [140, 142, 148];
+    /// All of them.
+    #[cfg(test)]
+    pub(in super::super) const ALL: [[u8; 3]; 8] =
+        [ORANGE, SKY, GREEN, OLIVE, BLUE, VERMILION, PURPLE, GREY];
+}
 
 /// A colour map in so many steps that an eye sees none: looked up, which costs less than to interpolate.
 pub(super) struct Tints(Vec<[f32; 3]>);
@@ -64,22 +86,6 @@ pub(super) fn hillshade(slope_x: f32, slope_y: f32) -> f32 {
     (0.72 * light + 0.2).clamp(0.45, 1.15) / 0.92
 }
 
-/// Refractive index of the oil in the interferogram.
-pub(super) const REFRACTIVE_INDEX: f64 = 1.5;
-/// Wavelengths of its three lights, nm.
-pub(super) const LIGHTS_NM: [f64; 3] = [640.0, 540.0, 450.0];
-
-/// What an optical rig shows for a film of `h_um`: three lights, each of intensity
-/// `(1 - cos(4 pi n h / lambda) exp(-(h/h_c)^2))/2`, dark at contact; the coherence length
-/// h_c = 0.7 um lets high fringes fade as in white light.
-pub(super) fn interference(h_um: f64) -> [u8; 3] {
-    let fade = (-(h_um / 0.7).powi(2)).exp();
-    LIGHTS_NM.map(|lambda_nm| {
-        let phase = 4.0 * std::f64::consts::PI * REFRACTIVE_INDEX * h_um * 1e3 / lambda_nm;
-        (255.0 * 0.5 * (1.0 - phase.cos() * fade)).round() as u8
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,12 +111,41 @@ mod tests {
         assert_eq!(tints.colour(1.0, 0.0), packed([0; 3]));
     }
 
+    /// Contrast as WCAG 2.2 has it.
+    fn contrast(one: [u8; 3], two: [u8; 3]) -> f64 {
+        let linear = |value: u8| {
+            let share = f64::from(value) / 255.0;
+            if share <= 0.04045 {
+                share / 12.92
+            } else {
+                ((share + 0.055) / 1.055).powf(2.4)
+            }
+        };
+        let luminance = |colour: [u8; 3]| {
+            let [r, g, b] = colour.map(linear);
+            0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05
+        };
+        let (one, two) = (luminance(one), luminance(two));
+        (one / two).max(two / one)
+    }
+
     #[test]
-    fn contact_is_dark_and_the_first_green_fringe_is_at_a_quarter_wave() {
-        assert_eq!(interference(0.0), [0, 0, 0]);
-        let quarter = LIGHTS_NM[1] * 1e-3 / (4.0 * REFRACTIVE_INDEX);
-        assert!(interference(quarter)[1] > 250);
-        // Far out all three lights are equally bright: white light shows no fringe.
-        assert!(interference(5.0).iter().all(|&c| c.abs_diff(128) <= 1));
+    fn curves_stand_out_from_black_and_from_white() {
+        for colour in curve::ALL {
+            assert!(contrast(colour, [0; 3]) >= 3.0, "{colour:?}");
+            assert!(contrast(colour, [255; 3]) >= 3.0, "{colour:?}");
+        }
+    }
+
+    #[test]
+    fn text_can_be_read_in_a_light_and_a_dark_theme() {
+        // The sheets as they are seen on the background, by a picture of the viewer in either theme.
+        for sheet in [[133, 134, 136], [28, 30, 35]] {
+            for colour in [WHITE, GREY, ORANGE, SKY, GREEN, PURPLE] {
+                let seen = contrast(for_text(colour), sheet);
+                assert!(seen >= 2.0, "{colour:?} on {sheet:?}: {seen}");
+            }
+            assert!(contrast(for_text(WHITE), sheet) >= 3.0);
+        }
     }
 }

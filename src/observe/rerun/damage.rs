@@ -2,19 +2,22 @@
 //!
 //! Damage spans many powers of ten, so its logarithm is shown, in a range that is the same in every frame and
 //! every recording: thousandfold above and below the worst point of the smooth contact. A block exists once
-//! material has crossed; until then its picture is empty. Block and picture are stretched to one size, whose
-//! axes carry the lengths.
+//! material has crossed; what of it has not crossed yet is no number and is not drawn, and its share is told. Block
+//! and picture are stretched to one size, whose axes carry the lengths; a row for each of the solver's depths.
 
-use rerun::components::Colormap;
-use rerun::{Points2D, Radius};
+use rerun::components::{Colormap, ImageFormat, MagnificationFilter};
+use rerun::{AnnotationContext, AsComponents, ChannelDatatype, DepthImage, Points2D, Radius};
+use rerun::{Rgba32, SegmentationImage};
 
-use super::colour::{GREEN, WHITE, faded};
+use super::colour::{BACKGROUND, GREEN, WHITE, faded};
+use super::depths::Depths;
 use super::plot::{PlotBox, ticks_at};
 use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
-use super::slice::Rows;
 use super::stream::Stream;
+use super::waiting::ClassImage;
+use crate::math::number::sig;
 use crate::observe::ObserveError;
-use crate::observe::scales::{MM, ticks};
+use crate::observe::scales::ticks;
 use crate::sim::{DamageBlock, Frame};
 
 /// Entities of body 1 and 2.
@@ -28,8 +31,8 @@ const WIDTH: f64 = 2.0;
 const HEIGHT: f64 = 1.5;
 /// Depth that is shown, in a: twice that of the greatest shear stress. Below there is no damage to speak of.
 const DEPTH: f64 = 1.5;
-/// Rows of the picture.
-const ROWS: f64 = 96.0;
+/// Damage less than this many powers of ten below the reference is as good as none.
+const LEAST: f32 = -12.0;
 const UM: f64 = 1e6;
 
 /// The damage maps of both bodies.
@@ -41,11 +44,11 @@ pub(super) struct Damage {
 struct Block {
     entity: &'static str,
     raster: Raster,
-    rows: Rows,
+    /// Covers what has not crossed yet.
+    cover: ClassImage,
+    depths: Depths,
     columns: usize,
     length_m: f64,
-    /// Lower edge of the picture.
-    deepest_m: f64,
     /// What was logged last: a map changes when a material point has crossed.
     last: Vec<f32>,
 }
@@ -86,61 +89,54 @@ impl Block {
         damage: &DamageBlock,
         a_m: f64,
     ) -> Result<Option<Self>, ObserveError> {
-        let depths = &damage.depths_m;
-        let (Some(first), Some(last)) = (depths.first(), depths.last()) else {
+        let Some(depths) = Depths::down_to(&damage.depths_m, DEPTH * a_m) else {
             return Ok(None);
         };
-        let last = last.min(DEPTH * a_m);
-        let Some(rows) = Rows::new(depths, (last - first) * MM / ROWS, last * MM) else {
-            return Ok(None);
-        };
-        if damage.columns == 0 || damage.damage.len() != damage.columns * depths.len() {
+        if damage.columns == 0 || damage.damage.len() != damage.columns * damage.depths_m.len() {
             return Ok(None);
         }
-        let (length, depth) = (damage.length_m * UM, last * UM);
+        let length = damage.length_m * UM;
         let plot = PlotBox {
             x_ticks: ticks_at(&ticks(0.0, length, 5), |x| WIDTH * x / length),
-            left_ticks: ticks_at(&ticks(0.0, depth, 5), |z| HEIGHT * z / depth),
+            left_ticks: depths.ticks(HEIGHT),
             x_title: "way along the surface from a crest, µm".into(),
             titles: vec![(0.13, "depth z, µm".into(), WHITE)],
             ..plot_box()
         };
-        let row_height = HEIGHT * (last - first) / (last * (rows.len() - 1) as f64);
-        let column_width = WIDTH / damage.columns as f64;
+        let size = [WIDTH / damage.columns as f64, HEIGHT / depths.len() as f64];
         let pixels = Pixels {
             columns: damage.columns,
-            rows: rows.len(),
-            first: [0.5 * column_width, HEIGHT * first / last],
-            size: [column_width, row_height],
+            rows: depths.len(),
+            first: size.map(|side| 0.5 * side),
+            size,
         };
         let scale = Scale {
             unit: "powers of ten",
             per_si: 1.0,
             top: DECADES,
-            headroom: 4.0,
             sign: Sign::Both,
             colours: Colormap::Magma,
         };
         let style = Points2D::update_fields()
-            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
-            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
+            .with_radii([Radius::new_ui_points(0.0), Radius::new_ui_points(5.0)])
+            .with_colors([faded(WHITE, 255), faded(GREEN, 255)])
             .with_show_labels(true)
             .with_draw_order(26.0);
         stream.log_static(worst_point(entity), &style)?;
+        let title = ("log10 D", Height::Fixed);
+        let raster = Raster::new(stream, entity, scale, pixels, &plot, title)?;
+        // What is no number must not colour its neighbours.
+        let sharp =
+            DepthImage::update_fields().with_magnification_filter(MagnificationFilter::Nearest);
+        stream.log_static(format!("{entity}/image"), &sharp)?;
+        log_cover(stream, &cover(entity), &pixels)?;
         Ok(Some(Self {
             entity,
-            raster: Raster::new(
-                stream,
-                entity,
-                scale,
-                pixels,
-                &plot,
-                ("log10 D", Height::Fixed),
-            )?,
-            rows,
+            raster,
+            cover: stream.class_image(cover(entity)),
+            depths,
             columns: damage.columns,
             length_m: damage.length_m,
-            deepest_m: last,
             last: Vec::new(),
         }))
     }
@@ -148,7 +144,7 @@ impl Block {
     fn fits(&self, damage: &DamageBlock) -> bool {
         self.columns == damage.columns
             && self.length_m == damage.length_m
-            && self.rows.are_over(&damage.depths_m)
+            && self.depths.are_of(&damage.depths_m)
             && damage.damage.len() == damage.columns * damage.depths_m.len()
     }
 
@@ -157,34 +153,74 @@ impl Block {
             return Ok(());
         }
         self.last.clone_from(&damage.damage);
-        let (columns, depths) = (self.columns, damage.depths_m.len());
-        // Depth by depth, as the rows want it; nowhere below what can be stored.
-        let least = -4.0 * DECADES as f32;
-        let powers: Vec<f32> = (0..columns * depths)
-            .map(|at| damage.damage[at % columns * depths + at / columns])
-            .map(|value| value.log10().max(least))
-            .collect();
-        let image = self.rows.image(&powers, columns);
-        self.raster.log(stream, Field::TopDown(&image))?;
+        let powers = powers(damage, self.depths.len(), LEAST);
+        self.raster.log(stream, Field::TopDown(&powers))?;
+        stream.log_classes(self.cover, |classes| {
+            classes.extend(powers.iter().map(|power| u8::from(power.is_nan())));
+        })?;
         self.log_pit(stream, damage)
     }
 
     /// Where the pit starts by this map: the worst point.
     fn log_pit(&self, stream: &Stream, damage: &DamageBlock) -> Result<(), ObserveError> {
         let way = damage.pit_place_m.rem_euclid(self.length_m) / self.length_m;
-        let at = [WIDTH * way, HEIGHT * damage.pit_depth_m / self.deepest_m].map(|v| v as f32);
+        let share = self.depths.share(damage.pit_depth_m);
+        let at = share.map(|share| [WIDTH * way, HEIGHT * share].map(|v| v as f32));
+        let crossed = 100.0 * damage.filled as f64 / self.columns as f64;
+        let not_yet = if damage.filled < self.columns {
+            format!(
+                "\n{} % of it has crossed; the rest is not drawn",
+                sig(crossed, 2)
+            )
+        } else {
+            String::new()
+        };
         let label = format!(
-            "worst: D = {:.3}, {:.1} µm deep",
-            damage.pit_damage,
-            damage.pit_depth_m * UM
+            "worst: D = {}, {} µm deep{not_yet}",
+            sig(damage.pit_damage, 3),
+            sig(damage.pit_depth_m * UM, 3),
         );
-        // In the middle below, where it hides little and is not cut off.
-        let label_at = [0.5 * WIDTH, 0.86 * HEIGHT].map(|v| v as f32);
+        // In the middle below, where it hides little and is not cut off. A worst point below the picture has no dot.
+        let label_at = [0.5 * WIDTH, 0.84 * HEIGHT].map(|v| v as f32);
         let pit = Points2D::update_fields()
-            .with_positions([at, label_at])
-            .with_labels([String::new(), label]);
+            .with_positions(std::iter::once(label_at).chain(at))
+            .with_labels([label, String::new()]);
         stream.log(&worst_point(self.entity), &pit)
     }
+}
+
+/// log10 D depth by depth down to so many depths, `least` at least; NaN in columns that have not crossed.
+pub(super) fn powers(block: &DamageBlock, shown: usize, least: f32) -> Vec<f32> {
+    let (columns, depths) = (block.columns, block.depths_m.len());
+    let mut powers = vec![f32::NAN; columns * shown];
+    for (column, damage) in block.damage.chunks_exact(depths.max(1)).enumerate() {
+        if damage.iter().any(|&damage| damage > 0.0) {
+            for (row, damage) in damage.iter().take(shown).enumerate() {
+                powers[row * columns + column] = damage.log10().max(least);
+            }
+        }
+    }
+    powers
+}
+
+/// What covers the picture is of the colour behind it: as if nothing were drawn.
+fn log_cover(stream: &Stream, entity: &str, pixels: &Pixels) -> Result<(), ObserveError> {
+    let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
+    let image = SegmentationImage::update_fields()
+        .with_format(format)
+        .with_opacity(1.0)
+        .with_draw_order(5.0);
+    let [r, g, b] = BACKGROUND;
+    let context = AnnotationContext::new([
+        (0, "crossed", Rgba32::from_unmultiplied_rgba(0, 0, 0, 0)),
+        (1, "not crossed yet", Rgba32::from_rgb(r, g, b)),
+    ]);
+    let parts: [&dyn AsComponents; 3] = [&image, &pixels.transform(), &context];
+    stream.log_static(entity, &parts)
+}
+
+fn cover(entity: &str) -> String {
+    format!("{entity}/not_crossed")
 }
 
 fn worst_point(entity: &str) -> String {

@@ -4,8 +4,12 @@
 //! goes on returning `Ok`, and a flush (also the one on closing) waits for ever. This sink writes
 //! what it gets at once, keeps the first error for whoever asks, and cuts the file back to its last
 //! whole message, so that it stays readable up to there.
+//!
+//! While the run goes on the clock says when something is written, so that a kill loses less than a second. The
+//! finished file is [bound](super::bound): rows together by entity, whenever they were written, and a footer.
 
 use std::fs::File;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -13,11 +17,8 @@ use rerun::external::re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
 use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
-/// Messages from which on the file gets no footer: an index for partial loading, 5.6 kB a message, which would be
-/// kept in memory until the end. Without it a viewer reads the file from its beginning, as it does after a kill.
-/// Some 260 messages are made once and 50 come with every tick: recordings of a few passages stay below. With 1024
-/// the memory of a long run still grew by 7 % after its first thousand steps (`safety.py memory`; 5 % is the bound).
-const MOST_INDEXED: u64 = 640;
+use super::bound;
+use crate::observe::placed::Placed;
 
 /// A recording's file, shared by the library's thread, which writes, and the recorder, which asks.
 #[derive(Clone)]
@@ -30,8 +31,11 @@ struct State {
     file: File,
     /// Length up to the last whole message.
     bytes: u64,
-    messages: u64,
     error: Option<String>,
+    /// Why the file is as it was written in the run, without a footer.
+    unbound: Option<String>,
+    /// Where it lies and what it will be called.
+    placed: Placed,
 }
 
 impl State {
@@ -39,10 +43,6 @@ impl State {
         let Some(encoder) = &mut self.encoder else {
             return;
         };
-        self.messages += 1;
-        if self.messages == MOST_INDEXED {
-            encoder.do_not_emit_footer();
-        }
         match encoder.append(message) {
             Ok(bytes) => self.bytes += bytes,
             Err(error) => self.fail(&error.to_string()),
@@ -52,14 +52,35 @@ impl State {
     fn finish(&mut self) {
         if let Some(mut encoder) = self.encoder.take() {
             match encoder.finish() {
-                Ok(()) => self.bytes = self.length(),
+                Ok(()) => self.bind(),
+                Err(error) => self.fail(&error.to_string()),
+            }
+        }
+        if self.error.is_none() {
+            match self.placed.settle() {
+                Ok(true) => {}
+                Ok(false) => self.bytes = 0,
                 Err(error) => self.fail(&error.to_string()),
             }
         }
     }
 
+    /// Puts rows together and adds the footer. A recording that cannot be bound (no room for another) is complete
+    /// all the same: viewers then read it from its beginning.
+    fn bind(&mut self) {
+        self.bytes = self.length();
+        match bound::bind(self.placed.at(), Vec::new()) {
+            Ok(bytes) => self.bytes = bytes,
+            Err(reason) => self.unbound = Some(reason),
+        }
+    }
+
     fn fail(&mut self, reason: &str) {
-        self.error.get_or_insert_with(|| reason.to_owned());
+        let place = self.placed.leave();
+        let place = place.map_or_else(String::new, |at| {
+            format!("; it is {}, the older one is as it was", at.display())
+        });
+        self.error.get_or_insert_with(|| format!("{reason}{place}"));
         if let Some(mut encoder) = self.encoder.take() {
             // Dropping it would try to write a footer to a disk that takes no more.
             encoder.do_not_emit_footer();
@@ -75,17 +96,20 @@ impl State {
 
 impl RecordingFile {
     /// Starts a recording in an empty file.
-    pub(super) fn start(file: File) -> Result<Self, String> {
+    pub(super) fn start(file: File, placed: Placed) -> Result<Self, String> {
         let for_length = file.try_clone().map_err(|error| error.to_string())?;
         let options = EncodingOptions::PROTOBUF_COMPRESSED;
-        let encoder = Encoder::new_eager(CrateVersion::LOCAL, options, file)
+        let mut encoder = Encoder::new_eager(CrateVersion::LOCAL, options, file)
             .map_err(|error| error.to_string())?;
+        // An index of 5.6 kB a message, kept in memory until the end: it is made when the file is bound.
+        encoder.do_not_emit_footer();
         let mut state = State {
             encoder: Some(encoder),
             file: for_length,
             bytes: 0,
-            messages: 0,
             error: None,
+            unbound: None,
+            placed,
         };
         state.bytes = state.length();
         Ok(Self(Arc::new(Mutex::new(state))))
@@ -94,6 +118,16 @@ impl RecordingFile {
     /// The state stays whole between statements, so a panic elsewhere does not spoil it.
     fn lock(&self) -> MutexGuard<'_, State> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A step is in it: from now on it is worth its name.
+    pub(super) fn hold(&self) {
+        self.lock().placed.hold();
+    }
+
+    /// Where it is written.
+    pub(super) fn path(&self) -> PathBuf {
+        self.lock().placed.at().to_owned()
     }
 
     /// Bytes written.
@@ -106,7 +140,12 @@ impl RecordingFile {
         self.lock().error.clone()
     }
 
-    /// Writes the footer; what is sent afterwards is not written.
+    /// Why the finished file has no footer, if it has none.
+    pub(super) fn unbound(&self) -> Option<String> {
+        self.lock().unbound.clone()
+    }
+
+    /// Binds the file and gives it its name; what is sent afterwards is not written.
     pub(super) fn finish(&self) -> Result<(), String> {
         let mut state = self.lock();
         state.finish();

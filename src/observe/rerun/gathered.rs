@@ -12,7 +12,7 @@ use rerun::external::arrow::datatypes::{ArrowNativeType, DataType, Field};
 use rerun::log::{Chunk, ChunkError, ChunkId};
 use rerun::{ComponentDescriptor, EntityPath, LineStrips2D, Mesh3D, SerializedComponentColumn};
 
-use super::stream::{Moment, time_columns};
+use super::moment::{Moment, time_columns};
 
 /// Values, and where each row ends.
 #[derive(Debug)]

@@ -14,13 +14,14 @@ pub(super) struct Geometry {
     pub(super) dx: f64,
     pub(super) y_min: f64,
     pub(super) dy: f64,
-    /// Hertz half-widths at the load of the first frame.
+    /// Hertz half-widths at the greatest load to come: what is cut out around the contact holds it then too.
     pub(super) a: f64,
     pub(super) b: f64,
 }
 
 impl Geometry {
-    pub(super) fn of(frame: &Frame) -> Self {
+    /// Of a run with that first frame, whose half-widths grow to `size` of its own.
+    pub(super) fn of(frame: &Frame, size: f64) -> Self {
         Self {
             kind: frame.kind,
             nx: frame.nx,
@@ -29,8 +30,8 @@ impl Geometry {
             dx: frame.dx_m * MM,
             y_min: frame.y_min_m * MM,
             dy: frame.dy_m * MM,
-            a: frame.a_m * MM,
-            b: frame.b_m * MM,
+            a: size * frame.a_m * MM,
+            b: size * frame.b_m * MM,
         }
     }
 

@@ -1,20 +1,26 @@
-//! The film as an optical rig shows it: three lights reflected from both sides of the film.
+//! The film as an optical rig shows it ([`crate::observe::interferogram`] has the colours).
 //!
 //! Fringes are narrower than the solver's nodes where the film is steep, so the film is interpolated
 //! (bilinearly) to [`FINER`] pixels per node before it is coloured; only the surroundings of the
-//! contact are drawn. One byte per pixel: the class of a colour table of 5 nm steps, whose labels are
-//! the thickness.
+//! contact are drawn. One byte per pixel: a class of a colour table, whose labels are the thickness.
+//!
+//! ```text
+//! class   1 to 200    h in steps of 5 nm, where it rises by less than 80 nm over a pixel
+//!       201 to 250    in steps of 20 nm, up to 165 nm: half of the contrast is left
+//!             251     grey: above 1 µm, or steeper
+//! ```
 
 use rerun::components::{ImageBuffer, ImageFormat};
 use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
 
-use super::colour::{GREY, LIGHTS_NM, REFRACTIVE_INDEX, WHITE, interference};
+use super::colour::{GREY, WHITE};
 use super::geometry::Geometry;
 use super::plot::{Labels, PlotBox, ticks_at};
 use super::raster::{Pixels, log_styled};
 use super::stream::Stream;
 use super::waiting::ClassImage;
 use crate::observe::ObserveError;
+use crate::observe::interferogram::{LIGHTS_NM, REFRACTIVE_INDEX, colour};
 use crate::observe::scales::{number, ticks};
 use crate::sim::Frame;
 
@@ -23,8 +29,17 @@ pub(super) const INTERFEROGRAM: &str = "maps/film_interferogram";
 const FINER: usize = 2;
 /// Most nodes per direction that are drawn so fine; larger windows get one pixel per node.
 const MOST_NODES: usize = 110;
-/// Thickness of one colour, um.
-const STEP_UM: f64 = 0.005;
+/// Thickest film that is told from a thicker one, m.
+const TOP_M: f32 = 1e-6;
+/// Classes of films that rise little over a pixel; the first is no film. Class 0 is left out because viewers may
+/// draw it transparent.
+const SHARP: u8 = 200;
+/// Classes of those that rise more, after them.
+const BLURRED: u8 = 50;
+/// The one that shows no fringe.
+const FLAT: u8 = SHARP + BLURRED + 1;
+/// Rise over a pixel up to which classes are sharp, that of the blurred ones, and that from which nothing is left, m.
+const RISES_M: [f32; 3] = [80e-9, 120e-9, 165e-9];
 /// Drawn: this many half-widths from the middle.
 const REACH: f64 = 1.3;
 
@@ -74,20 +89,19 @@ impl Interferogram {
     /// Logs one frame.
     pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let pixels = self.pixels();
-        let mut nodes = Vec::with_capacity(self.nodes[0]);
+        let (mut nodes, mut across) = (Vec::new(), Vec::new());
         let mut parts = vec![0; self.nodes[0] - 1];
         stream.log_classes(self.image, |classes| {
             classes.reserve(pixels.columns * pixels.rows);
             for row in (0..pixels.rows).rev() {
-                self.nodes_of(&frame.film_m, row, &mut nodes);
+                self.nodes_of(&frame.film_m, row, &mut nodes, &mut across);
                 let from = classes.len();
                 // The last pixel lies on a node.
-                classes.resize(
-                    from + pixels.columns,
-                    nodes.last().map_or(0, |&last| class(last)),
-                );
+                let last = nodes.last().zip(across.last());
+                let last = last.map_or(FLAT, |(film, rise)| class(*film, *rise));
+                classes.resize(from + pixels.columns, last);
                 for part in 0..self.finer {
-                    classify(&nodes, part as f32 / self.finer as f32, &mut parts);
+                    classify(&nodes, &across, [part, self.finer], &mut parts);
                     let out = classes[from + part..].iter_mut().step_by(self.finer);
                     out.zip(&parts).for_each(|(out, &class)| *out = class);
                 }
@@ -95,21 +109,30 @@ impl Interferogram {
         })
     }
 
-    /// The film at the nodes' x on a row of pixels, m; rows count from the least y.
-    fn nodes_of(&self, film_m: &[f32], row: usize, nodes: &mut Vec<f32>) {
+    /// The film at the nodes' x on a row of pixels, m, and its rise across a pixel along y; rows count from the
+    /// least y.
+    fn nodes_of(&self, film_m: &[f32], row: usize, nodes: &mut Vec<f32>, across: &mut Vec<f32>) {
         let (j, part) = (self.from[1] + row / self.finer, row % self.finer);
-        let at = j * self.geometry.nx + self.from[0];
-        let low = &film_m[at..at + self.nodes[0]];
+        let row_of = |j: usize| &film_m[j * self.geometry.nx + self.from[0]..][..self.nodes[0]];
+        // From the last row, beyond which nothing may be read, one looks back.
+        let is_last = row / self.finer + 1 >= self.nodes[1];
+        let low = row_of(j);
+        let other = if is_last {
+            row_of(j.saturating_sub(1))
+        } else {
+            row_of(j + 1)
+        };
+        let pixel = 1.0 / self.finer as f32;
+        let weight = if is_last { 0.0 } else { part as f32 * pixel };
         nodes.clear();
-        if part == 0 {
-            // Also of the last row, beyond which nothing may be read.
-            nodes.extend_from_slice(low);
-            return;
-        }
-        let high = &film_m[at + self.geometry.nx..][..self.nodes[0]];
-        let weight = part as f32 / self.finer as f32;
-        let pairs = low.iter().zip(high);
-        nodes.extend(pairs.map(|(low, high)| low + (high - low) * weight));
+        across.clear();
+        let pairs = low.iter().zip(other);
+        nodes.extend(
+            pairs
+                .clone()
+                .map(|(low, other)| low + (other - low) * weight),
+        );
+        across.extend(pairs.map(|(low, other)| (other - low) * pixel));
     }
 
     fn pixels(&self) -> Pixels {
@@ -157,11 +180,17 @@ impl Interferogram {
     fn log_static(&self, stream: &Stream) -> Result<(), ObserveError> {
         let pixels = self.pixels();
         log_styled(stream, &entity(), &styled(&pixels), &pixels)?;
-        let context = AnnotationContext::new((0..256_u16).map(|class| {
-            let [r, g, b] = interference(thickness_um(class));
+        let context = AnnotationContext::new((1..=FLAT).map(|class| {
+            let (film_m, rise_m) = film_of(class);
+            let [r, g, b] = colour(film_m, rise_m);
+            let label = if class == FLAT {
+                "no fringe: h above 1 µm, or too steep".to_owned()
+            } else {
+                format!("h = {:.3} µm", film_m * 1e6)
+            };
             AnnotationInfo {
-                id: class,
-                label: Some(format!("h = {:.3} um", thickness_um(class)).into()),
+                id: u16::from(class),
+                label: Some(label.into()),
                 color: Some(Rgba32::from_rgb(r, g, b)),
             }
         }));
@@ -177,16 +206,16 @@ impl Interferogram {
         let (left, wide) = (plot.x[1] + 0.04 * w, 0.035 * w);
         let bar = Pixels {
             columns: 1,
-            rows: 255,
-            first: [left + 0.5 * wide, plot.y[0] + 0.5 * h / 255.0],
-            size: [wide, h / 255.0],
+            rows: usize::from(SHARP),
+            first: [left + 0.5 * wide, plot.y[0] + 0.5 * h / f64::from(SHARP)],
+            size: [wide, h / f64::from(SHARP)],
         };
         let entity = format!("{INTERFEROGRAM}/legend/bar");
-        let ramp: Vec<u8> = (1..=255).rev().collect();
+        let ramp: Vec<u8> = (1..=SHARP).rev().collect();
         let image = styled(&bar).with_buffer(ImageBuffer::from(ramp));
         log_styled(stream, &entity, &image, &bar)?;
         let mut labels = Labels::default();
-        let top = 255.0 * STEP_UM;
+        let top = f64::from(TOP_M) * 1e6;
         for value in ticks(0.0, top, 5) {
             let y = plot.y[1] - h * value / top;
             labels.add([left + 0.12 * w, y - 0.022 * h], &number(value), WHITE);
@@ -208,23 +237,42 @@ fn styled(pixels: &Pixels) -> SegmentationImage {
 }
 
 dispatched! {
-    /// Classes of the film at that part of the way from each node to the next.
-    fn classify(nodes: &[f32], part: f32, out: &mut [u8]) {
-        for (out, (low, high)) in out.iter_mut().zip(nodes.iter().zip(&nodes[1..])) {
-            *out = class(low + (high - low) * part);
+    /// Classes of the film at that part of the way from each node to the next: `part` of so many pixels.
+    fn classify(nodes: &[f32], across: &[f32], part: [usize; 2], out: &mut [u8]) {
+        let pixel = 1.0 / part[1] as f32;
+        let at = part[0] as f32 * pixel;
+        let pairs = nodes.iter().zip(&nodes[1..]).zip(across);
+        for (out, ((low, high), across)) in out.iter_mut().zip(pairs) {
+            let along = (high - low) * pixel;
+            let rise = (along * along + across * across).sqrt();
+            *out = class(low + (high - low) * at, rise);
         }
     }
 }
 
-/// The colour of a film: class 1 is no film, 255 the thickest. Class 0 is left out because viewers
-/// may draw it transparent.
+/// The class of a film that rises by so much over a pixel, m.
 #[inline]
-fn class(film_m: f32) -> u8 {
-    (film_m * (1e6 / STEP_UM) as f32 + 1.0).clamp(1.0, 255.0) as u8
+fn class(film_m: f32, rise_m: f32) -> u8 {
+    let rise_m = rise_m.abs();
+    let share = film_m.max(0.0) / TOP_M;
+    if share >= 1.0 || rise_m >= RISES_M[2] {
+        FLAT
+    } else if rise_m < RISES_M[0] {
+        1 + (share * f32::from(SHARP)) as u8
+    } else {
+        1 + SHARP + (share * f32::from(BLURRED)) as u8
+    }
 }
 
-fn thickness_um(class: u16) -> f64 {
-    STEP_UM * (f64::from(class) - 0.5).max(0.0)
+/// The film in the middle of a class, and its rise over a pixel, m.
+fn film_of(class: u8) -> (f32, f32) {
+    let middle = |place: u8, of: u8| TOP_M * (f32::from(place) + 0.5) / f32::from(of);
+    match class {
+        0 | 1 => (0.0, 0.0),
+        2..=SHARP => (middle(class - 1, SHARP), 0.0),
+        FLAT.. => (f32::INFINITY, 0.0),
+        _ => (middle(class - 1 - SHARP, BLURRED), RISES_M[1]),
+    }
 }
 
 #[cfg(test)]
@@ -233,11 +281,14 @@ mod tests {
 
     #[test]
     fn a_class_holds_the_films_of_its_step() {
-        assert_eq!(class(0.0), 1);
-        assert_eq!(class(1.0), 255);
-        for k in 2..254 {
-            let film_um = thickness_um(k);
-            assert_eq!(u16::from(class((film_um * 1e-6) as f32)), k);
+        assert_eq!((class(0.0, 0.0), class(1.0, 0.0)), (1, FLAT));
+        assert_eq!(class(0.3e-6, -1e-6), FLAT);
+        for k in 2..FLAT {
+            let (film_m, rise_m) = film_of(k);
+            assert_eq!(class(film_m, rise_m), k, "{film_m} {rise_m}");
         }
+        // Half of the contrast of green is left in the blurred ones.
+        let [_, dark, _] = colour(0.0, RISES_M[1]);
+        assert!((50..90).contains(&dark), "{dark}");
     }
 }

@@ -3,7 +3,8 @@
 //! and the film has its narrowest places.
 //!
 //! The picture grows with the run and is written anew a few times while it does (its last state at
-//! the end), so its cost stays a small part of the file.
+//! the end), so its cost stays a small part of the file. A run that goes on beyond its scene's end gets a time axis of
+//! twice the length, and every other row, as often as it takes: the picture always shows all of it.
 
 use rerun::components::Colormap;
 
@@ -11,9 +12,9 @@ use super::colour::WHITE;
 use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
 use super::raster::{Height, Pixels, Raster, Scale, Sign};
-use super::stream::Stream;
+use super::stream::{Holds, Stream};
 use crate::observe::ObserveError;
-use crate::observe::scales::{GPA, UM, number, ticks};
+use crate::observe::scales::{GPA, UM, ticks};
 use crate::sim::Frame;
 
 pub(super) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
@@ -50,11 +51,11 @@ impl Shown {
         match self {
             Self::Pressure { top_pa } => {
                 let top = top_pa * 0.999;
-                Scale::up_to(top, GPA, Sign::Positive, Colormap::Inferno, 8.0)
+                Scale::up_to(top, GPA, Sign::Positive, Colormap::Inferno)
             }
             Self::Film { top_m } => {
                 let top = top_m * 0.999;
-                Scale::up_to(top, UM, Sign::Positive, Colormap::Viridis, 16.0)
+                Scale::up_to(top, UM, Sign::Positive, Colormap::Viridis)
             }
         }
     }
@@ -76,8 +77,11 @@ pub(super) struct Kymograph {
     values: Vec<f32>,
     rows: usize,
     rows_logged: usize,
-    expected_rows: usize,
+    most_rows: usize,
+    /// Steps of a row, and those that the axes were logged for.
     every: u64,
+    axes_for: u64,
+    step_s: f64,
     first_step: Option<u64>,
 }
 
@@ -96,16 +100,11 @@ impl Kymograph {
         let x = [geometry.x_min, geometry.x_max()];
         let height = 0.9 * (x[1] - x[0]);
         let row_height = height / rows as f64;
-        let span_ms = step_s * 1e3 * (rows * every) as f64;
         let plot = PlotBox {
             x,
             y: [0.0, height],
             x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
-            left_ticks: ticks_at(&ticks(0.0, span_ms, 5), |t| height * t / span_ms),
-            x_title: format!(
-                "x, mm   (a = {} mm)",
-                number((geometry.a * 1e4).round() / 1e4)
-            ),
+            x_title: "x, mm".into(),
             titles: vec![(0.1, "time, ms".into(), WHITE)],
             ..PlotBox::default()
         };
@@ -115,24 +114,19 @@ impl Kymograph {
             first: [geometry.x_min, 0.5 * row_height],
             size: [geometry.dx, row_height],
         };
-        let (entity, title) = (shown.entity(), shown.title());
+        let title = (shown.title(), Height::Growing);
         Ok(Self {
             shown,
             geometry,
-            raster: Raster::new(
-                stream,
-                entity,
-                shown.scale(),
-                pixels,
-                &plot,
-                (title, Height::Growing),
-            )?,
+            raster: Raster::new(stream, shown.entity(), shown.scale(), pixels, &plot, title)?,
             plot,
             values: vec![0.0; geometry.nx * rows],
             rows: 0,
             rows_logged: 0,
-            expected_rows: rows,
+            most_rows: rows,
             every: every as u64,
+            axes_for: 0,
+            step_s,
             first_step: None,
         })
     }
@@ -145,9 +139,12 @@ impl Kymograph {
     /// that was.
     pub(super) fn follow(&mut self, frame: &Frame) {
         let first = *self.first_step.get_or_insert(frame.step);
-        let row = frame.step.saturating_sub(first) / self.every;
-        let rows = usize::try_from(row).map_or(usize::MAX, |row| row.saturating_add(1));
-        if rows > self.expected_rows || rows <= self.rows {
+        let steps = frame.step.saturating_sub(first);
+        while steps / self.every >= self.most_rows as u64 {
+            self.halve();
+        }
+        let rows = (steps / self.every) as usize + 1;
+        if rows <= self.rows {
             return;
         }
         let nx = self.geometry.nx;
@@ -159,10 +156,23 @@ impl Kymograph {
         self.rows = rows;
     }
 
+    /// Keeps every other row, of twice as many steps.
+    fn halve(&mut self) {
+        let nx = self.geometry.nx;
+        let kept = self.rows.div_ceil(2);
+        for row in 1..kept {
+            self.values
+                .copy_within(2 * row * nx..(2 * row + 1) * nx, row * nx);
+        }
+        (self.rows, self.rows_logged) = (kept, 0);
+        self.every = self.every.saturating_mul(2);
+    }
+
     /// Logs the picture when an eighth has been added.
     pub(super) fn log_if_due(&mut self, stream: &Stream) -> Result<(), ObserveError> {
-        let due = self.rows >= self.rows_logged + self.expected_rows.div_ceil(8)
-            || (self.rows == self.expected_rows && self.rows > self.rows_logged);
+        let due = self.rows_logged == 0
+            || self.rows >= self.rows_logged + self.most_rows.div_ceil(8)
+            || (self.rows == self.most_rows && self.rows > self.rows_logged);
         if due { self.log(stream) } else { Ok(()) }
     }
 
@@ -170,6 +180,14 @@ impl Kymograph {
     pub(super) fn log(&mut self, stream: &Stream) -> Result<(), ObserveError> {
         if self.rows == self.rows_logged {
             return Ok(());
+        }
+        if self.axes_for != self.every {
+            self.axes_for = self.every;
+            let span_ms = self.step_s * 1e3 * self.most_rows as f64 * self.every as f64;
+            let height = self.plot.y[1];
+            self.plot.left_ticks = ticks_at(&ticks(0.0, span_ms, 5), |t| height * t / span_ms);
+            let axes = format!("{}/axes", self.shown.entity());
+            self.plot.log_that(stream, &axes, Holds::FromNow)?;
         }
         self.rows_logged = self.rows;
         let values = &self.values[..self.rows * self.geometry.nx];

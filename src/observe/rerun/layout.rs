@@ -22,15 +22,20 @@ use super::damage;
 use super::interferogram::INTERFEROGRAM;
 use super::kymograph;
 use super::maps;
+use super::moment::STEP;
 use super::plot::{Margin, PlotBox};
 use super::slice;
-use super::stream::{APPLICATION, STEP, Stream};
+use super::stream::{APPLICATION, Stream};
 use super::text;
 use super::trace::TRACE;
 use crate::observe::ObserveError;
+use crate::scene::ContactKind;
 
 /// What the first frame tells the layout.
 pub(super) struct Shown {
+    /// Whether the run goes on while it is shown.
+    pub(super) live: bool,
+    pub(super) kind: ContactKind,
     pub(super) map: PlotBox,
     pub(super) interferogram: PlotBox,
     pub(super) centre_line: PlotBox,
@@ -53,7 +58,7 @@ pub(super) fn send(stream: &Stream, shown: &Shown) -> Result<(), ObserveError> {
         .with_state(PanelState::Collapsed)
         .with_timeline(STEP)
         .with_play_state(PlayState::Following)
-        .with_loop_mode(LoopMode::All)
+        .with_loop_mode(loop_mode(shown.live))
         .with_fps(15.0);
     let blueprint = Blueprint::new(Tabs::new(tabs))
         .with_auto_layout(false)
@@ -69,6 +74,11 @@ pub(super) fn send(stream: &Stream, shown: &Shown) -> Result<(), ObserveError> {
     })
 }
 
+/// What grows is followed and never jumps back; what is whole is played again and again.
+fn loop_mode(live: bool) -> LoopMode {
+    if live { LoopMode::Off } else { LoopMode::All }
+}
+
 fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
     let mut tabs = vec![contact_tab(views, shown), maps_tab(views, shown)];
     if shown.trace.is_some() {
@@ -77,7 +87,7 @@ fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
     if shown.life {
         tabs.push(life_tab(views, shown));
     }
-    tabs.push(convergence_tab(views));
+    tabs.push(convergence_tab(views, shown.kind));
     tabs.push(scene_tab(views));
     tabs
 }
@@ -100,9 +110,9 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let mut lower = vec![views.document("Now", text::NOW)];
     let mut lower_shares = vec![0.75];
     if let Some(plot) = &shown.slice {
-        let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT];
+        let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT, slice::HERTZ];
         lower.push(views.plot(
-            "Effective stress below body 1",
+            "Effective stress below body 1, a row per depth",
             &contents,
             plot,
             Margin::Legend,
@@ -165,8 +175,8 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     }
     if let Some(plot) = &shown.slice {
         all.push(views.plot(
-            "Orthogonal shear stress",
-            &[slice::TAU_XZ],
+            "Orthogonal shear stress, a row per depth",
+            &[slice::TAU_XZ, slice::HERTZ],
             plot,
             Margin::Legend,
         ));
@@ -232,7 +242,10 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
 fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let left = Vertical::new([
         life_series(views),
-        views.series("Its factors, log10 (they add up)", &["life/log10_factors"]),
+        views.series(
+            "Its factors, log10 (they add up; load apart)",
+            &["life/log10_factors"],
+        ),
     ]);
     let middle = Vertical::new([
         views.series(
@@ -270,7 +283,7 @@ fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         .into()
 }
 
-fn convergence_tab(views: &mut Views) -> ContainerLike {
+fn convergence_tab(views: &mut Views, kind: ContactKind) -> ContainerLike {
     Grid::new([
         views.series("Errors, log10", &["convergence/log10_errors"]),
         views.series("Iterations", &["convergence/iterations"]),
@@ -278,11 +291,20 @@ fn convergence_tab(views: &mut Views) -> ContainerLike {
         views.series("Film, µm", &["series/film_um"]),
         views.series("Contact, %", &["series/contact_percent"]),
         views.series("Friction coefficient", &["series/friction"]),
-        views.series("Load, N", &["series/load_N"]),
+        match kind {
+            ContactKind::Point => views.series("Load, N", &["series/load_N"]),
+            ContactKind::Line => views.series("Load, N/m", &["series/load_N_per_m"]),
+        },
+        views.series("Hertz half-width, µm", &["series/half_width_um"]),
         views.series("λ ratio", &["series/lambda_ratio"]),
+        views.series(
+            "Regime (0 dry, 1 boundary, 2 mixed, 3 full film)",
+            &["series/regime"],
+        ),
+        views.series("Cautions (1: holds)", &["series/cautions"]),
         TextLogView::new("Log").with_origin("/log").into(),
     ])
-    .with_grid_columns(3)
+    .with_grid_columns(4)
     .with_name("Convergence")
     .into()
 }
@@ -349,4 +371,15 @@ fn send_with(
     };
     recording.send_blueprint(messages, activation);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_live_does_not_loop() {
+        assert_eq!(loop_mode(true), LoopMode::Off);
+        assert_eq!(loop_mode(false), LoopMode::All);
+    }
 }

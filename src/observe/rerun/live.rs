@@ -5,6 +5,7 @@
 //! ([`Queue::spawn_live`](crate::observe::Queue::spawn_live)). A viewer that is closed is no failure of the
 //! run: nothing more is sent, and the report says so.
 
+use std::cell::Cell;
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
@@ -49,10 +50,9 @@ pub(super) fn url(address: impl std::fmt::Display) -> String {
 }
 
 /// The connection, as far as it can be asked.
-#[derive(Clone)]
 pub(super) enum Link {
-    /// To a viewer.
-    Viewer(Arc<GrpcSink>),
+    /// To a viewer, and whether it has answered.
+    Viewer(Arc<GrpcSink>, Cell<bool>),
     /// Viewers come and go.
     Server,
 }
@@ -61,10 +61,22 @@ impl Link {
     /// Whether the viewer has been closed or has broken off.
     pub(super) fn is_gone(&self) -> bool {
         match self {
-            Self::Viewer(sink) => {
+            Self::Viewer(sink, _) => {
                 matches!(sink.status(), GrpcSinkConnectionState::Disconnected(_))
             }
             Self::Server => false,
+        }
+    }
+
+    /// Whether the viewer has ever answered: something listens at many a port that is no viewer.
+    pub(super) fn has_answered(&self) -> bool {
+        match self {
+            Self::Viewer(sink, answered) => {
+                let now = matches!(sink.status(), GrpcSinkConnectionState::Connected);
+                answered.set(answered.get() || now);
+                answered.get()
+            }
+            Self::Server => true,
         }
     }
 }
@@ -106,7 +118,7 @@ pub(super) fn open(
                 .buffered()
                 .map_err(|error| failed(error.to_string()))?;
             recording.set_sink(Box::new(ToViewer(Arc::clone(&sink))));
-            Ok((recording, Link::Viewer(sink)))
+            Ok((recording, Link::Viewer(sink, Cell::new(false))))
         }
         Live::Serve(port) => {
             // The library would return Ok on a busy port and lose everything.

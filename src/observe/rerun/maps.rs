@@ -6,7 +6,7 @@ use rerun::{AnnotationContext, AsComponents, ChannelDatatype, Rgba32, Segmentati
 use super::colour::WHITE;
 use super::geometry::Geometry;
 use super::interferogram::Interferogram;
-use super::plot::{PlotBox, log_hertz, ticks_at};
+use super::plot::{Hertz, PlotBox, ticks_at};
 use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
 use super::waiting::ClassImage;
@@ -39,7 +39,7 @@ pub(super) struct Maps {
     roughness: [Option<Raster>; 2],
     interferogram: Interferogram,
     contact: ClassImage,
-    scales: Vec<(&'static str, Scale)>,
+    hertz: Hertz,
 }
 
 impl Maps {
@@ -51,16 +51,10 @@ impl Maps {
     ) -> Result<Self, ObserveError> {
         let up_to = Scale::up_to;
         let (positive, both) = (Sign::Positive, Sign::Both);
-        let inferno = up_to(ranges.pressure_pa, GPA, positive, Colormap::Inferno, 8.0);
-        let viridis = up_to(ranges.film_m, UM, positive, Colormap::Viridis, 16.0);
-        let signed = up_to(ranges.traction_pa, MPA, both, Colormap::CyanToYellow, 4.0);
-        let rough_top = up_to(ranges.roughness_m, UM, both, Colormap::CyanToYellow, 4.0);
-        let scales = vec![
-            (PRESSURE, inferno.clone()),
-            (FILM, viridis.clone()),
-            (TRACTION, signed.clone()),
-            (ROUGHNESS_1, rough_top.clone()),
-        ];
+        let inferno = up_to(ranges.pressure_pa, GPA, positive, Colormap::Inferno);
+        let viridis = up_to(ranges.film_m, UM, positive, Colormap::Viridis);
+        let signed = up_to(ranges.traction_pa, MPA, both, Colormap::CyanToYellow);
+        let rough_top = up_to(ranges.roughness_m, UM, both, Colormap::CyanToYellow);
         let map = |entity, scale: Scale, title: &str| {
             let title = format!("{title}, {}", scale.unit);
             let (pixels, plot) = (pixels(geometry), plot_box(geometry));
@@ -86,26 +80,35 @@ impl Maps {
             roughness: [rough_map(0, ROUGHNESS_1)?, rough_map(1, ROUGHNESS_2)?],
             interferogram: Interferogram::new(stream, geometry)?,
             contact: stream.class_image(CONTACT),
-            scales,
+            hertz: Hertz::default(),
         };
         log_contact_style(stream, geometry)?;
-        log_hertz(stream, HERTZ, &geometry)?;
         Ok(maps)
     }
 
-    /// Scales of the images, for the notes in the recording.
-    pub(super) fn scales(&self) -> &[(&'static str, Scale)] {
-        &self.scales
+    /// The images, for the notes in the recording and for what is told of them.
+    pub(super) fn rasters(&self) -> impl Iterator<Item = (&'static str, &Raster)> {
+        let [one, two] = &self.roughness;
+        let always = [
+            (PRESSURE, &self.pressure),
+            (FILM, &self.film),
+            (TRACTION, &self.traction),
+        ];
+        let rough = [(ROUGHNESS_1, one), (ROUGHNESS_2, two)];
+        let rough = rough
+            .into_iter()
+            .filter_map(|(entity, raster)| Some((entity, raster.as_ref()?)));
+        always.into_iter().chain(rough)
     }
 
     /// Upper end of the pressure's colour range, Pa.
     pub(super) fn pressure_top_pa(&self) -> f64 {
-        self.scales[0].1.top / GPA.1
+        self.pressure.scale().top / GPA.1
     }
 
     /// Upper end of the film's colour range, m.
     pub(super) fn film_top_m(&self) -> f64 {
-        self.scales[1].1.top / UM.1
+        self.film.scale().top / UM.1
     }
 
     pub(super) fn interferogram(&self) -> &Interferogram {
@@ -117,10 +120,11 @@ impl Maps {
         [self.roughness[0].is_some(), self.roughness[1].is_some()]
     }
 
-    /// Logs one frame's pressure, film and contact spots.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    /// Logs one frame's pressure, film and contact spots, and Hertz's contact.
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let g = self.geometry;
         let upright = |field| Field::BottomUp(field, g.nx);
+        self.hertz.log_ring(stream, HERTZ, frame)?;
         self.pressure.log(stream, upright(&frame.pressure_pa))?;
         self.film.log(stream, upright(&frame.film_m))?;
         let top = self.film_top_m() as f32;

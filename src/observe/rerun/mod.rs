@@ -1,17 +1,20 @@
 //! The recording: everything a run hands out, as a Rerun file that opens laid out.
 //!
-//! Fields are quantised to 16 bits with fixed colour ranges ([`raster`]), the 3-D view is cut open
+//! Fields are stored in half precision with fixed colour ranges ([`raster`]), the 3-D view is cut open
 //! at y = 0 ([`space`]), scalars are recorded in every step and fields as often as the budget allows
 //! ([`cadence`]). The file holds the scene as TOML, the plan and the log of commands, so that it
-//! tells how to repeat itself. It is readable up to the last second if the process is killed.
+//! tells how to repeat itself. It is readable up to the last second if the process is killed, and has a footer when it
+//! is finished ([`bound`]).
 //!
 //! Logging may block on the disk: run the recorder behind a [`Queue`](crate::observe::Queue), which
 //! also keeps all its calls on one thread, as the library's timelines want it.
 
+mod bound;
 mod cadence;
 mod centre_line;
 mod colour;
 mod damage;
+mod depths;
 mod file;
 mod gathered;
 mod geometry;
@@ -21,7 +24,9 @@ mod layout;
 mod live;
 mod maps;
 mod mesh;
+mod moment;
 mod plot;
+mod properties;
 mod raster;
 mod recorder;
 mod reread;
@@ -34,5 +39,6 @@ mod trace;
 mod waiting;
 
 pub use live::Live;
+pub use properties::note_summary;
 pub use recorder::Recorder;
 pub use reread::{Recorded, RecordedTurn, RereadError};

@@ -5,12 +5,13 @@
 
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
-use super::colour::{GREY, WHITE, faded};
-use super::geometry::Geometry;
-use super::stream::Stream;
+use super::colour::{GREY, WHITE, faded, for_text};
+use super::stream::{Holds, Stream};
+use crate::math::number::sig;
 use crate::observe::ObserveError;
-use crate::observe::scales::number;
+use crate::observe::scales::{MM, number};
 use crate::scene::ContactKind;
+use crate::sim::Frame;
 
 /// A tick: where, in units of the view, and its text.
 pub(super) type Tick = (f64, String);
@@ -58,6 +59,16 @@ impl PlotBox {
 
     /// Draws the frame once for the whole recording.
     pub(super) fn log(&self, stream: &Stream, entity: &str) -> Result<(), ObserveError> {
+        self.log_that(stream, entity, Holds::Always)
+    }
+
+    /// Draws the frame, for good or until the next.
+    pub(super) fn log_that(
+        &self,
+        stream: &Stream,
+        entity: &str,
+        holds: Holds,
+    ) -> Result<(), ObserveError> {
         let (w, h) = (self.width(), self.height());
         let [left, right] = self.x;
         let [top, bottom] = self.y;
@@ -88,7 +99,7 @@ impl PlotBox {
             .with_colors([Color::from(GREY)])
             .with_radii([Radius::new_ui_points(0.75)])
             .with_draw_order(20.0);
-        stream.log_static(format!("{entity}/frame"), &lines)?;
+        stream.log_that(&format!("{entity}/frame"), &lines, holds)?;
 
         let left_colour = self.left_colour.unwrap_or(WHITE);
         let right_colour = self.right_colour.unwrap_or(WHITE);
@@ -110,7 +121,7 @@ impl PlotBox {
         for (share, title, colour) in &self.titles {
             labels.add([left + share * w, top - 0.085 * h], title, *colour);
         }
-        labels.log(stream, &format!("{entity}/labels"))
+        labels.log_that(stream, &format!("{entity}/labels"), holds)
     }
 }
 
@@ -139,45 +150,91 @@ impl Labels {
         if !text.is_empty() {
             self.at.push([at[0] as f32, at[1] as f32]);
             self.texts.push(text.to_owned());
-            self.colours.push(Color::from(colour));
+            self.colours.push(Color::from(for_text(colour)));
         }
     }
 
     pub(super) fn log(&self, stream: &Stream, entity: &str) -> Result<(), ObserveError> {
+        self.log_that(stream, entity, Holds::Always)
+    }
+
+    fn log_that(&self, stream: &Stream, entity: &str, holds: Holds) -> Result<(), ObserveError> {
         let labels = Points2D::new(self.at.iter().copied())
             .with_radii([Radius::new_scene_units(0.0)])
             .with_colors(self.colours.iter().copied())
             .with_labels(self.texts.iter().map(String::as_str))
             .with_show_labels(true)
             .with_draw_order(30.0);
-        stream.log_static(entity, &labels)
+        stream.log_that(entity, &labels, holds)
     }
 }
 
-/// Where Hertz's contact is: an ellipse, or the two edges of a line.
-pub(super) fn log_hertz(
-    stream: &Stream,
-    entity: &str,
-    geometry: &Geometry,
-) -> Result<(), ObserveError> {
-    let (a, b) = (geometry.a, geometry.b);
-    let (low, high) = (geometry.y_min, geometry.y_max());
-    let strips: Vec<Vec<[f64; 2]>> = match geometry.kind {
-        ContactKind::Point => vec![
-            (0..=96)
-                .map(|k| {
-                    let angle = std::f64::consts::TAU * f64::from(k) / 96.0;
-                    [a * angle.cos(), b * angle.sin()]
-                })
-                .collect(),
-        ],
-        ContactKind::Line => vec![vec![[-a, low], [-a, high]], vec![[a, low], [a, high]]],
-    };
-    let line = LineStrips2D::new(strips.iter().map(|strip| points(strip)))
+/// Where Hertz's contact is at the load of now. Logged when it has changed.
+#[derive(Debug, Default)]
+pub(super) struct Hertz {
+    shown_m: Option<[f64; 2]>,
+}
+
+impl Hertz {
+    /// Whether the half-widths are others than last time.
+    fn changes(&mut self, frame: &Frame) -> bool {
+        let now = Some([frame.a_m, frame.b_m]);
+        std::mem::replace(&mut self.shown_m, now) != now
+    }
+
+    /// From above: an ellipse, or the two edges of a line.
+    pub(super) fn log_ring(
+        &mut self,
+        stream: &Stream,
+        entity: &str,
+        frame: &Frame,
+    ) -> Result<(), ObserveError> {
+        if !self.changes(frame) {
+            return Ok(());
+        }
+        let (a, b) = (frame.a_m * MM, frame.b_m * MM);
+        // Of a line a stretch that lies inside of every picture, those of a part of the domain too.
+        let high = 1.2 * b;
+        let strips: Vec<Vec<[f64; 2]>> = match frame.kind {
+            ContactKind::Point => vec![
+                (0..=96)
+                    .map(|k| {
+                        let angle = std::f64::consts::TAU * f64::from(k) / 96.0;
+                        [a * angle.cos(), b * angle.sin()]
+                    })
+                    .collect(),
+            ],
+            ContactKind::Line => vec![vec![[-a, -high], [-a, high]], vec![[a, -high], [a, high]]],
+        };
+        stream.log(entity, &edges(&strips))
+    }
+
+    /// In a section whose surface is the upper edge of a plot: both edges, and the half-width in figures.
+    pub(super) fn log_width(
+        &mut self,
+        stream: &Stream,
+        entity: &str,
+        (plot, frame): (&PlotBox, &Frame),
+    ) -> Result<(), ObserveError> {
+        if !self.changes(frame) {
+            return Ok(());
+        }
+        let (a, top) = (frame.a_m * MM, plot.y[0]);
+        let end = top + 0.04 * plot.height();
+        let strips = [-a, a].map(|x| vec![[x, top], [x, end]]);
+        stream.log(entity, &edges(&strips))?;
+        let mut label = Labels::default();
+        let at = [0.5 * (plot.x[0] + plot.x[1]), top - 0.085 * plot.height()];
+        label.add(at, &format!("a = {} µm", sig(frame.a_m * 1e6, 4)), GREY);
+        label.log_that(stream, &format!("{entity}/label"), Holds::FromNow)
+    }
+}
+
+fn edges(strips: &[Vec<[f64; 2]>]) -> LineStrips2D {
+    LineStrips2D::new(strips.iter().map(|strip| points(strip)))
         .with_colors([faded(WHITE, 150)])
         .with_radii([Radius::new_ui_points(0.75)])
-        .with_draw_order(15.0);
-    stream.log_static(entity, &line)
+        .with_draw_order(15.0)
 }
 
 /// The viewer's single-precision points.

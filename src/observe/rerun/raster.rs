@@ -1,9 +1,10 @@
-//! Images with a colour legend: a field on a rectangle, quantised to 16 bits, with a fixed range.
+//! Images with a colour legend: a field on a rectangle, in half precision, with a fixed colour range.
 //!
-//! `stored = round(value * levels/top)` with `top` the upper end of the colour range: 2^12 to 2^13
-//! levels lie inside the range (finer than an eye or a screen tells), and values up to 4 to 16 times
-//! the top are still stored as they are. The factor is the image's `meter`, so that viewers and
-//! scripts get the value back in the unit of the entity's name.
+//! Values are stored in the unit of the entity's name as 16-bit floating-point numbers: eleven significant bits
+//! (0.05 %) of everything between 6e-5 and 65 504, so that a film of 5 nm and the bath of 50 µm beside it are in one
+//! picture and nothing depends on a range that was guessed. A value beyond is stored as the greatest, and counted.
+
+use std::cell::Cell;
 
 use rerun::components::{Colormap, ImageBuffer, ImageFormat, MagnificationFilter};
 use rerun::{AsComponents, ChannelDatatype, DepthImage, Transform3D};
@@ -15,12 +16,15 @@ use super::waiting::LevelImage;
 use crate::observe::ObserveError;
 use crate::observe::scales::{divisions, nice_up, number};
 
+/// Greatest number in half precision.
+pub(super) const MOST: f32 = 65_504.0;
+
 /// Values of which sign an image holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sign {
-    /// Zero and above: u16.
+    /// Zero and above.
     Positive,
-    /// Both: i16, the colour range symmetrical about zero.
+    /// Both: the colour range is symmetrical about zero.
     Both,
 }
 
@@ -33,8 +37,6 @@ pub(super) struct Scale {
     pub(super) per_si: f64,
     /// Upper end of the colour range, in the unit.
     pub(super) top: f64,
-    /// How many times the top can be stored.
-    pub(super) headroom: f64,
     pub(super) sign: Sign,
     pub(super) colours: Colormap,
 }
@@ -46,42 +48,14 @@ impl Scale {
         (unit, per_si): (&'static str, f64),
         sign: Sign,
         colours: Colormap,
-        headroom: f64,
     ) -> Self {
         Self {
             unit,
             per_si,
             top: nice_up(value_si * per_si),
-            headroom,
             sign,
             colours,
         }
-    }
-
-    fn full(&self) -> f64 {
-        match self.sign {
-            Sign::Positive => f64::from(u16::MAX),
-            Sign::Both => f64::from(i16::MAX),
-        }
-    }
-
-    /// Stored levels per unit.
-    fn levels(&self) -> f64 {
-        self.full() / (self.top * self.headroom)
-    }
-
-    /// The least and the greatest value that can be stored, in the unit.
-    pub(super) fn stored_range(&self) -> [f64; 2] {
-        let top = self.top * self.headroom;
-        match self.sign {
-            Sign::Positive => [0.0, top],
-            Sign::Both => [-top, top],
-        }
-    }
-
-    /// The smallest difference that is stored, in the unit.
-    pub(super) fn resolution(&self) -> f64 {
-        1.0 / self.levels()
     }
 
     fn low(&self) -> f64 {
@@ -91,32 +65,64 @@ impl Scale {
         }
     }
 
-    fn datatype(&self) -> ChannelDatatype {
-        match self.sign {
-            Sign::Positive => ChannelDatatype::U16,
-            Sign::Both => ChannelDatatype::I16,
-        }
-    }
-
-    /// Adds SI values, quantised, little-endian as the viewer wants them. Values beyond the stored range take its
-    /// end.
-    fn quantise(&self, field: Field, levels: &mut Vec<u16>) {
-        let factor = (self.per_si * self.levels()) as f32;
-        let range = match self.sign {
-            Sign::Positive => [0.0, f32::from(u16::MAX)],
-            Sign::Both => [f32::from(i16::MIN), f32::from(i16::MAX)],
-        };
-        field.write_to(levels, |row, levels| {
-            quantise_row(row, factor, range, levels);
+    /// Adds SI values in half precision, little-endian as the viewer wants them; what lies beyond.
+    fn store(&self, field: Field, halves: &mut Vec<u16>) -> Beyond {
+        let (factor, top) = (self.per_si as f32, self.top as f32);
+        let mut beyond = Beyond::default();
+        field.write_to(halves, |row, halves| {
+            beyond.add(store_row(row, factor, top, halves), row, factor);
         });
+        beyond
     }
 
     /// Same as bytes of their own.
-    fn quantised(&self, values_si: &[f32]) -> ImageBuffer {
-        let mut levels = Vec::with_capacity(values_si.len());
-        self.quantise(Field::TopDown(values_si), &mut levels);
-        let bytes: Vec<u8> = levels.into_iter().flat_map(u16::to_ne_bytes).collect();
-        ImageBuffer::from(bytes)
+    fn stored(&self, values_si: &[f32]) -> (ImageBuffer, Beyond) {
+        let mut halves = Vec::with_capacity(values_si.len());
+        let beyond = self.store(Field::TopDown(values_si), &mut halves);
+        let bytes: Vec<u8> = halves.into_iter().flat_map(u16::to_ne_bytes).collect();
+        (ImageBuffer::from(bytes), beyond)
+    }
+}
+
+/// What of a picture lies beyond its ranges.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Beyond {
+    /// Samples above the colour range (by their size), which take the top colour.
+    pub(super) above: u64,
+    /// The greatest sample by its size, in the unit.
+    pub(super) greatest: f32,
+    /// Samples that could not be stored as they are: too great, or no numbers.
+    pub(super) clipped: u64,
+    /// By how much at most, in the unit.
+    pub(super) clipped_by: f32,
+}
+
+impl Beyond {
+    fn add(&mut self, (above, greatest): (u32, u32), row: &[f32], factor: f32) {
+        self.above += u64::from(above);
+        let greatest = f32::from_bits(greatest);
+        if greatest <= MOST {
+            self.greatest = self.greatest.max(greatest);
+            return;
+        }
+        for value in row.iter().map(|value| (value * factor).abs()) {
+            self.greatest = self.greatest.max(value);
+            // Of what is no number (which a field never holds by its contract) nobody knows by how much.
+            if value > MOST || value.is_nan() {
+                self.clipped += 1;
+                self.clipped_by = self.clipped_by.max(value - MOST);
+            }
+        }
+    }
+
+    /// Both.
+    fn with(self, other: Self) -> Self {
+        Self {
+            above: self.above + other.above,
+            greatest: self.greatest.max(other.greatest),
+            clipped: self.clipped + other.clipped,
+            clipped_by: self.clipped_by.max(other.clipped_by),
+        }
     }
 }
 
@@ -155,14 +161,24 @@ impl<T> Field<'_, T> {
 }
 
 dispatched! {
-    fn quantise_row(row: &[f32], factor: f32, [low, high]: [f32; 2], levels: &mut [u16]) {
-        for (out, value) in levels.iter_mut().zip(row) {
-            // Half away from zero, without a call of the library's `round`; both signs have the same low sixteen
-            // bits.
-            let level = value * factor;
-            let level = (level + 0.5_f32.copysign(level)).clamp(low, high);
-            *out = (level as i32 as u16).to_le();
+    /// Half precision, to the nearest, ties to even. How many sizes are above `top`, and the bits of the greatest.
+    fn store_row(row: &[f32], factor: f32, top: f32, halves: &mut [u16]) -> (u32, u32) {
+        let (mut above, mut greatest) = (0, 0);
+        for (out, value) in halves.iter_mut().zip(row) {
+            let bits = (value * factor).to_bits();
+            let size = bits & 0x7fff_ffff;
+            above += u32::from(size > top.to_bits());
+            greatest = if size > greatest { size } else { greatest };
+            // From 2^-14 on: fewer digits and another bias of the exponent.
+            let normal = (size + 0x0fff + ((size >> 13) & 1)).wrapping_sub(0x3800_0000) >> 13;
+            // Below, halves are multiples of 2^-24, as singles are between 0.5 and 1: the sum rounds.
+            let small = (f32::from_bits(size) + 0.5).to_bits().wrapping_sub(0x3f00_0000);
+            let half = if size < 0x3880_0000 { small } else { normal };
+            let half = if half > 0x7bff { 0x7bff } else { half };
+            let half = if size > 0x7f80_0000 { 0x7e00 } else { half };
+            *out = ((((bits >> 16) & 0x8000) | half) as u16).to_le();
         }
+        (above, greatest)
     }
 }
 
@@ -209,10 +225,13 @@ pub(super) struct Raster {
     image: LevelImage,
     scale: Scale,
     columns: usize,
+    /// Of the picture that was logged last, and of all.
+    last: Cell<Beyond>,
+    all: Cell<Beyond>,
 }
 
 impl Raster {
-    /// Logs all that stays: format, colours, range, place, axes and legend.
+    /// Logs all that stays: format, colours, range, place and legend, and of a picture with a fixed height its axes.
     pub(super) fn new(
         stream: &Stream,
         entity: &str,
@@ -222,36 +241,62 @@ impl Raster {
         (title, height): (&str, Height),
     ) -> Result<Self, ObserveError> {
         let place = format!("{entity}/image");
-        let format = ImageFormat::depth(pixels.resolution(), scale.datatype());
-        // What is logged once holds for ever, so the size of a growing picture may not be.
-        let fixed = match height {
-            Height::Fixed => styled(&scale).with_format(format),
-            Height::Growing => styled(&scale),
-        };
-        log_styled(stream, &place, &fixed, &pixels)?;
-        plot.log(stream, &format!("{entity}/axes"))?;
+        let format = ImageFormat::depth(pixels.resolution(), ChannelDatatype::F16);
+        match height {
+            Height::Fixed => {
+                log_styled(stream, &place, &styled(&scale).with_format(format), &pixels)?;
+                plot.log(stream, &format!("{entity}/axes"))?;
+            }
+            // What is logged once holds for ever, so the size of a growing picture and its axes may not be.
+            Height::Growing => log_styled(stream, &place, &styled(&scale), &pixels)?,
+        }
         log_legend(stream, &format!("{entity}/legend"), &scale, plot, title)?;
         Ok(Self {
             image: stream.level_image(place.as_str()),
             entity: place,
             scale,
             columns: pixels.columns,
+            last: Cell::default(),
+            all: Cell::default(),
         })
     }
 
     /// One frame's values in SI.
     pub(super) fn log(&self, stream: &Stream, field: Field) -> Result<(), ObserveError> {
-        stream.log_levels(self.image, |levels| self.scale.quantise(field, levels))
+        let mut beyond = Beyond::default();
+        stream.log_levels(self.image, |halves| {
+            beyond = self.scale.store(field, halves)
+        })?;
+        self.last.set(beyond);
+        self.all.set(self.all.get().with(beyond));
+        Ok(())
     }
 
     /// The upper rows of a growing picture: as many as there are values for.
     pub(super) fn log_upper(&self, stream: &Stream, values_si: &[f32]) -> Result<(), ObserveError> {
         let rows = values_si.len() / self.columns.max(1);
         let resolution = [self.columns as u32, rows as u32];
+        // Its samples are those of the maps, where they are counted.
+        let (buffer, _) = self.scale.stored(values_si);
         let data = DepthImage::update_fields()
-            .with_buffer(self.scale.quantised(values_si))
-            .with_format(ImageFormat::depth(resolution, self.scale.datatype()));
+            .with_buffer(buffer)
+            .with_format(ImageFormat::depth(resolution, ChannelDatatype::F16));
         stream.log(&self.entity, &data)
+    }
+
+    /// What of the last picture lay beyond the ranges.
+    pub(super) fn beyond(&self) -> Beyond {
+        self.last.get()
+    }
+
+    /// Same of all pictures.
+    pub(super) fn beyond_in_all(&self) -> Beyond {
+        self.all.get()
+    }
+
+    /// What its numbers mean.
+    pub(super) fn scale(&self) -> &Scale {
+        &self.scale
     }
 }
 
@@ -266,11 +311,10 @@ pub(super) fn log_styled(
 }
 
 fn styled(scale: &Scale) -> DepthImage {
-    let levels = scale.levels();
     DepthImage::update_fields()
-        .with_meter(levels as f32)
+        .with_meter(1.0)
         .with_colormap(scale.colours)
-        .with_depth_range([scale.low() * levels, scale.top * levels])
+        .with_depth_range([scale.low(), scale.top])
         .with_magnification_filter(MagnificationFilter::Linear)
 }
 
@@ -299,8 +343,11 @@ fn log_legend(
     };
     let bar = format!("{entity}/bar");
     let image = styled(scale)
-        .with_format(ImageFormat::depth(pixels.resolution(), scale.datatype()))
-        .with_buffer(scale.quantised(&ramp));
+        .with_format(ImageFormat::depth(
+            pixels.resolution(),
+            ChannelDatatype::F16,
+        ))
+        .with_buffer(scale.stored(&ramp).0);
     log_styled(stream, &bar, &image, &pixels)?;
 
     let mut labels = Labels::default();
@@ -326,13 +373,24 @@ mod tests {
     use super::*;
 
     fn scale(sign: Sign) -> Scale {
-        Scale::up_to(1.9e9, ("GPa", 1e-9), sign, Colormap::Inferno, 8.0)
+        Scale::up_to(1.9e9, ("GPa", 1e-9), sign, Colormap::Inferno)
     }
 
-    fn levels(scale: &Scale, values: &[f32]) -> Vec<u16> {
-        let mut levels = Vec::new();
-        scale.quantise(Field::TopDown(values), &mut levels);
-        levels.into_iter().map(u16::from_le).collect()
+    fn stored(scale: &Scale, values: &[f32]) -> (Vec<f64>, Beyond) {
+        let mut halves = Vec::new();
+        let beyond = scale.store(Field::TopDown(values), &mut halves);
+        let values = halves.into_iter().map(u16::from_le).map(value_of);
+        (values.collect(), beyond)
+    }
+
+    /// IEEE 754 binary16.
+    fn value_of(half: u16) -> f64 {
+        let (exponent, digits) = (i32::from((half >> 10) & 0x1f), f64::from(half & 0x3ff));
+        let size = match exponent {
+            0 => digits * 2.0_f64.powi(-24),
+            _ => (1024.0 + digits) * 2.0_f64.powi(exponent - 25),
+        };
+        if half & 0x8000 == 0 { size } else { -size }
     }
 
     #[test]
@@ -348,36 +406,39 @@ mod tests {
     }
 
     #[test]
-    fn values_come_back_within_half_a_level() {
-        let scale = scale(Sign::Positive);
+    fn values_come_back_to_eleven_bits() {
+        let scale = scale(Sign::Both);
         assert!((scale.top - 2.0).abs() < 1e-12);
-        let values = [0.0, 1.234_567e9, 1.9e9, 15.9e9];
-        let levels = levels(&scale, &values);
-        assert_eq!(levels.len(), values.len());
-        for (stored, value) in levels.into_iter().zip(values) {
-            let stored = f64::from(stored);
-            let back = stored / scale.levels();
-            let error = (back - f64::from(value) * 1e-9).abs();
-            // Half a level, and the rounding of a single-precision product.
-            assert!(error <= 0.5 * scale.resolution() + 1e-6 * back, "{error}");
+        let values: Vec<f32> = (0..4000)
+            .map(|k| 1.0e2 * 1.007_f32.powi(k) * if k % 2 == 0 { 1.0 } else { -1.0 })
+            .collect();
+        let (back, beyond) = stored(&scale, &values);
+        assert_eq!(back.len(), values.len());
+        for (back, value) in back.into_iter().zip(&values) {
+            let value = f64::from(*value) * 1e-9;
+            let error = (back - value).abs();
+            // Half a unit in the last place, and the rounding of a single-precision product.
+            assert!(
+                error <= (0.501 / 1024.0 * value.abs()).max(0.5 * 2.0_f64.powi(-24)),
+                "{value}: {error}"
+            );
         }
-        assert!(scale.resolution() < scale.top / 4000.0);
+        assert_eq!(beyond.clipped, 0);
+        let above = values.iter().filter(|value| value.abs() > 2e9).count();
+        assert_eq!(beyond.above, above as u64);
     }
 
     #[test]
-    fn the_ends_saturate_and_signs_are_kept() {
-        let of = |sign, values: [f32; 2]| levels(&scale(sign), &values);
-        assert_eq!(of(Sign::Positive, [1e12, -1.0]), [u16::MAX, 0]);
-        assert_eq!(of(Sign::Positive, [f32::NAN, 0.0]), [0, 0]);
-        let signed = |values| -> Vec<i16> {
-            let levels = of(Sign::Both, values).into_iter();
-            levels.map(u16::cast_signed).collect()
+    fn what_cannot_be_stored_takes_the_end_and_is_counted() {
+        let unit = Scale {
+            per_si: 1.0,
+            ..scale(Sign::Both)
         };
-        assert_eq!(signed([-1e12, 1e12]), [i16::MIN, i16::MAX]);
-        let [low, high] = signed([-1.0e9, 1.0e9])[..] else {
-            panic!("two values");
-        };
-        assert_eq!(low, -high);
-        assert!(high > 2000);
+        let (back, beyond) = stored(&unit, &[0.0, 7e4, -1e5, 65_504.0, 1.0]);
+        assert_eq!(back, [0.0, 65_504.0, -65_504.0, 65_504.0, 1.0]);
+        assert_eq!((beyond.clipped, beyond.clipped_by), (2, 1e5 - MOST));
+        assert_eq!((beyond.above, beyond.greatest), (3, 1e5));
+        let (_, beyond) = stored(&unit, &[f32::NAN, f32::INFINITY]);
+        assert_eq!(beyond.clipped, 2);
     }
 }

@@ -10,9 +10,21 @@ use rerun::log::{Chunk, LogMsg};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::stream::STEP;
+use super::moment::STEP;
 use super::text::{COMMANDS, ORIGIN, SCENE_TOML};
 use crate::observe::{Began, SetBy};
+
+/// Version of what a recording holds for repeating its run; those before it was counted are 0.
+const FORMAT: u32 = 1;
+
+/// What a recording says of itself.
+#[derive(Debug, Serialize, Deserialize)]
+struct Head<T> {
+    #[serde(default)]
+    format: u32,
+    #[serde(flatten)]
+    origin: T,
+}
 
 /// How a run began, as the recording holds it.
 #[derive(Debug, Serialize, Deserialize)]
@@ -32,7 +44,11 @@ pub(super) struct CommandLine {
 
 impl Origin {
     pub(super) fn to_text(&self) -> String {
-        to_json(self)
+        let format = FORMAT;
+        to_json(&Head {
+            format,
+            origin: self,
+        })
     }
 }
 
@@ -92,14 +108,20 @@ impl Recorded {
             path: path.display().to_string(),
             reason,
         };
-        let file = std::fs::File::open(path)
+        let file = crate::files::open_plain(path)
             .map_err(|error| refused(format!("cannot be read: {error}")))?;
         let found = Found::read(std::io::BufReader::new(file)).map_err(refused)?;
         let (Some(scene_toml), Some(origin)) = (found.scene_toml, found.origin) else {
             return Err(refused("no recording that asperity made".to_owned()));
         };
-        let origin: Origin = serde_json::from_str(&origin)
+        let Head { format, origin } = serde_json::from_str::<Head<Origin>>(&origin)
             .map_err(|error| refused(format!("its origin cannot be read: {error}")))?;
+        if format > FORMAT {
+            return Err(refused(format!(
+                "a later version made it, {}",
+                origin.program
+            )));
+        }
         if origin.began == Began::FromState {
             let reason = "it went on from a saved state, which a recording does not hold; repeat it with \
                           --from-state";

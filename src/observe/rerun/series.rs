@@ -6,10 +6,12 @@
 
 use rerun::{Color, EntityPath, SeriesLines};
 
-use super::colour::{BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE, YELLOW};
-use super::stream::{Moment, Stream};
+use super::colour::curve::{BLUE, GREEN, GREY, OLIVE, ORANGE, PURPLE, SKY, VERMILION};
+use super::moment::Moment;
+use super::stream::Stream;
 use crate::observe::ObserveError;
-use crate::sim::{Frame, LifeEstimate};
+use crate::scene::ContactKind;
+use crate::sim::{CautionCode, Frame, LifeEstimate, LubricationRegime};
 
 /// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
 const LEAST_ERROR: f64 = 1e-12;
@@ -22,7 +24,7 @@ struct Group {
     values: fn(&Frame, &mut Vec<f64>),
 }
 
-const GROUPS: [Group; 21] = [
+static GROUPS: [Group; 26] = [
     Group {
         entity: "series/pressure_GPa",
         lines: &[("p_max, GPa", ORANGE), ("p_Hertz, GPa", GREY)],
@@ -34,7 +36,7 @@ const GROUPS: [Group; 21] = [
         entity: "series/film_um",
         lines: &[
             ("h_central, µm", SKY),
-            ("h_mean, µm", WHITE),
+            ("h_mean, µm", GREEN),
             ("h_min, µm", BLUE),
         ],
         values: |frame, out| {
@@ -57,7 +59,7 @@ const GROUPS: [Group; 21] = [
     },
     Group {
         entity: "series/motion",
-        lines: &[("S", YELLOW), ("S target", GREY), ("U, m/s", PURPLE)],
+        lines: &[("S", OLIVE), ("S target", GREY), ("U, m/s", PURPLE)],
         values: |frame, out| {
             let m = &frame.metrics;
             out.extend([m.slide_roll, m.slide_roll_target, m.entrainment_m_s]);
@@ -65,13 +67,52 @@ const GROUPS: [Group; 21] = [
     },
     Group {
         entity: "series/load_N",
-        lines: &[("load, N", WHITE), ("load target, N", GREY)],
+        lines: &[("load, N", SKY), ("load target, N", GREY)],
         values: |frame, out| out.extend([frame.metrics.load_n, frame.metrics.load_target_n]),
+    },
+    Group {
+        entity: "series/load_N_per_m",
+        lines: &[("load, N/m", SKY), ("load target, N/m", GREY)],
+        values: |frame, out| out.extend([frame.metrics.load_n, frame.metrics.load_target_n]),
+    },
+    Group {
+        entity: "series/half_width_um",
+        lines: &[("a (along x), µm", GREEN), ("b (across), µm", GREY)],
+        values: |frame, out| out.extend([frame.a_m, frame.b_m].map(|width| width * 1e6)),
+    },
+    Group {
+        entity: "series/regime",
+        lines: &[("lubrication regime", SKY)],
+        values: |frame, out| out.push(regime(frame.metrics.regime)),
+    },
+    Group {
+        entity: "series/cautions",
+        lines: &[
+            ("not converged", VERMILION),
+            ("beyond yield", ORANGE),
+            ("no oil flows", GREY),
+            ("film below a molecule", BLUE),
+            ("mesh error of the film", GREEN),
+            ("a body stands", PURPLE),
+            ("models differ", OLIVE),
+            ("not settled", SKY),
+        ],
+        values: |frame, out| {
+            let from = out.len();
+            out.resize(from + 8, 0.0);
+            for line in frame
+                .cautions()
+                .iter()
+                .filter_map(|caution| line(caution.code))
+            {
+                out[from + line] = 1.0;
+            }
+        },
     },
     Group {
         entity: "convergence/log10_errors",
         lines: &[
-            ("log10 residual", WHITE),
+            ("log10 residual", GREEN),
             ("log10 load error", SKY),
             ("log10 film error", PURPLE),
             ("log10 mass error", ORANGE),
@@ -110,7 +151,7 @@ const GROUPS: [Group; 21] = [
         entity: "life/log10_relative",
         lines: &[
             ("log10 life, low", GREY),
-            ("log10 relative life", WHITE),
+            ("log10 relative life", VERMILION),
             ("log10 life, high", GREY),
         ],
         values: |frame, out| {
@@ -137,8 +178,16 @@ const GROUPS: [Group; 21] = [
         },
     },
     Group {
+        entity: "life/log10_factors/load",
+        lines: &[("log10 load factor", PURPLE)],
+        values: |frame, out| {
+            let factor = frame.metrics.life.as_ref().map(|life| life.load_factor);
+            out.extend(factor.filter(|&factor| factor > 0.0).map(f64::log10));
+        },
+    },
+    Group {
         entity: "life/relative",
-        lines: &[("relative life", WHITE)],
+        lines: &[("relative life", VERMILION)],
         values: |frame, out| out.extend(frame.metrics.life.map(|life| life.life_relative)),
     },
     Group {
@@ -177,12 +226,12 @@ const GROUPS: [Group; 21] = [
     },
     Group {
         entity: "material_point/cycles/counted",
-        lines: &[("cycles counted in this crossing", WHITE)],
+        lines: &[("peaks so far in this crossing", VERMILION)],
         values: |frame, out| out.extend(frame.material_point.map(|point| point.cycles_counted)),
     },
     Group {
         entity: "material_point/cycles/formula",
-        lines: &[("contacts by formula, n", GREY)],
+        lines: &[("expected on average, n", GREY)],
         values: |frame, out| {
             out.extend(frame.material_point.and_then(|point| match point.body {
                 1 => frame.metrics.n_body_1,
@@ -201,6 +250,40 @@ const GROUPS: [Group; 21] = [
     },
 ];
 
+/// From the regime in which oil does nothing to that in which it does all.
+fn regime(regime: LubricationRegime) -> f64 {
+    match regime {
+        LubricationRegime::Dry => 0.0,
+        LubricationRegime::Boundary => 1.0,
+        LubricationRegime::Mixed => 2.0,
+        LubricationRegime::FullFilm => 3.0,
+    }
+}
+
+/// Line of a caution in its group; none for what holds for the whole run.
+fn line(code: CautionCode) -> Option<usize> {
+    match code {
+        CautionCode::NotConverged => Some(0),
+        CautionCode::BeyondYield => Some(1),
+        CautionCode::Dry => Some(2),
+        CautionCode::FilmBelowMolecule => Some(3),
+        CautionCode::MeshFilm => Some(4),
+        CautionCode::StandingBody => Some(5),
+        CautionCode::ModelRange => Some(6),
+        CautionCode::NotSettled => Some(7),
+        CautionCode::NoLife | CautionCode::StrengthUnknown | CautionCode::ElasticOnly => None,
+    }
+}
+
+/// The groups of a contact of that kind: a load is a force or a force per length.
+fn groups(kind: ContactKind) -> impl Iterator<Item = &'static Group> {
+    let other = match kind {
+        ContactKind::Point => "series/load_N_per_m",
+        ContactKind::Line => "series/load_N",
+    };
+    GROUPS.iter().filter(move |group| group.entity != other)
+}
+
 /// Logarithms of parts of the life, where it has one.
 fn log_life(frame: &Frame, out: &mut Vec<f64>, parts: fn(&LifeEstimate) -> [f64; 3]) {
     let parts = frame.metrics.life.as_ref().map(parts);
@@ -210,8 +293,8 @@ fn log_life(frame: &Frame, out: &mut Vec<f64>, parts: fn(&LifeEstimate) -> [f64;
 }
 
 /// Names and colours, once for the whole recording.
-fn log_styles(stream: &Stream) -> Result<(), ObserveError> {
-    for Group { entity, lines, .. } in &GROUPS {
+fn log_styles(stream: &Stream, kind: ContactKind) -> Result<(), ObserveError> {
+    for Group { entity, lines, .. } in groups(kind) {
         let style = SeriesLines::new()
             .with_names(lines.iter().map(|(name, _)| *name))
             .with_colors(lines.iter().map(|(_, colour)| Color::from(*colour)))
@@ -226,7 +309,7 @@ const MOST_WAITING: usize = 1024;
 
 /// The series of a recording, with what waits to be sent.
 pub(super) struct Series {
-    columns: Vec<Column>,
+    columns: Vec<(&'static Group, Column)>,
     waiting: usize,
 }
 
@@ -238,10 +321,12 @@ struct Column {
 
 impl Series {
     /// Logs names and colours and collects from there on.
-    pub(super) fn new(stream: &Stream) -> Result<Self, ObserveError> {
-        log_styles(stream)?;
+    pub(super) fn new(stream: &Stream, kind: ContactKind) -> Result<Self, ObserveError> {
+        log_styles(stream, kind)?;
         Ok(Self {
-            columns: GROUPS.iter().map(|_| Column::default()).collect(),
+            columns: groups(kind)
+                .map(|group| (group, Column::default()))
+                .collect(),
             waiting: 0,
         })
     }
@@ -249,7 +334,7 @@ impl Series {
     /// Takes up a step's scalars.
     pub(super) fn follow(&mut self, frame: &Frame) {
         let now = Moment::new(frame.step, frame.time_s, frame.passages);
-        for (group, column) in GROUPS.iter().zip(&mut self.columns) {
+        for (group, column) in &mut self.columns {
             let before = column.values.len();
             (group.values)(frame, &mut column.values);
             if column.values.len() > before {
@@ -267,7 +352,7 @@ impl Series {
     /// Sends what waits.
     pub(super) fn send(&mut self, stream: &Stream) -> Result<(), ObserveError> {
         self.waiting = 0;
-        for (group, column) in GROUPS.iter().zip(&mut self.columns) {
+        for (group, column) in &mut self.columns {
             if column.moments.is_empty() {
                 continue;
             }

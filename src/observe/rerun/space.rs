@@ -8,14 +8,15 @@
 mod fixed;
 mod hung;
 
-use rerun::{Arrows3D, Color, Points3D};
+use rerun::{Arrows3D, Color, Points3D, Radius};
 
-use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, packed};
+use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, for_text, packed};
+use super::depths::Depths;
 use super::geometry::Geometry;
 use super::mesh::{COARSE, FINE, Window};
-use super::slice::Rows;
 use super::stream::Stream;
 use super::waiting::Sheet;
+use crate::math::number::sig;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, number};
 use crate::sim::{Frame, Metrics};
@@ -38,6 +39,8 @@ pub(super) struct Tops {
     pub(super) effective_pa: Option<f64>,
     /// Which bodies are rough.
     pub(super) rough: [bool; 2],
+    /// Height of both together that can come, m.
+    pub(super) roughness_m: f64,
 }
 
 /// The 3-D view.
@@ -90,7 +93,7 @@ struct Levels {
 
 /// The cut plane's nodes.
 struct SliceSheet {
-    rows: Rows,
+    depths: Depths,
     columns: Vec<usize>,
 }
 
@@ -125,7 +128,7 @@ impl Space {
             bodies,
             slice,
             tops,
-            exaggeration: exaggeration(geometry, first),
+            exaggeration: exaggeration(geometry, first, tops.roughness_m),
             levels,
             speeds: None,
             hung: hung::Hung::new(stream),
@@ -223,16 +226,15 @@ impl Space {
             return Ok(());
         };
         let nx = self.geometry.nx;
-        if !sheet.rows.hold(slice, nx) {
+        if !sheet.depths.hold(slice, nx) {
             return Ok(());
         }
         let per_top = 1.0 / top as f32;
+        let rows = slice.effective_pa.chunks_exact(nx).take(sheet.depths.len());
         stream.log_sheet(self.sheets.slice, |_, colours| {
-            for row in 0..sheet.rows.len() {
-                colours.extend(sheet.columns.iter().map(|&i| {
-                    let stress = sheet.rows.value(&slice.effective_pa, nx, row, i);
-                    self.stress.colour(stress * per_top, 1.0)
-                }));
+            for row in rows {
+                let stresses = sheet.columns.iter().map(|&i| row[i] * per_top);
+                colours.extend(stresses.map(|share| self.stress.colour(share, 1.0)));
             }
         })
     }
@@ -257,13 +259,12 @@ impl Space {
         if point.body == 1 && x.abs() <= 1.45 * self.geometry.a {
             let z = self.levels.slice - point.depth_m * MM;
             // A little in front of the cut, or the slice would hide half of it.
-            places = vec![[x as f32, (-0.03 * self.geometry.a) as f32, z as f32]; 2];
+            places = vec![[x as f32, (-0.03 * self.geometry.a) as f32, z as f32]; 3];
             let stress = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
-            colours = vec![Color::from(GREEN), Color::from(stress)];
-            labels = vec![
-                format!("{:.2} GPa", point.effective_pa * GPA.1),
-                String::new(),
-            ];
+            // Rim, dot, and what carries the label in a colour that can be read.
+            colours = [GREEN, stress, for_text(GREEN)].map(Color::from).to_vec();
+            let label = format!("{} GPa", sig(point.effective_pa * GPA.1, 3));
+            labels = vec![String::new(), String::new(), label];
         }
         let dot = Points3D::update_fields()
             .with_positions(places)
@@ -287,29 +288,40 @@ impl Space {
         let a = self.geometry.a;
         let [x, y] = [-1.45 * a, -0.15 * a];
         let levels = [self.levels.body_1, self.levels.body_2];
-        let arrows = Arrows3D::from_vectors(
-            speeds.map(|speed| [(0.7 * a * speed / u.abs()) as f32, 0.0, 0.0]),
-        )
-        .with_origins(levels.map(|z| [x as f32, y as f32, z as f32]))
-        .with_radii([(0.022 * a) as f32])
-        .with_colors([Color::from(SKY), Color::from(ORANGE)])
-        .with_labels([
-            format!("U1 = {:.2} m/s", speeds[0]),
-            format!("U2 = {:.2} m/s", speeds[1]),
-        ])
+        let lengths = speeds.map(|speed| 0.7 * a * speed / u.abs());
+        let arrows = Arrows3D::from_vectors(lengths.map(|length| [length as f32, 0.0, 0.0]))
+            .with_origins(levels.map(|z| [x as f32, y as f32, z as f32]))
+            .with_radii([(0.022 * a) as f32])
+            .with_colors([Color::from(SKY), Color::from(ORANGE)]);
+        stream.log(&format!("{SPACE}/surface_speeds"), &arrows)?;
+        let places = lengths.into_iter().zip(levels);
+        let labels = Points3D::new(places.map(|(length, z)| {
+            let middle = x + 0.5 * length;
+            [middle as f32, y as f32, z as f32]
+        }))
+        .with_radii([Radius::new_scene_units(0.0)])
+        .with_colors([SKY, ORANGE].map(|colour| Color::from(for_text(colour))))
+        .with_labels([1, 2].map(|body| format!("U{body} = {} m/s", sig(speeds[body - 1], 3))))
         .with_show_labels(true);
-        stream.log(&format!("{SPACE}/surface_speeds"), &arrows)
+        stream.log(&format!("{SPACE}/surface_speeds/labels"), &labels)
     }
 }
 
 impl SliceSheet {
-    /// Coarser than the slice's image: the 3-D view is for looking, the image for reading.
+    /// Of fewer columns than the slice's image: the 3-D view is for looking, the image for reading.
     fn new(g: Geometry, slice: &crate::sim::StressSlice) -> Option<Self> {
         let columns: Vec<usize> = (0..g.nx).filter(|&i| g.x(i).abs() <= 1.45 * g.a).collect();
         let step = columns.len().div_ceil(64).max(1);
         let columns: Vec<usize> = columns.into_iter().step_by(step).collect();
-        let rows = Rows::new(&slice.depths_m, 0.05 * g.a, SLICE_DEPTH * g.a)?;
-        (columns.len() > 1).then_some(Self { rows, columns })
+        let depths = Depths::down_to(&slice.depths_m, SLICE_DEPTH * g.a / MM)?;
+        (columns.len() > 1).then_some(Self { depths, columns })
+    }
+
+    fn deepest_mm(&self) -> f64 {
+        self.depths
+            .shown_m()
+            .last()
+            .map_or(0.0, |depth_m| depth_m * MM)
     }
 
     fn edges(&self, g: Geometry) -> (f64, f64) {
@@ -335,8 +347,7 @@ fn steel(shade: f32) -> [u8; 3] {
 
 /// A round factor (1, 2 or 5 times a power of ten) that makes the roughness, or in smooth contacts
 /// the film, as high as about a tenth of the contact's half-width.
-fn exaggeration(g: Geometry, first: &Frame) -> f64 {
-    let rough = first.metrics.amplitude_1_m + first.metrics.amplitude_2_m;
+fn exaggeration(g: Geometry, first: &Frame, rough: f64) -> f64 {
     let height = if rough > 0.0 {
         rough
     } else {

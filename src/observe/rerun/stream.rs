@@ -8,14 +8,12 @@ use re_log_types::{LogMsg, StoreId};
 use rerun::log::{Chunk, ChunkBatcherConfig, PendingRow};
 use rerun::sink::LogSink as _;
 use rerun::time::TimePoint;
-use rerun::{
-    AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars, TimeCell,
-    TimeColumn,
-};
+use rerun::{AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars};
 
 use super::file::RecordingFile;
 use super::gathered::{Pen, chunk_of};
 use super::live::{self, Link, Live};
+use super::moment::Moment;
 use super::waiting::{ClassImage, Curves, LevelImage, Sheet, Waiting};
 use crate::observe::{ObserveError, Overwrite};
 
@@ -33,48 +31,19 @@ const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
 /// itself, on a machine that does other things too, `kill -9` loses less than a second.
 const TICK: Duration = Duration::from_millis(700);
 
-/// Timelines of every frame.
-pub(super) const STEP: &str = "step";
-/// Simulated time since the start of the passage.
-pub(super) const SIMULATED_TIME: &str = "simulated_time";
-/// Lengths of 4 a travelled at U, in thousandths (a timeline holds no fractions).
-pub(super) const PASSAGE: &str = "passage_x1000";
-
-/// A place on all three timelines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Moment {
-    step: i64,
-    nanos: i64,
-    passage: i64,
-}
-
-impl Moment {
-    /// After so many steps, seconds and passages.
-    pub(super) fn new(step: u64, time_s: f64, passages: f64) -> Self {
-        Self {
-            step: i64::try_from(step).unwrap_or(i64::MAX),
-            nanos: (time_s * 1e9).round() as i64,
-            passage: (passages * 1000.0).round() as i64,
-        }
-    }
-}
-
-/// The three timelines of so many rows.
-pub(super) fn time_columns(moments: &[Moment]) -> [TimeColumn; 3] {
-    let of = |part: fn(&Moment) -> i64| moments.iter().map(part);
-    [
-        TimeColumn::new_sequence(STEP, of(|at| at.step)),
-        TimeColumn::new_duration_nanos(SIMULATED_TIME, of(|at| at.nanos)),
-        TimeColumn::new_sequence(PASSAGE, of(|at| at.passage)),
-    ]
-}
-
 /// `enabled` is set because the variable RERUN=off would make a silent no-op of a recording that the user
 /// asked for.
 fn builder(batching: ChunkBatcherConfig) -> RecordingStreamBuilder {
     RecordingStreamBuilder::new(APPLICATION)
         .enabled(true)
         .batcher_config(batching)
+}
+
+/// For how long something that is logged holds. What holds always shadows what holds from some time on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Holds {
+    Always,
+    FromNow,
 }
 
 /// A recording that is being written.
@@ -108,7 +77,8 @@ impl Stream {
             let reason = format!("the recording could not be started: {reason}");
             ObserveError::new(path.display().to_string(), reason)
         };
-        let file = RecordingFile::start(overwrite.create(path)?).map_err(failed)?;
+        let (file, placed) = overwrite.open(path)?;
+        let file = RecordingFile::start(file, placed).map_err(failed)?;
         let recording = builder(ChunkBatcherConfig::NEVER)
             .buffered()
             .map_err(|error| failed(error.to_string()))?;
@@ -162,11 +132,40 @@ impl Stream {
         self.output.clone()
     }
 
+    /// The recording's file; `None`: it goes to a viewer.
+    pub(super) fn file(&self) -> Option<&RecordingFile> {
+        match &self.to {
+            Destination::File { file, .. } => Some(file),
+            Destination::Live(_) => None,
+        }
+    }
+
     /// Whether a viewer has been closed: nobody reads any more.
     pub(super) fn is_gone(&self) -> bool {
         match &self.to {
             Destination::File { .. } => false,
             Destination::Live(link) => link.is_gone(),
+        }
+    }
+
+    /// Whether it goes to viewers, while the run goes on.
+    pub(super) fn is_live(&self) -> bool {
+        matches!(self.to, Destination::Live(_))
+    }
+
+    /// Why a closed file has no footer, if it has none.
+    pub(super) fn unbound(&self) -> Option<String> {
+        match &self.to {
+            Destination::File { file, .. } => file.unbound(),
+            Destination::Live(_) => None,
+        }
+    }
+
+    /// Whether anybody has taken something yet; a file always has.
+    pub(super) fn has_answered(&self) -> bool {
+        match &self.to {
+            Destination::File { .. } => true,
+            Destination::Live(link) => link.has_answered(),
         }
     }
 
@@ -283,6 +282,19 @@ impl Stream {
         Ok(())
     }
 
+    /// Logs what holds for the whole recording, or from the time that was set last.
+    pub(super) fn log_that(
+        &self,
+        entity: &str,
+        data: &(impl AsComponents + ?Sized),
+        holds: Holds,
+    ) -> Result<(), ObserveError> {
+        match holds {
+            Holds::Always => self.log_static(entity, data),
+            Holds::FromNow => self.log(entity, data),
+        }
+    }
+
     /// Logs what holds for the whole recording.
     pub(super) fn log_static(
         &self,
@@ -297,10 +309,7 @@ impl Stream {
     /// Sets the time of what is logged next.
     pub(super) fn set_time(&self, now: Moment) {
         self.now.set(now);
-        *self.timepoint.borrow_mut() = TimePoint::default()
-            .with_index(STEP, TimeCell::from_sequence(now.step))
-            .with_index(SIMULATED_TIME, TimeCell::from_duration_nanos(now.nanos))
-            .with_index(PASSAGE, TimeCell::from_sequence(now.passage));
+        *self.timepoint.borrow_mut() = now.timepoint();
     }
 
     /// Sends the scalars of many steps at once: `width` of each.
@@ -357,7 +366,7 @@ impl Stream {
         }
     }
 
-    /// Writes what waits and the footer.
+    /// Writes what waits and binds the file.
     pub(super) fn close(&mut self) -> Result<(), ObserveError> {
         if self.closed {
             return self.check();

@@ -5,13 +5,14 @@ use std::fmt::Write as _;
 use rerun::components::MediaType;
 use rerun::{TextDocument, TextLog, TextLogLevel};
 
-use super::raster::Scale;
+use super::raster::{Beyond, Scale};
 use super::reread::{CommandLine, Origin};
 use super::stream::Stream;
+use crate::math::number::{seconds, sig, sig_or_dash};
 use crate::observe::scales::number;
 use crate::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
 use crate::scene::ContactKind;
-use crate::sim::Frame;
+use crate::sim::{Caution, CautionCode, Frame, LifeEstimate};
 
 pub(super) const ABOUT: &str = "text/about";
 pub(super) const SCENE_TOML: &str = "text/scene_toml";
@@ -64,28 +65,26 @@ pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), O
 /// How numbers are stored.
 pub(super) fn log_notes<'a>(
     stream: &Stream,
-    scales: impl Iterator<Item = &'a (&'static str, Scale)>,
+    scales: impl Iterator<Item = (&'static str, &'a Scale)>,
     cadence: &str,
     exaggeration: &str,
 ) -> Result<(), ObserveError> {
     let mut notes = format!(
         "# Notes on the data\n\n{cadence} Interferogram, traction, \
-         roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in 16 bits: value = \
-         stored number / `meter`, in the unit of the entity's name. Colours have the same range in \
-         every frame; values above it take the top colour.\n\n| entity | colours up to | stored \
-         range | smallest difference |\n|---|---|---|---|\n"
+         roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in \
+         half precision (0.05 %), in the unit of the entity's name. Colours have the same range in every frame: what \
+         can come by the scene's script. Values above it take the top colour and are told under *Now*; none is cut \
+         off in the file below 65 504 units. The slice below body 1 and the damage maps have a row for each depth \
+         that was computed; the depths are in the axis. Damage that has not been counted yet is no number (NaN).\n\n\
+         | entity | colours up to |\n|---|---|\n"
     );
     for (entity, scale) in scales {
-        let [low, high] = scale.stored_range();
-        let unit = scale.unit;
         // Writing to a string cannot fail.
         let _ = writeln!(
             notes,
-            "| `{entity}` | {} {unit} | {} to {} {unit} | {:.1e} {unit} |",
+            "| `{entity}` | {} {} |",
             number(scale.top),
-            number(low),
-            number(high),
-            scale.resolution(),
+            scale.unit
         );
     }
     stream.log_static(NOTES, &TextDocument::from_markdown(notes))?;
@@ -93,81 +92,144 @@ pub(super) fn log_notes<'a>(
     stream.log_static(NOW, &markdown)
 }
 
+/// A map of which something is above the colours: entity, what, unit.
+pub(super) type Above = (&'static str, Beyond, &'static str);
+
 /// The caption that holds and the numbers of a frame.
-pub(super) fn log_now(stream: &Stream, frame: &Frame, caption: &str) -> Result<(), ObserveError> {
-    let text = TextDocument::update_fields().with_text(now(frame, caption));
+pub(super) fn log_now(
+    stream: &Stream,
+    frame: &Frame,
+    caption: &str,
+    above: &[Above],
+) -> Result<(), ObserveError> {
+    let text = TextDocument::update_fields().with_text(now(frame, caption, above));
     stream.log(NOW, &text)
 }
 
-fn now(frame: &Frame, caption: &str) -> String {
+fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
     let m = &frame.metrics;
     let mut text = String::with_capacity(1024);
     if !caption.is_empty() {
         let _ = writeln!(text, "> {caption}\n");
     }
     if let Some(life) = &m.life {
-        let settled = if life.settled { "" } else { " *(settling)*" };
+        push_life(&mut text, life);
+    }
+    // The weightiest first; the last one holds for every run, and the numbers come before it.
+    let cautions = frame.cautions();
+    let always = |caution: &&Caution| caution.code == CautionCode::ElasticOnly;
+    for caution in cautions.iter().filter(|caution| !always(caution)) {
+        let _ = writeln!(text, "- {}", caution.text);
+    }
+    text.push('\n');
+    push_table(&mut text, frame);
+    for (
+        entity,
+        Beyond {
+            above, greatest, ..
+        },
+        unit,
+    ) in above
+    {
+        let greatest = sig(f64::from(*greatest), 3);
         let _ = writeln!(
             text,
-            "### Relative life {:.3}{settled}\n\n{:.3} to {:.3}; cycles {:.3} × peaks {:.3} × \
-             traction {:.3}\n",
-            life.life_relative,
-            life.life_relative_low,
-            life.life_relative_high,
-            life.cycle_factor,
-            life.peak_factor,
-            life.traction_factor
+            "| above the colours | {entity}: {above} nodes, up to {greatest} {unit} |"
         );
     }
-    if !m.converged {
+    for caution in cautions.iter().filter(always) {
+        let _ = writeln!(text, "\n{}", caution.text);
+    }
+    text
+}
+
+fn push_life(text: &mut String, life: &LifeEstimate) {
+    let settled = if life.settled { "" } else { " *(not settled)*" };
+    let [value, low, high, cycles, peaks, traction] = [
+        life.life_relative,
+        life.life_relative_low,
+        life.life_relative_high,
+        life.cycle_factor,
+        life.peak_factor,
+        life.traction_factor,
+    ]
+    .map(|value| sig(value, 3));
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "### Relative life {value}{settled}\n\n{low} to {high}; cycles {cycles} × peaks {peaks} × traction {traction}\n"
+    );
+    if life.load_factor > 0.0 {
+        let factor = sig(life.load_factor, 3);
         let _ = writeln!(
             text,
-            "**This step did not converge: residual {:.1e}.**\n",
-            m.residual
+            "× load {factor}, against the scene's load and speed\n"
         );
     }
+}
+
+fn push_table(text: &mut String, frame: &Frame) {
+    let m = &frame.metrics;
     let unit = match frame.kind {
         ContactKind::Point => "N",
         ContactKind::Line => "N/m",
     };
-    let _ = writeln!(
-        text,
-        "| time | {:.3} ms, passage {:.2} |\n|---|---|\n| S | {:.3}, going to {:.3} |\n\
-         | U1, U2 | {:.3}, {:.3} m/s |\n| load, p_Hertz | {:.1} {unit}, {:.3} GPa |\n| p_max | {:.3} GPa |\n\
-         | h central, min | {:.1}, {:.1} nm |\n| contact | {:.2} % of area, {:.2} % of load |",
-        frame.time_s * 1e3,
-        frame.passages,
-        m.slide_roll,
-        m.slide_roll_target,
-        m.entrainment_m_s * (1.0 - 0.5 * m.slide_roll),
-        m.entrainment_m_s * (1.0 + 0.5 * m.slide_roll),
-        m.load_n,
-        frame.p_hertz_pa * 1e-9,
-        m.p_max_pa * 1e-9,
-        m.h_central_m * 1e9,
-        m.h_min_m * 1e9,
-        m.contact_ratio * 100.0,
-        m.contact_load_ratio * 100.0,
-    );
-    let friction = m.friction_coefficient;
-    let _ = match m.lambda_ratio {
-        Some(lambda) => writeln!(text, "| friction, λ | {friction:.4}, {lambda:.2} |"),
-        None => writeln!(text, "| friction | {friction:.4} |"),
+    let mut row = |name: &str, value: String| {
+        let _ = writeln!(text, "| {name} | {value} |");
     };
+    let digits = |value: f64| sig(value, 4);
+    let u = m.entrainment_m_s;
+    let speeds = [-0.5, 0.5].map(|half| digits(u * (1.0 + half * m.slide_roll)));
+    row(
+        "time",
+        format!("{}, passage {:.2}", seconds(frame.time_s), frame.passages),
+    );
+    row("---", "---".to_owned());
+    row(
+        "S",
+        format!(
+            "{}, going to {}",
+            digits(m.slide_roll),
+            digits(m.slide_roll_target)
+        ),
+    );
+    row("U1, U2", format!("{} m/s", speeds.join(", ")));
+    row("load", format!("{} {unit}", digits(m.load_n)));
+    row(
+        "p_Hertz, a",
+        format!(
+            "{} GPa, {} µm",
+            digits(frame.p_hertz_pa * 1e-9),
+            digits(frame.a_m * 1e6)
+        ),
+    );
+    row("p_max", format!("{} GPa", digits(m.p_max_pa * 1e-9)));
+    row(
+        "h central, min",
+        format!(
+            "{}, {} nm",
+            digits(m.h_central_m * 1e9),
+            digits(m.h_min_m * 1e9)
+        ),
+    );
+    let [area, load] = [m.contact_ratio, m.contact_load_ratio].map(|part| sig(100.0 * part, 3));
+    row("contact", format!("{area} % of area, {load} % of load"));
+    row("regime", m.regime.name().to_owned());
+    let friction = sig(m.friction_coefficient, 3);
+    match m.lambda_ratio {
+        Some(lambda) => row("friction, λ", format!("{friction}, {}", sig(lambda, 3))),
+        None => row("friction", friction),
+    }
     if let (Some(stress), Some(depth)) = (m.sigma_eff_max_pa, m.sigma_eff_max_depth_m) {
-        let (stress, depth) = (stress * 1e-9, depth * 1e6);
-        let _ = writeln!(text, "| σ_eff max | {stress:.3} GPa, {depth:.0} µm deep |");
+        let (stress, depth) = (digits(stress * 1e-9), sig(depth * 1e6, 3));
+        row("σ_eff max", format!("{stress} GPa, {depth} µm deep"));
     }
     let formula = [m.n_body_1, m.n_body_2];
     if formula.iter().any(Option::is_some) {
-        let pair = |n: [Option<f64>; 2]| {
-            n.map(|n| n.map_or("-".to_owned(), |n| format!("{n:.2}")))
-                .join(", ")
-        };
+        let pair = |n: [Option<f64>; 2]| n.map(|n| sig_or_dash(n, 3)).join(", ");
         let counted = pair([m.n_counted_body_1, m.n_counted_body_2]);
-        let _ = writeln!(text, "| n of 1, 2 | {}; counted {counted} |", pair(formula));
+        row("n of 1, 2", format!("{}; counted {counted}", pair(formula)));
     }
-    text
 }
 
 /// Something that happened.
@@ -180,8 +242,9 @@ pub(super) fn log_event(stream: &Stream, event: &RunEvent) -> Result<(), Observe
         RunEventKind::Caption(caption) => (caption.clone(), TextLogLevel::INFO),
         RunEventKind::NotConverged { residual } => (
             format!(
-                "step {} did not converge: residual {residual:.2e}",
-                event.step
+                "step {} did not converge: residual {}",
+                event.step,
+                sig(*residual, 3)
             ),
             TextLogLevel::WARN,
         ),

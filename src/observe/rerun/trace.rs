@@ -1,14 +1,15 @@
 //! What a material point has felt since it entered the contact, against where it was: one hump in
-//! pure rolling, a comb when the mating roughness slides over it.
+//! pure rolling, a comb when the mating roughness slides over it, each peak numbered as it passes.
 
 use rerun::{Points2D, Radius};
 
 use super::centre_line::line;
-use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, faded};
+use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, YELLOW, faded};
 use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
 use super::stream::Stream;
 use super::waiting::Curves;
+use crate::math::number::sig;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, divisions, ticks};
 use crate::sim::{Frame, MaterialPoint};
@@ -16,6 +17,8 @@ use crate::sim::{Frame, MaterialPoint};
 pub(super) const TRACE: &str = "material_point/trace";
 /// Where the point is.
 const NOW: &str = "material_point/trace/now";
+/// Peaks that have passed.
+const PEAKS: &str = "material_point/trace/peaks";
 /// Points kept of a crossing; when there are more every other one is dropped.
 const MOST_POINTS: usize = 1024;
 
@@ -30,6 +33,7 @@ pub(super) struct Trace {
     before: Vec<[f32; 2]>,
     /// Whether `before` has been logged.
     shown: Shown,
+    peaks: Peaks,
     curves: TraceCurves,
 }
 
@@ -52,6 +56,35 @@ impl TraceCurves {
             effective: curves("effective_stress_GPa", PURPLE, 1.5)?,
             before: curves("crossing_before", GREY, 0.75)?,
         })
+    }
+}
+
+/// The peaks of this crossing that have passed.
+#[derive(Debug, Default)]
+struct Peaks {
+    at: Vec<[f32; 2]>,
+    numbers: Vec<u32>,
+    /// How many are in the recording as they are.
+    logged: Option<usize>,
+}
+
+impl Peaks {
+    fn clear(&mut self) {
+        self.at.clear();
+        self.numbers.clear();
+        self.logged = None;
+    }
+
+    fn log(&mut self, stream: &Stream) -> Result<(), ObserveError> {
+        if self.logged == Some(self.at.len()) {
+            return Ok(());
+        }
+        self.logged = Some(self.at.len());
+        let labels = self.numbers.iter().map(u32::to_string);
+        let points = Points2D::update_fields()
+            .with_positions(self.at.iter().copied())
+            .with_labels(labels);
+        stream.log(PEAKS, &points)
     }
 }
 
@@ -93,6 +126,12 @@ impl Trace {
             .with_show_labels(true)
             .with_draw_order(30.0);
         stream.log_static(NOW, &style)?;
+        let style = Points2D::update_fields()
+            .with_radii([Radius::new_ui_points(3.0)])
+            .with_colors([faded(YELLOW, 255)])
+            .with_show_labels(true)
+            .with_draw_order(20.0);
+        stream.log_static(PEAKS, &style)?;
         Ok(Self {
             plot,
             pressure_top_pa,
@@ -102,6 +141,7 @@ impl Trace {
             effective: Vec::new(),
             before: Vec::new(),
             shown: Shown::NotYet,
+            peaks: Peaks::default(),
             curves: TraceCurves::new(stream)?,
         })
     }
@@ -115,17 +155,28 @@ impl Trace {
         let Some(point) = &frame.material_point else {
             return;
         };
-        if point.body != self.body || point.x_m < self.last_x_m {
+        // Bodies run towards +x or −x: the point that jumps has left and entered anew.
+        let jumped = (point.x_m - self.last_x_m).abs() > frame.a_m;
+        if point.body != self.body || jumped {
             self.before = std::mem::take(&mut self.pressure);
             self.shown = Shown::NotYet;
             self.effective.clear();
+            self.peaks.clear();
         }
         (self.body, self.last_x_m) = (point.body, point.x_m);
+        let number = point.cycles_counted as u32;
+        if let Some(peak) = point.last_peak
+            && self.peaks.numbers.last().is_none_or(|last| number > *last)
+        {
+            let at = self.place(peak.x_m, peak.pressure_pa);
+            self.peaks.at.push(at);
+            self.peaks.numbers.push(number);
+        }
         let [left, right] = self.plot.x;
         if (left..=right).contains(&(point.x_m * MM)) {
-            let at = self.place(point, point.pressure_pa);
+            let at = self.place(point.x_m, point.pressure_pa);
             self.pressure.push(at);
-            let at = self.place(point, point.effective_pa);
+            let at = self.place(point.x_m, point.effective_pa);
             self.effective.push(at);
         }
         for trace in [&mut self.pressure, &mut self.effective] {
@@ -139,9 +190,9 @@ impl Trace {
         }
     }
 
-    fn place(&self, point: &MaterialPoint, value_pa: f64) -> [f32; 2] {
+    fn place(&self, x_m: f64, value_pa: f64) -> [f32; 2] {
         let share = (value_pa / self.pressure_top_pa).min(1.0);
-        [(point.x_m * MM) as f32, (self.plot.y[0] * share) as f32]
+        [(x_m * MM) as f32, (self.plot.y[0] * share) as f32]
     }
 
     /// Logs the trace up to this frame.
@@ -155,26 +206,32 @@ impl Trace {
         }
         stream.log_curves(self.curves.pressure, |pen| pen.draw(&self.pressure))?;
         stream.log_curves(self.curves.effective, |pen| pen.draw(&self.effective))?;
-        let formula = match point.body {
-            1 => frame.metrics.n_body_1,
-            _ => frame.metrics.n_body_2,
-        };
-        let counted = format!(
-            "body {}, cycles counted in this crossing: {}",
-            point.body, point.cycles_counted
-        );
-        let label = match formula {
-            Some(n) => format!("{counted}   (formula n = {n:.2})"),
-            None => counted,
-        };
+        self.peaks.log(stream)?;
+        let label = counts(point, frame);
         let [left, right] = self.plot.x;
         let label_at = [
             (0.5 * (left + right)) as f32,
             (0.97 * self.plot.y[0]) as f32,
         ];
         let now = Points2D::update_fields()
-            .with_positions([self.place(point, point.pressure_pa), label_at])
+            .with_positions([self.place(point.x_m, point.pressure_pa), label_at])
             .with_labels([String::new(), label]);
         stream.log(NOW, &now)
     }
+}
+
+/// Peaks so far, cycles of the crossing before, and what the formula expects.
+fn counts(point: &MaterialPoint, frame: &Frame) -> String {
+    let expected = match point.body {
+        1 => frame.metrics.n_body_1,
+        _ => frame.metrics.n_body_2,
+    };
+    let mut text = format!("body {}: {} peaks so far", point.body, point.cycles_counted);
+    if let Some(closed) = point.cycles_before {
+        text.push_str(&format!(", {closed} cycles in the crossing before"));
+    }
+    if let Some(n) = expected {
+        text.push_str(&format!(", {} expected on average", sig(n, 3)));
+    }
+    text
 }

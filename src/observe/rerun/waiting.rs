@@ -11,7 +11,7 @@ use rerun::time::TimePoint;
 use rerun::{AsComponents, DepthImage, EntityPath, SegmentationImage};
 
 use super::gathered::{Images, Pen, Sheets, Strips};
-use super::stream::Moment;
+use super::moment::Moment;
 
 /// Rows of a chunk at most where times are out of order, as the library has it.
 const MOST_UNSORTED: u64 = 256;

@@ -2,24 +2,28 @@
 
 use super::super::dry::DryProblem;
 use super::super::newton::{Iterate, NewtonReport, Verdict};
-use super::{Conditions, March};
+use super::{Conditions, Solver};
 
-impl March {
+impl Solver {
     /// A dry step. Deflection by traction (unlike bodies) is at most βμ, some per cent, of that by
     /// pressure: it is taken from the last pressure and solved again until nothing moves.
     pub(super) fn attempt_dry(&mut self, conditions: &Conditions) -> NewtonReport {
         /// Solutions at most; each gains a factor of about βμ ≤ 0.1.
         const PASSES: usize = 12;
         let mut whole = NewtonReport::nothing();
-        let (dry, newton) = (&mut self.dry, &mut self.newton);
-        // Without a film nothing is convected: C* is free to hold the gap.
+        let (dry, newton, trial) = (&mut self.dry, &mut self.newton, &mut self.trial);
         let gap = &mut self.c_star;
-        for pass in 0..PASSES {
+        for pass in 0..=PASSES {
             gap.copy_from_slice(&self.gap);
             let shear = newton.shear.as_mut().zip(conditions.law);
             let is_coupled = shear.is_some();
             if let Some((shear, law)) = shear {
-                shear.add_to_dry(law, &self.state.pressure, gap);
+                shear.add_to_dry(law, &trial.pressure, gap);
+            }
+            let mut tolerance = conditions.tolerance;
+            if pass == PASSES {
+                // Only judged: what the last solution leaves under its own traction.
+                tolerance.max_iterations = 0;
             }
             let report = dry.solve(
                 &mut newton.elastic,
@@ -27,21 +31,20 @@ impl March {
                     grid: &self.grid,
                     gap,
                     load: conditions.load,
-                    tolerance: conditions.tolerance,
+                    tolerance,
                 },
                 &mut Iterate {
-                    p: &mut self.state.pressure,
-                    h: &mut self.state.film,
-                    h0: &mut self.state.h0,
+                    p: &mut trial.pressure,
+                    h: &mut trial.film,
+                    h0: &mut trial.h0,
                 },
             );
             whole.add(&report);
             let settled = !is_coupled || (pass > 0 && report.iterations == 0);
             if settled || report.verdict != Verdict::Converged {
-                return whole;
+                break;
             }
         }
-        whole.verdict = Verdict::Stalled;
         whole
     }
 }

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::super::faces::{Faces, Nodes, Slopes};
+use super::super::faces::Faces;
+use super::super::fluidity::Way;
 use super::super::jacobian::{STENCIL, localise};
 use super::super::reynolds_rows::{flow_row, scale_row, storage_row};
 use super::closing::{conductance_slopes, keep_rising};
@@ -52,20 +53,11 @@ impl Reynolds {
     }
 
     /// Fills `faces` between the runs of nodes that begin at `a` and `b`.
-    fn fill_run(&self, a: usize, b: usize, len: usize, faces: &mut Faces) {
+    fn fill_run(&self, way: Way, (a, b): (usize, usize), len: usize, faces: &mut Faces) {
         let run = |start: usize| {
             let range = start..start + len;
-            let nodes = Nodes {
-                q: &self.q[range.clone()],
-                g: &self.g[range.clone()],
-                ln_g: &self.ln_g[range.clone()],
-            };
-            let slopes = Slopes {
-                q_p: &self.q_p[range.clone()],
-                q_h: &self.q_h[range.clone()],
-                ln_g_p: &self.ln_g_p[range.clone()],
-                ln_g_h: &self.ln_g_h[range],
-            };
+            let nodes = self.fluidity.nodes(way, &self.q, range.clone());
+            let slopes = self.fluidity.slopes(way, (&self.q_p, &self.q_h), range);
             (nodes, slopes)
         };
         let ((nodes_a, slopes_a), (nodes_b, slopes_b)) = (run(a), run(b));
@@ -84,9 +76,9 @@ impl Reynolds {
         let nx = grid.nx;
         let (start, south, north) = (j * nx, grid.row_below(j) * nx, grid.row_above(j) * nx);
         let here = start..start + nx;
-        self.fill_run(start, start + 1, nx - 1, &mut scratch.east);
-        self.fill_run(start, south, nx, &mut scratch.south);
-        self.fill_run(start, north, nx, &mut scratch.north);
+        self.fill_run(Way::Along, (start, start + 1), nx - 1, &mut scratch.east);
+        self.fill_run(Way::Across, (start, south), nx, &mut scratch.south);
+        self.fill_run(Way::Across, (start, north), nx, &mut scratch.north);
         let (row, local) = row.split_at_mut(2 * STENCIL * nx);
         row.fill(0.0);
         {

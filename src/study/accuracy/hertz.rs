@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use super::row::{AccuracyRow, Against, Part, Timed, Varied, timed};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::solve::film::Elastic;
 use crate::solve::march::{Conditions, Flow, Guess, March, Shape};
 use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
@@ -40,6 +40,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Solved, String> {
         density: Density::Incompressible,
         lambda: f64::INFINITY,
         sliding: 0.0,
+        sheared: ShearedFlow::Secant,
     };
     let conditions = Conditions {
         medium: &medium,
@@ -62,6 +63,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Solved, String> {
     if report.verdict != Verdict::Converged {
         return Err(format!("{nodes}², tolerance {tolerance}: {report:?}"));
     }
+    march.commit(1.0);
     Ok(Solved {
         march,
         report,
@@ -101,7 +103,7 @@ pub(super) fn hertz(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<AccuracyR
         .collect::<Result<_, _>>()?;
     for quantity in ["pressure, L2", "greatest pressure"] {
         for solved in &all {
-            let (grid, p) = (&solved.march.grid, &solved.march.state.pressure);
+            let (grid, p) = (&solved.march.solver.grid, &solved.march.state.pressure);
             let error = if quantity == "pressure, L2" {
                 let off = grid.integrate(|n| (p[n] - exact(grid, n)).powi(2));
                 (off / grid.integrate(|n| exact(grid, n).powi(2))).sqrt()
@@ -118,7 +120,12 @@ pub(super) fn hertz(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<AccuracyR
     for &tolerance in tolerances {
         let solved = solve(nodes, tolerance)?;
         let (p, best) = (&solved.march.state.pressure, &limit.march.state.pressure);
-        let error = solved.march.grid.integrate(|n| (p[n] - best[n]).abs()) / LOAD;
+        let error = solved
+            .march
+            .solver
+            .grid
+            .integrate(|n| (p[n] - best[n]).abs())
+            / LOAD;
         let fixed = format!("N {nodes}");
         let mut row = row(
             &solved,

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use super::hertz::{CIRCLE, LOAD};
 use super::row::{AccuracyRow, Against, Part, Timed, Varied, against_finest, timed};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, Viscosity};
+use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::solve::march::{Conditions, Flow, Guess, March};
 use crate::solve::newton::{Tolerance, Verdict};
 use crate::solve::reynolds::Medium;
@@ -89,6 +89,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Film, String> {
         density: Density::Incompressible,
         lambda,
         sliding: 0.0,
+        sheared: ShearedFlow::Secant,
     };
     let conditions = Conditions {
         medium: &medium,
@@ -109,7 +110,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Film, String> {
     let mut march = March::from_hertz(grid(nodes.min(65)), &CIRCLE, guess, 1.0, Flow::Film);
     let mut newton = 0;
     loop {
-        for _ in 0..((x_max - x_min) / march.grid.dx) as usize {
+        for _ in 0..((x_max - x_min) / march.solver.grid.dx) as usize {
             let report = march.attempt(&conditions, 1.0, Guess::Extrapolated);
             if report.verdict != Verdict::Converged {
                 return Err(format!("{nodes}², tolerance {tolerance}: {report:?}"));
@@ -117,14 +118,14 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Film, String> {
             newton += u64::from(report.iterations);
             march.commit(1.0);
         }
-        if march.grid.nx >= nodes {
+        if march.solver.grid.nx >= nodes {
             break;
         }
-        let finer = grid(2 * (march.grid.nx - 1) + 1);
+        let finer = grid(2 * (march.solver.grid.nx - 1) + 1);
         march = March::refined(&march, finer, &CIRCLE, 1.0, Flow::Film);
     }
     let unit = (6.0 * PI / lambda).sqrt();
-    let (grid, film) = (&march.grid, &march.state.film);
+    let (grid, film) = (&march.solver.grid, &march.state.film);
     let centre = grid.axis_row() * grid.nx + (-grid.x_min / grid.dx).round() as usize;
     let inside = (0..grid.len()).filter(|n| {
         let (x, y) = (grid.x(n % grid.nx), grid.y(n / grid.nx));

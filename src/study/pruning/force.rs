@@ -206,6 +206,7 @@ fn thinnest() -> Lubricant {
         density_law: crate::scene::DensityLaw::Incompressible,
         rheology: Rheology::Newtonian,
         eyring_stress_pa: 5e6,
+        eyring_flow: crate::scene::EyringFlow::Secant,
         limiting_shear_ratio: 1.0,
         cavitation: crate::scene::Cavitation::Reynolds,
     }

@@ -25,6 +25,9 @@ const CHAIN: ChainKeys = ChainKeys {
     passages: None,
 };
 
+/// Times its passages after which a life that has not settled is given up.
+const MOST: u64 = 6;
+
 /// What varies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Along {
@@ -85,7 +88,7 @@ pub struct Conditions {
     pub amplitude_m: [f64; 2],
 }
 
-/// What was found there: means over a case's last passage.
+/// What was found there: means over a case's last period, settled as the run's own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
     /// Where.
@@ -236,7 +239,8 @@ impl Worker {
     }
 
     fn case(&self, before: Option<&(Scene, State)>, scene: &Scene, plan: &Plan) -> Ran {
-        let run = |before| case::after(before, 0, scene, plan, 1, &mut Stop(&self.stop));
+        let until = case::Until::Settled(MOST);
+        let run = |before| case::after(before, 0, scene, plan, until, 1, &mut Stop(&self.stop));
         match run(before) {
             // A live run's grid need not be that of a scene with its knobs turned.
             Some((record, _)) if record.end == CaseEnd::Stalled && before.is_some() => run(None),

@@ -75,6 +75,29 @@ pub(super) enum Length {
     Asked,
 }
 
+/// When a case has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Until {
+    /// After its passages.
+    Passages,
+    /// Not before its life has settled, as the explorer's own has: after so many times its passages it has not
+    /// converged.
+    Settled(u64),
+}
+
+impl Until {
+    fn is_met(self, sim: &Simulation, plan: &Plan) -> bool {
+        let Self::Settled(times) = self else {
+            return sim.is_done();
+        };
+        sim.is_done() && (has_settled(sim) || sim.passage_steps() >= times * plan.steps)
+    }
+}
+
+fn has_settled(sim: &Simulation) -> bool {
+    sim.metrics().life.is_none_or(|life| life.settled)
+}
+
 /// The scene of a case with the passages that the sweep gives it.
 pub(super) fn shortened(mut scene: Scene, chain: ChainKeys) -> (Scene, Length) {
     let points_cross = scene.life.as_ref().is_some_and(|life| {
@@ -108,12 +131,13 @@ pub(super) fn after(
     index: usize,
     scene: &Scene,
     plan: &Plan,
+    until: Until,
     threads: usize,
     watch: &mut dyn Watch,
 ) -> Ran {
     let neighbour = before.filter(|(before, _)| may_follow(before, scene));
     let state = neighbour.map(|(_, state)| state);
-    run(index, scene, plan, state, threads, watch)
+    run(index, scene, plan, (state, until), threads, watch)
 }
 
 /// Runs a case, from the end of its neighbour where there is one.
@@ -121,7 +145,7 @@ pub(super) fn run(
     index: usize,
     scene: &Scene,
     plan: &Plan,
-    neighbour: Option<&State>,
+    (neighbour, until): (Option<&State>, Until),
     threads: usize,
     watch: &mut dyn Watch,
 ) -> Ran {
@@ -139,7 +163,7 @@ pub(super) fn run(
         }
     };
     let mut failure = None;
-    while !sim.is_done() {
+    while !until.is_met(&sim, plan) {
         if let Err(error) = sim.step() {
             failure = Some(error.to_string());
             break;
@@ -156,15 +180,18 @@ pub(super) fn run(
         record.lambda_ratio = sim.metrics().lambda_ratio;
     }
     let unconverged = record.start_up_not_converged + record.summary.steps_not_converged;
+    if failure.is_none() && matches!(until, Until::Settled(_)) && !has_settled(&sim) {
+        record.failure = Some("the average of the life has not settled".to_owned());
+    }
     record.end = match (&failure, unconverged) {
         (Some(_), _) => CaseEnd::Stalled,
-        (None, 0) => CaseEnd::Converged,
+        (None, 0) if record.failure.is_none() => CaseEnd::Converged,
         (None, _) => CaseEnd::NotConverged,
     };
     record.summary.converged = record.end == CaseEnd::Converged;
     // A neighbour in trouble is no start: the next case begins cold.
     let state = (record.end == CaseEnd::Converged).then(|| sim.save());
-    record.failure = failure;
+    record.failure = failure.or(record.failure);
     record.seconds = started.elapsed().as_secs_f64();
     Some((record, state))
 }

@@ -90,7 +90,8 @@ pub fn against_cold(
                     let Some((scene, plan)) = cases.get(index) else {
                         return;
                     };
-                    let ran = case::run(index, scene, plan, None, 1, &mut Until(progress));
+                    let cold = (None, case::Until::Passages);
+                    let ran = case::run(index, scene, plan, cold, 1, &mut Until(progress));
                     let Some((record, _)) = ran else { return };
                     let all = done.lock();
                     let mut all = all.unwrap_or_else(std::sync::PoisonError::into_inner);

@@ -1,27 +1,32 @@
 //! A sweep's folder: every case in a file of its own, written whole or not at all.
 //!
 //! ```text
+//! FOLDER/sweep.digest            the mark: format, digest of the sweep, build that fills the folder
+//! FOLDER/sweep.lock              held while somebody works in the folder
 //! FOLDER/sweep.toml              the sweep, with its scene in it
-//! FOLDER/sweep.digest            what the cases belong to
 //! FOLDER/base.toml               the scene that every case starts from, before its own keys are set
 //! FOLDER/cases/0000012.json      asperity case 1 <FNV-1a of the rest> \n { ... }
 //! FOLDER/chains/0000003-0000012.state      where chain 3 goes on after case 12; gone when it is done
 //! FOLDER/table.csv, seconds.csv, *.svg, *.png   when all cases are there
 //! ```
-//! A file is written under another name, brought to the disk and renamed, so that a kill leaves the old one or
-//! the new one. Two processes that write the same case write the same bytes. A record whose digest does not
-//! fit counts as missing.
+//! A folder that is not empty and has no mark is somebody else's: nothing in it is touched. In a marked one nothing
+//! is touched but files of these names. A file is written under another name, brought to the disk and renamed, so
+//! that a kill leaves the old one or the new one. Two processes that write the same case write the same bytes. A
+//! record whose digest does not fit counts as missing.
 
-use std::io::Write as _;
+mod mark;
+
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::case::CaseRecord;
 use super::error::SweepError;
 use super::spec::Sweep;
+use crate::files::{fnv, publish, sync_file};
 use crate::run::Checkpoint;
 use crate::scene::Scene;
 use crate::sim::State;
+use mark::{Company, Lock, MARK, Mark, TEMPORARY};
 
 const MAGIC: &str = "asperity case 1 ";
 
@@ -40,6 +45,8 @@ pub enum Existing {
 #[derive(Debug, Clone)]
 pub struct Folder {
     root: PathBuf,
+    mark: Mark,
+    lock: Lock,
 }
 
 impl Folder {
@@ -49,40 +56,51 @@ impl Folder {
     /// [`SweepError::Folder`] when it belongs to another sweep, holds cases that were not expected, or cannot
     /// be written.
     pub fn create(root: &Path, sweep: &Sweep, existing: Existing) -> Result<Self, SweepError> {
-        let folder = Self {
-            root: root.to_owned(),
-        };
-        let mark = root.join("sweep.digest");
-        let digest = sweep.digest();
-        if let Ok(found) = std::fs::read_to_string(&mark)
-            && existing != Existing::Replace
-        {
-            if found.trim() != digest {
-                return Err(SweepError::folder(
-                    root,
-                    "holds another sweep (or one of another version, or an edited one); take another --out, or --force replaces it",
-                ));
-            }
-            if existing == Existing::Refuse && folder.holds_cases() {
-                return Err(SweepError::folder(
-                    root,
-                    "holds cases of this sweep already; --resume goes on, --force starts anew",
-                ));
-            }
+        std::fs::create_dir_all(root).map_err(|e| SweepError::folder(root, e))?;
+        let mark = Mark::new(sweep.digest());
+        let found = Mark::read(root);
+        let is_same = found.as_ref() == Some(&mark);
+        refuse(root, &mark, found.as_ref(), existing)?;
+        if let Some(input) = mark::input_in_the_way(root, &sweep.inputs, is_same) {
+            let reason = format!(
+                "the sweep would write over {}, which it reads; take another --out",
+                input.display()
+            );
+            return Err(SweepError::folder(root, reason));
         }
+        let company = Company::enter(root, existing)?;
+        let mut folder = Self {
+            root: root.to_owned(),
+            mark,
+            lock: Lock::none(),
+        };
+        if company.is_alone() {
+            mark::take_away(root, |name| name.starts_with(TEMPORARY))?;
+        }
+        if existing == Existing::Replace {
+            mark::clear(root)?;
+        }
+        // The mark first: whatever else is in the folder stands behind it.
+        folder.write_own(!is_same, MARK, &folder.mark.text())?;
         for name in ["cases", "chains"] {
             let path = root.join(name);
-            if existing == Existing::Replace && path.exists() {
-                std::fs::remove_dir_all(&path).map_err(|e| SweepError::folder(&path, e))?;
-            }
             std::fs::create_dir_all(&path).map_err(|e| SweepError::folder(&path, e))?;
         }
-        folder.write(&root.join("sweep.toml"), sweep.to_toml().as_bytes())?;
-        folder.write(&mark, format!("{digest}\n").as_bytes())?;
+        folder.write_own(!is_same, "sweep.toml", sweep.to_toml())?;
         if let Ok(scene) = sweep.base_scene() {
-            folder.write(&root.join("base.toml"), scene.to_toml().as_bytes())?;
+            folder.write_own(!is_same, "base.toml", &scene.to_toml())?;
         }
+        folder.lock = company.share();
         Ok(folder)
+    }
+
+    /// Writes one of the folder's own texts if that of another sweep is there, or none.
+    fn write_own(&self, is_other: bool, name: &str, text: &str) -> Result<(), SweepError> {
+        let path = self.root.join(name);
+        if is_other || !path.exists() {
+            self.write(&path, text.as_bytes())?;
+        }
+        Ok(())
     }
 
     /// A folder that some shard has filled.
@@ -90,13 +108,15 @@ impl Folder {
     /// # Errors
     /// [`SweepError::Folder`] when it is none of this sweep.
     pub fn open(root: &Path, sweep: &Sweep) -> Result<Self, SweepError> {
-        let mark = root.join("sweep.digest");
-        let found = std::fs::read_to_string(&mark).map_err(|e| SweepError::folder(&mark, e))?;
-        if found.trim() != sweep.digest() {
+        let found = Mark::read(root);
+        let mark = found.ok_or_else(|| SweepError::folder(root, "no sweep has marked it"))?;
+        if mark.digest != sweep.digest() {
             return Err(SweepError::folder(root, "holds cases of another sweep"));
         }
         Ok(Self {
             root: root.to_owned(),
+            mark,
+            lock: Lock::none(),
         })
     }
 
@@ -106,15 +126,16 @@ impl Folder {
     /// [`SweepError`] when the folder holds none.
     pub fn sweep_in(root: &Path) -> Result<Sweep, SweepError> {
         let path = root.join("sweep.toml");
-        let text = std::fs::read_to_string(&path).map_err(|e| SweepError::folder(&path, e))?;
+        let text = super::read::read(&path, &path.display().to_string())?;
         let name = root
             .file_stem()
             .map_or_else(|| "sweep".to_owned(), |s| s.to_string_lossy().into_owned());
         Sweep::parse(&text, &name, Path::new(""))
     }
 
-    fn holds_cases(&self) -> bool {
-        std::fs::read_dir(self.root.join("cases")).is_ok_and(|mut dir| dir.next().is_some())
+    /// Build that fills it.
+    pub(super) fn build(&self) -> &str {
+        &self.mark.build
     }
 
     /// Its path.
@@ -165,19 +186,18 @@ impl Folder {
         scene: &Scene,
         state: &State,
     ) -> Result<(), SweepError> {
-        let path = self.state_path(chain, case);
-        let failed = |error: std::io::Error| SweepError::folder(&path, error);
-        let temporary = self.temporary();
         let checkpoint = Checkpoint {
-            program: concat!("asperity ", env!("CARGO_PKG_VERSION")).to_owned(),
+            program: crate::files::PROGRAM.to_owned(),
             scene: scene.to_toml(),
             n_events_played: 0,
             n_unconverged: 0,
             sim: state.clone(),
         };
-        let mut file = std::fs::File::create(&temporary).map_err(failed)?;
-        checkpoint.write(&mut file).map_err(failed)?;
-        std::fs::rename(&temporary, &path).map_err(failed)
+        self.write_by(&self.state_path(chain, case), |temporary| {
+            std::fs::File::create(temporary)
+                .and_then(|mut file| checkpoint.write(&mut file))
+                .map_err(|error| error.to_string())
+        })
     }
 
     /// The state after a case; `None`: there is none, or none that fits.
@@ -199,7 +219,7 @@ impl Folder {
         // Shards may share a folder: the name holds the process, and the machine's in case the folder is
         // on a network.
         let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
-        let name = format!("temporary-{}-{}-{n}", host.trim(), std::process::id());
+        let name = format!("{TEMPORARY}{}-{}-{n}", host.trim(), std::process::id());
         self.root.join(name)
     }
 
@@ -209,9 +229,7 @@ impl Folder {
     /// [`SweepError::Folder`] when the disk says no.
     pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
         self.write_by(path, |temporary| {
-            std::fs::File::create(temporary)
-                .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-                .map_err(|error| error.to_string())
+            std::fs::write(temporary, bytes).map_err(|error| error.to_string())
         })
     }
 
@@ -229,46 +247,58 @@ impl Folder {
         if let Some(ending) = path.extension() {
             temporary.set_extension(ending);
         }
-        let renamed = writer(&temporary)
-            .and_then(|_| std::fs::rename(&temporary, path).map_err(|error| error.to_string()));
-        renamed.map_err(|error| {
+        let written = writer(&temporary).and_then(|_| {
+            sync_file(&temporary)
+                .and_then(|()| publish(&temporary, path, true))
+                .map_err(|error| error.to_string())
+        });
+        written.map_err(|error| {
             let _ = std::fs::remove_file(&temporary);
             SweepError::folder(path, error)
         })
     }
+}
 
-    /// Takes away what processes that were killed left half-written: files that nobody has touched for ten
-    /// minutes, since another shard may be writing one.
-    pub fn tidy(&self) {
-        const ABANDONED: std::time::Duration = std::time::Duration::from_mins(10);
-        let left = std::fs::read_dir(&self.root)
-            .into_iter()
-            .flatten()
-            .flatten();
-        for entry in left {
-            let is_temporary = entry
-                .file_name()
-                .to_string_lossy()
-                .starts_with("temporary-");
-            let age = entry.metadata().and_then(|about| about.modified()).ok();
-            let age = age.and_then(|time| time.elapsed().ok());
-            if is_temporary && age.is_some_and(|age| age > ABANDONED) {
-                let _ = std::fs::remove_file(entry.path());
-            }
-        }
+/// Whether a sweep may work in a folder.
+fn refuse(
+    root: &Path,
+    mark: &Mark,
+    found: Option<&Mark>,
+    existing: Existing,
+) -> Result<(), SweepError> {
+    let refused = |reason: &str| Err(SweepError::folder(root, reason));
+    let Some(found) = found else {
+        return match mark::stranger(root) {
+            Some(name) => refused(&format!(
+                "holds {name}, and no sweep has marked the folder: what is in it is somebody else's; take another --out"
+            )),
+            None => Ok(()),
+        };
+    };
+    if existing == Existing::Replace {
+        return Ok(());
     }
+    if found.digest != mark.digest {
+        return refused(
+            "holds another sweep (an edited one, or one with another height map); take another --out, or --force replaces it",
+        );
+    }
+    if found.build != mark.build {
+        return refused(&format!(
+            "was filled by build {}, this is build {}: one table would mix the numbers of both; take another --out, or --force starts anew",
+            found.build, mark.build
+        ));
+    }
+    let cases = std::fs::read_dir(root.join("cases"));
+    if existing == Existing::Refuse && cases.is_ok_and(|mut cases| cases.next().is_some()) {
+        return refused("holds cases of this sweep already; --resume goes on, --force starts anew");
+    }
+    Ok(())
 }
 
 impl Sweep {
-    /// What a folder's cases belong to: FNV-1a of the program's version, the scene and the keys.
+    /// What a folder's cases belong to: FNV-1a of the scene, the keys and the height maps.
     pub fn digest(&self) -> String {
         format!("{:016x}", fnv(self.canonical().as_bytes()))
     }
-}
-
-/// FNV-1a, 64 bits (Fowler, Noll and Vo): against accidents, not against malice.
-pub(super) fn fnv(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }

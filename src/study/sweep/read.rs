@@ -1,6 +1,6 @@
 //! From a sweep file's text to a [`Sweep`]: every key known, of the right kind and within its range.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
@@ -9,10 +9,13 @@ use super::error::SweepError;
 use super::path;
 use super::presets;
 use super::spec::{ChainKeys, Combine, MOST_CASES, Sweep, setting};
+use crate::files::{fnv, read_up_to};
 use crate::scene::{Scene, SceneError, keys};
 
 /// Longest sweep file, bytes: a list of a million values.
 const LONGEST_FILE: u64 = 32 << 20;
+/// Longest height map, bytes.
+const LONGEST_MAP: u64 = 64 << 20;
 /// Cases of a chain, where the file says nothing.
 const CHAIN: usize = 7;
 /// Longest chain.
@@ -20,12 +23,11 @@ const LONGEST_CHAIN: i64 = 1000;
 
 /// Reads a file, but never more than a sweep can be.
 pub(super) fn read(path: &Path, shown_path: &str) -> Result<String, SweepError> {
-    use std::io::Read as _;
     let failed = |reason: String| SweepError::Read {
         path: shown_path.to_owned(),
         reason,
     };
-    let file = std::fs::File::open(path).map_err(|error| {
+    let bytes = read_up_to(path, LONGEST_FILE).map_err(|error| {
         if error.kind() == std::io::ErrorKind::NotFound && path.extension().is_none() {
             failed(format!(
                 "no such file, and no built-in sweep; built in: {}",
@@ -35,10 +37,6 @@ pub(super) fn read(path: &Path, shown_path: &str) -> Result<String, SweepError> 
             failed(error.to_string())
         }
     })?;
-    let mut bytes = Vec::new();
-    file.take(LONGEST_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| failed(error.to_string()))?;
     if bytes.len() as u64 > LONGEST_FILE {
         return Err(failed("longer than 32 MiB, which no sweep is".to_owned()));
     }
@@ -99,6 +97,16 @@ pub(super) fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep,
         return Err(SceneError::value(key, "a value", "nothing: the key varies"));
     }
     sort(&mut axes);
+    let set_values = set_text.iter().filter_map(|text| text.split_once('='));
+    let set_files = set_values
+        .filter(|(key, _)| is_map(key))
+        .map(|(_, file)| file.trim_matches('"'));
+    let varied = axes.iter().filter(|axis| is_map(&axis.key));
+    let varied_files = varied.flat_map(|axis| axis.values.iter().filter_map(Value::as_str));
+    let files: Vec<PathBuf> = set_files.chain(varied_files).map(PathBuf::from).collect();
+    let maps = files.iter().map(|file| digest(file)).collect();
+    let mut inputs = files;
+    inputs.extend(inputs_of(&root, folder));
     check_size(&axes, combine)?;
     let mut whole = root;
     if let Ok(scene) = base.0.parse::<Table>() {
@@ -116,7 +124,38 @@ pub(super) fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep,
         set_text,
         text: whole.to_string(),
         source: text.to_owned(),
+        maps,
+        inputs,
     })
+}
+
+/// Whether a key names a height map.
+fn is_map(key: &str) -> bool {
+    key.ends_with(".surface.file")
+}
+
+/// A height map's path and the digest of what the file holds; one that cannot be read is refused where its case is
+/// planned.
+fn digest(file: &Path) -> String {
+    let bytes = read_up_to(file, LONGEST_MAP).unwrap_or_default();
+    format!("{} {:016x}", file.display(), fnv(&bytes))
+}
+
+/// The scene's file and its height maps.
+fn inputs_of(root: &Table, folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let scene = root.get("scene");
+    if let Some(name) = scene.and_then(Value::as_str)
+        && crate::scene::presets::find(name).is_none()
+    {
+        files.push(folder.join(name));
+    }
+    for body in ["body_1", "body_2"] {
+        let surface = scene.and_then(|scene| scene.get(body)?.get("surface"));
+        let file = surface.and_then(|surface| surface.get("file")?.as_str());
+        files.extend(file.map(|file| folder.join(file)));
+    }
+    files
 }
 
 /// The base scene's text, checked, and its name.

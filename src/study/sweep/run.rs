@@ -206,7 +206,16 @@ impl Crew<'_> {
                 told: 0,
             };
             let before = neighbour.as_ref();
-            let ran = case::after(before, index, &scene, &plan, self.threads, &mut share);
+            let until = case::Until::Passages;
+            let ran = case::after(
+                before,
+                index,
+                &scene,
+                &plan,
+                until,
+                self.threads,
+                &mut share,
+            );
             drop(share);
             let Some((record, state)) = ran else {
                 return Ok(());

@@ -76,6 +76,10 @@ pub struct Sweep {
     pub(super) text: String,
     /// The file as it was written.
     pub(super) source: String,
+    /// Digests of the height maps that `[set]` and `[vary]` name; the scene holds those of its own.
+    pub(super) maps: Vec<String>,
+    /// Files that it is made of.
+    pub(super) inputs: Vec<PathBuf>,
 }
 
 impl Sweep {
@@ -92,7 +96,9 @@ impl Sweep {
         let name = path
             .file_stem()
             .map_or_else(|| "sweep".to_owned(), |s| s.to_string_lossy().into_owned());
-        Self::parse(&text, &name, path.parent().unwrap_or(Path::new("")))
+        let mut sweep = Self::parse(&text, &name, path.parent().unwrap_or(Path::new("")))?;
+        sweep.inputs.push(path);
+        Ok(sweep)
     }
 
     /// Reads a sweep's text; files that it names are sought from `folder`.
@@ -220,13 +226,13 @@ impl Sweep {
             })
             .collect();
         format!(
-            "asperity {}\n{:?}\n{:?}\n{}\n{}\n{:?}\n{}",
-            env!("CARGO_PKG_VERSION"),
+            "{:?}\n{:?}\n{}\n{}\n{:?}\n{}\n{}",
             self.combine,
             self.chain,
             self.set_text.join("\n"),
             axes.join("\n"),
             self.path,
+            self.maps.join("\n"),
             self.base.0
         )
     }

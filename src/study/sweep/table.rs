@@ -11,8 +11,9 @@ use toml::Value;
 
 use super::case::{Began, CaseEnd, CaseRecord};
 use super::error::SweepError;
-use super::folder::{Folder, fnv};
+use super::folder::Folder;
 use super::spec::Sweep;
+use crate::files::fnv;
 use crate::observe::cells::Cells;
 
 /// Columns after those of the path and the axes, in the order of [`numbers`].
@@ -149,8 +150,21 @@ impl Rows {
     /// the same.
     ///
     /// # Errors
-    /// [`SweepError::Incomplete`] that names the chains with missing cases.
+    /// [`SweepError::Incomplete`] that names the chains with missing cases; [`SweepError::Folder`] when not all
+    /// folders were filled by one build of the program.
     pub fn gather(sweep: &Sweep, folders: &[Folder]) -> Result<Self, SweepError> {
+        if let Some(pair) = folders
+            .windows(2)
+            .find(|pair| pair[0].build() != pair[1].build())
+        {
+            let reason = format!(
+                "was filled by build {}, {} by build {}: one table would mix the numbers of both",
+                pair[1].build(),
+                pair[0].root().display(),
+                pair[0].build()
+            );
+            return Err(SweepError::folder(pair[1].root(), reason));
+        }
         let find = |case: usize| folders.iter().find_map(|folder| folder.read_case(case));
         let records: Vec<_> = (0..sweep.len()).map(find).collect();
         let missing = records.iter().filter(|record| record.is_none()).count();

@@ -74,7 +74,7 @@ pub const KEYS: &[Row] = &[
             (key(KeyCode::PageUp), Action::TurnFar(1)),
         ],
         "⇧←→ HL",
-        "by a big step",
+        "in big steps",
         Group::Knobs,
     ),
     row(
@@ -90,7 +90,7 @@ pub const KEYS: &[Row] = &[
             (ch('9'), Action::Typical(8)),
         ],
         "1-9",
-        "to a typical value",
+        "typical values",
         Group::Knobs,
     ),
     row(
@@ -100,7 +100,7 @@ pub const KEYS: &[Row] = &[
             (ch('X'), Action::HomeAll),
         ],
         "x X",
-        "the scene's value; all knobs",
+        "reset the knob; all knobs",
         Group::Knobs,
     ),
     row(
@@ -118,7 +118,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('o'), Action::Replay)],
         "o",
-        "replay the orbit; go on live",
+        "replay one period; live again",
         Group::Time,
     ),
     row(
@@ -177,7 +177,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('b'), Action::Pin), (ch('B'), Action::Unpin)],
         "b B",
-        "pin to compare; forget it",
+        "pin to compare; unpin",
         Group::Show,
     ),
     row(
@@ -202,13 +202,13 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('i'), Action::Plan)],
         "i",
-        "plan: what is left out, why",
+        "plan: what is computed, why",
         Group::Show,
     ),
     row(
         &[(ch('e'), Action::Scene), (key(KeyCode::Enter), Action::Run)],
         "e ⏎",
-        "other scene, lay, oil, model",
+        "change scene, lay, oil, model",
         Group::Program,
     ),
     row(
@@ -232,7 +232,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('w'), Action::Write)],
         "w",
-        "write it: npz, png, csv",
+        "export: npz, png, csv",
         Group::Program,
     ),
     row(
@@ -265,6 +265,6 @@ pub const KEYS: &[Row] = &[
 pub const MOUSE: &[(&str, &str)] = &[
     ("drag", "a slider"),
     ("wheel", "turns the knob under it"),
-    ("click", "on the map: read it there"),
-    ("click", "on the trace: that point"),
+    ("click", "on the map: read values"),
+    ("click", "on the trace: follow it"),
 ];

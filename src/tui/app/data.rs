@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::run::Command;
 use crate::scene::Scene;
+use crate::sim::Frame;
 use crate::study::sweep::Order;
 use crate::tui::app::Leading;
 use crate::tui::theme::Theme;
@@ -35,8 +36,8 @@ pub enum Effect {
     Sweep(Box<Order>),
     /// Call that off.
     EndSweep,
-    /// Run this scene in place of the present one.
-    Rebuild(Box<Scene>),
+    /// Run this scene in place of the present one, under this name.
+    Rebuild(Box<Scene>, String),
     /// To the shell.
     Suspend,
     /// The end.
@@ -48,12 +49,14 @@ pub enum Effect {
 pub struct Pinned {
     /// Relative life (same-load reference).
     pub life_relative: f64,
-    /// Life on the scale of the scene's load: what is compared.
-    pub life_comparable: f64,
+    /// What its load costs against the scene's; lives are compared with it.
+    pub load_factor: f64,
     /// Which number was pinned.
     pub leading: Leading,
     /// S.
     pub slide_roll: f64,
+    /// Load, N; of a line N/m.
+    pub load_n: f64,
     /// Hertz pressure, Pa.
     pub p_hertz_pa: f64,
 }
@@ -73,6 +76,44 @@ pub struct Ranges {
     pub shear_pa: f64,
 }
 
+/// A step that did not converge, and what of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trouble {
+    /// Which step.
+    pub step: u64,
+    /// What did not.
+    pub what: Unconverged,
+}
+
+/// What of a step did not converge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unconverged {
+    /// The pressure: its residual, and how often the step was tried again.
+    Pressure(f64, u32),
+    /// The film: the part that is not balanced.
+    Film(f64),
+    /// Surfaces overlap by so much, m: at nodes that did not converge, or where the domain cuts contact off.
+    Overlap(f64),
+}
+
+impl Trouble {
+    /// Of a frame's step, whose pressure was to converge to `tolerance`.
+    pub fn of(frame: &Frame, tolerance: f64) -> Self {
+        let metrics = &frame.metrics;
+        let what = if metrics.residual > tolerance {
+            Unconverged::Pressure(metrics.residual, metrics.retries)
+        } else if metrics.overlap_m > 0.0 {
+            Unconverged::Overlap(metrics.overlap_m)
+        } else {
+            Unconverged::Film(metrics.film_error)
+        };
+        Self {
+            step: frame.step,
+            what,
+        }
+    }
+}
+
 /// One point of the life's history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LifeSample {
@@ -87,6 +128,8 @@ pub struct LifeSample {
 pub struct Setup {
     /// The scene that runs.
     pub scene: Arc<Scene>,
+    /// Its name: that of its preset or file.
+    pub name: String,
     /// Load, N; of a line N/m.
     pub load_n: f64,
     /// Hertz half-width along x at that load, m.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::run::{Command, Settled};
-use crate::sim::Follow;
+use crate::sim::{Follow, Rhythm};
 use crate::tui::app::{App, AutoReplay, Effect, Pace};
 use crate::tui::replay::{Motion, Replay};
 use crate::tui::trace::{Chosen, Trace, TraceSample};
@@ -101,7 +101,18 @@ impl App {
         }
         let effects = self.begin_replay();
         if self.replay.is_none() {
-            self.say("nothing to replay yet: the passage does not repeat");
+            let repeats = self
+                .frame()
+                .and_then(|frame| frame.metrics.repeat)
+                .filter(|repeat| repeat.repeats);
+            self.say(match repeats.map(|repeat| repeat.rhythm) {
+                None => "no replay yet: the passage does not repeat",
+                Some(Rhythm::Orbit) => "the passage repeats; one whole period is gathered first",
+                Some(Rhythm::Steady) => "nothing changes in time: there is nothing to replay",
+                Some(Rhythm::Statistics) => {
+                    "no replay: only the means have settled, no period is common to both bodies"
+                }
+            });
         }
         effects
     }
@@ -109,7 +120,7 @@ impl App {
     pub(super) fn replay_faster(&mut self, times: i32) {
         match &mut self.replay {
             Some(replay) => replay.faster(times),
-            None => self.say("speed is that of the run; o replays a passage that repeats"),
+            None => self.say("a live run has no speed to choose; o replays a passage that repeats"),
         }
     }
 
@@ -222,23 +233,25 @@ impl App {
         if let (Some(_), Some(whole)) = (&self.replay, self.trace.counted()) {
             let sample = *self.trace.current().last()?;
             let (body, depth_m) = self.trace.point();
-            let (formula, _) = of_body(body);
+            let (expected, average) = of_body(body);
             return Some(PointNow {
                 body,
                 depth_m,
                 sample,
-                formula,
-                counted: Some(whole),
+                expected,
+                average,
+                closed: Some(whole),
             });
         }
         let point = frame.material_point?;
-        let (formula, counted) = of_body(point.body);
+        let (expected, average) = of_body(point.body);
         Some(PointNow {
             body: point.body,
             depth_m: point.depth_m,
             sample: TraceSample::of(&point),
-            formula,
-            counted,
+            expected,
+            average,
+            closed: point.cycles_before,
         })
     }
 }
@@ -252,8 +265,10 @@ pub struct PointNow {
     pub depth_m: f64,
     /// Where it is and what it feels.
     pub sample: TraceSample,
-    /// n by formula.
-    pub formula: Option<f64>,
-    /// Cycles counted: in a replay of this crossing, else in the mean of crossings.
-    pub counted: Option<f64>,
+    /// Cycles a crossing by formula: n, expected on average.
+    pub expected: Option<f64>,
+    /// Mean of the crossings that were counted.
+    pub average: Option<f64>,
+    /// Closed cycles: in a replay of this crossing, else of the one before.
+    pub closed: Option<f64>,
 }

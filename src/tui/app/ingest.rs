@@ -3,11 +3,11 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::physics::estimate::{Anchor, OperatingPoint};
+use crate::physics::estimate::OperatingPoint;
 use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::study::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
-use crate::tui::app::{App, Effect, LifeSample, Ranges};
+use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges, Trouble};
 use crate::tui::dial::{Dial, knob_target, knob_value};
 use crate::tui::units::nice_ceiling;
 
@@ -19,6 +19,8 @@ const PAST_FRAMES: usize = 96;
 const HISTORY: usize = 1024;
 /// Wall time over which the speed of the run is averaged.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
+/// How long a step that did not converge is told: single ones would flicker.
+const TOLD: Duration = Duration::from_secs(3);
 /// How long a knob that was set here is not overruled by what a frame says of its target.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -42,6 +44,10 @@ impl App {
             self.trace.push(point, frame.a_m);
         }
         self.take_rate(&frame);
+        if !frame.metrics.converged {
+            let trouble = Trouble::of(&frame, self.setup.scene.numerics.tolerance);
+            self.trouble = Some((trouble, self.now + TOLD));
+        }
         self.take_life(&frame);
         self.waves.push(&frame);
         self.keep(frame);
@@ -60,6 +66,15 @@ impl App {
         }
     }
 
+    /// What went wrong with a step of the last seconds, or with the one that is looked at.
+    pub fn trouble(&self) -> Option<Trouble> {
+        let tolerance = self.setup.scene.numerics.tolerance;
+        let shown = self.frame().filter(|frame| !frame.metrics.converged);
+        let shown = shown.map(|frame| Trouble::of(frame, tolerance));
+        let told = self.trouble.filter(|(_, until)| self.now < *until);
+        shown.or_else(|| told.filter(|_| self.back == 0).map(|(trouble, _)| trouble))
+    }
+
     fn take_knobs(&mut self, frame: &Frame) {
         for (dial, set_at) in self.dials.iter_mut().zip(&self.set_at) {
             dial.now = knob_value(&frame.metrics, dial.knob);
@@ -74,6 +89,11 @@ impl App {
     }
 
     fn take_rate(&mut self, frame: &Frame) {
+        if self.pace == Pace::Paused {
+            // A pause is no part of the run's pace.
+            self.rate.clear();
+            return;
+        }
         self.rate.push_back((self.now, frame.step));
         while self.rate.len() > 2
             && self
@@ -120,13 +140,9 @@ impl App {
             load_n: metrics.load_n,
             amplitude_1_m: metrics.amplitude_1_m,
             amplitude_2_m: metrics.amplitude_2_m,
+            entrainment_m_s: metrics.entrainment_m_s,
         };
-        self.anchor = Some(Anchor {
-            at,
-            cycle_factor: life.cycle_factor,
-            peak_factor: life.peak_factor,
-            traction_factor: life.traction_factor,
-        });
+        self.drop_anchor(&at, &life);
     }
 
     fn keep(&mut self, frame: Arc<Frame>) {

@@ -41,7 +41,7 @@ impl MapKind {
             Self::Pressure => "pressure",
             Self::Film => "film",
             Self::Fringes => "interferogram",
-            Self::Contact => "contact spots",
+            Self::Contact => "touching",
             Self::Roughness => "roughness",
             Self::Stress => "stress below",
             Self::PressureWaves => "pressure x-t",
@@ -153,6 +153,19 @@ pub enum Pace {
 pub enum Leading {
     /// The simulation's: it has settled where the knobs are.
     Simulated,
-    /// The formula's: the simulation is on its way.
+    /// The last one that was simulated, brought to where the knobs are by the formula.
+    Scaled,
+    /// The formula's alone: nothing has settled yet.
     Formula,
+}
+
+impl Leading {
+    /// In one word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Simulated => "simulated",
+            Self::Scaled => "scaled",
+            Self::Formula => "formula",
+        }
+    }
 }

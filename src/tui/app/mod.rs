@@ -13,14 +13,14 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, OperatingPoint};
+use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, Factors, Loaded, OperatingPoint};
 use crate::run::Settled;
 use crate::scene::Scene;
-use crate::sim::{Frame, Knob, LifeEstimate, Stage};
+use crate::sim::{Caution, Frame, Knob, LifeEstimate, Stage};
 use crate::study::sweep::{Along, Found};
 use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
-use crate::tui::estimate::{basis, life_at_pressure};
+use crate::tui::estimate::basis;
 use crate::tui::kymograph::{Kymograph, Span};
 use crate::tui::lessons::{Staging, TourState};
 use crate::tui::pixels::Pixels;
@@ -31,7 +31,7 @@ use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
 use crate::tui::wiring::{Health, RunStatus, Shown};
 use curve::MeanFriction;
-pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Setup};
+pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Setup, Trouble, Unconverged};
 pub use held::PointNow;
 pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
@@ -79,20 +79,24 @@ pub struct App {
     pub(crate) tour: Option<TourState>,
     /// The lesson's scene that runs; `None`: the user's own.
     staged: Option<Staging>,
-    /// The user's own scene, for the end of the tour.
-    own_scene: Arc<Scene>,
+    /// The user's own scene and its name, for the end of the tour.
+    own: (Arc<Scene>, String),
     /// A scene in the making.
     pub(crate) draft: Option<Draft>,
     pub(crate) estimate: Estimate,
-    /// Whether the estimate has a simulated state to scale from.
-    pub(crate) anchor: Option<Anchor>,
+    /// The simulated state from which lives are scaled.
+    anchor: Option<Anchor>,
     basis: EstimateBasis,
+    /// The contact where the knobs are going, by formula.
+    loaded: Loaded,
     past: VecDeque<Arc<Frame>>,
     /// How many frames back from the newest the screen shows.
     back: usize,
     message: Option<(String, Duration)>,
     now: Duration,
     rate: VecDeque<(Duration, u64)>,
+    /// The last step that did not converge, and until when it is told.
+    trouble: Option<(Trouble, Duration)>,
     /// When each knob was last set from here.
     set_at: Vec<Option<Duration>>,
     /// A fault panel that was read and closed.
@@ -105,7 +109,8 @@ impl App {
         let dials = dials(&setup.scene, setup.load_n, setup.p_hertz_pa);
         let basis = basis(&setup);
         let start = point_of(&dials);
-        let estimate = basis.estimate(&blank_anchor(&basis, start), &start);
+        let loaded = basis.loaded(&start);
+        let estimate = basis.estimate(&loaded, None, &start);
         Self {
             theme: setup.theme,
             units: Units::default(),
@@ -114,7 +119,10 @@ impl App {
             map: MapKind::default(),
             zoom: Zoom::default(),
             quantity: PointQuantity::default(),
-            curve: Curve::default(),
+            curve: match setup.scene.life {
+                Some(_) => Curve::Life,
+                None => Curve::Friction,
+            },
             overlay: Overlay::default(),
             scroll: 0,
             pace: Pace::default(),
@@ -136,16 +144,18 @@ impl App {
             point: None,
             tour: None,
             staged: None,
-            own_scene: Arc::clone(&setup.scene),
+            own: (Arc::clone(&setup.scene), setup.name.clone()),
             draft: None,
             estimate,
             anchor: None,
             basis,
+            loaded,
             past: VecDeque::new(),
             back: 0,
             message: None,
             now: Duration::ZERO,
             rate: VecDeque::new(),
+            trouble: None,
             set_at: vec![None; dials.len()],
             fault_read: false,
             dials,
@@ -168,9 +178,13 @@ impl App {
         self.status = status;
     }
 
-    /// Shows a line for some seconds.
+    /// Shows a line for some seconds, a long one for longer.
     pub fn say(&mut self, text: impl Into<String>) {
-        self.message = Some((text.into(), self.now + Duration::from_secs(5)));
+        /// Letters read in a second, by one who must look for them first.
+        const LETTERS: u64 = 15;
+        let text = text.into();
+        let seconds = 4 + text.chars().count() as u64 / LETTERS;
+        self.message = Some((text, self.now + Duration::from_secs(seconds)));
     }
 
     /// The frame on the screen: the newest, one of the past, or one of the orbit that is replayed.
@@ -187,8 +201,11 @@ impl App {
         (self.back, self.past.len().saturating_sub(1))
     }
 
-    /// Time steps per second of wall time, over the last two seconds.
+    /// Time steps per second of wall time, over the last two seconds; `None` while the run waits.
     pub fn steps_per_s(&self) -> Option<f64> {
+        if self.pace == Pace::Paused {
+            return None;
+        }
         let (first, last) = (self.rate.front()?, self.rate.back()?);
         let seconds = last.0.checked_sub(first.0)?.as_secs_f64();
         (seconds > 0.0).then(|| last.1.saturating_sub(first.1) as f64 / seconds)
@@ -197,6 +214,12 @@ impl App {
     /// Where a knob is going, as the screen has it.
     pub fn target(&self, knob: Knob) -> f64 {
         target_of(&self.dials, knob)
+    }
+
+    /// The load that the knob is going to, N; of a line N/m.
+    pub fn load_n(&self) -> f64 {
+        // A scene has a dial for one of the two.
+        self.target(Knob::ForceN) + self.target(Knob::ForceNPerM)
     }
 
     /// How the map is drawn.
@@ -238,44 +261,52 @@ impl App {
         self.frame().and_then(|frame| frame.metrics.life)
     }
 
-    /// Whether the simulated life holds for where the knobs are.
+    /// What to know before trusting the frame's numbers, the weightiest first.
+    pub fn cautions(&self) -> Vec<Caution> {
+        self.frame()
+            .filter(|frame| frame.stage == Stage::Passage)
+            .map_or_else(Vec::new, |frame| frame.cautions())
+    }
+
+    /// Which number leads: what was simulated, where that holds for where the knobs are.
     pub fn leading(&self) -> Leading {
         let settled = self.life().is_some_and(|life| life.settled);
         if settled && !self.dials.iter().any(Dial::is_moving) {
             Leading::Simulated
+        } else if self.anchor.is_some() {
+            Leading::Scaled
         } else {
             Leading::Formula
         }
     }
 
-    /// The relative life that leads.
-    pub fn leading_life(&self) -> Option<f64> {
-        match self.leading() {
-            Leading::Simulated => self.life().map(|life| life.life_relative),
-            Leading::Formula => self.estimate.life_relative,
+    /// The factors of the life that leads; `None`: the scene computes no life.
+    pub fn leading_factors(&self) -> Option<Factors> {
+        self.setup.scene.life.as_ref()?;
+        match (self.leading(), self.life()) {
+            (Leading::Simulated, Some(life)) => Some(simulated(&life)),
+            _ => Some(self.estimate.best()),
         }
     }
 
-    /// Relative life at a load, on the scale of the scene's own load.
-    pub fn comparable(&self, life_relative: f64, p_hertz_pa: f64) -> f64 {
-        let ratio = p_hertz_pa / self.setup.p_hertz_pa;
-        life_relative * life_at_pressure(&self.setup, ratio)
+    /// The relative life that leads.
+    pub fn leading_life(&self) -> Option<f64> {
+        match (self.leading(), self.life()) {
+            (Leading::Simulated, Some(life)) => Some(life.life_relative),
+            _ => self.leading_factors()?.life(),
+        }
     }
 
-    /// Life now over life pinned.
+    /// Life now over life pinned, what the load costs included.
     pub fn against_pinned(&self) -> Option<f64> {
         let pinned = self.pinned?;
-        let now = self.comparable(self.leading_life()?, self.estimate.p_hertz_pa);
-        Some(now / pinned.life_comparable)
+        let now = self.leading_life()? * self.leading_factors()?.load;
+        Some(now / (pinned.life_relative * pinned.load_factor))
     }
 
     /// Life at another S by formula, all else as the knobs are.
     pub fn formula_at(&self, slide_roll: f64) -> Option<f64> {
-        let point = OperatingPoint {
-            slide_roll,
-            ..point_of(&self.dials)
-        };
-        self.basis.estimate(&self.anchored(), &point).life_relative
+        self.loaded.factors(&self.basis, slide_roll).life()
     }
 
     /// The centre line over the way that led to the frame on the screen.
@@ -320,14 +351,35 @@ impl App {
     }
 
     fn refresh_estimate(&mut self) {
+        let point = point_of(&self.dials);
+        if !self.loaded.holds_at(&point) {
+            self.loaded = self.basis.loaded(&point);
+        }
         self.estimate = self
             .basis
-            .estimate(&self.anchored(), &point_of(&self.dials));
+            .estimate(&self.loaded, self.anchor.as_ref(), &point);
     }
 
-    fn anchored(&self) -> Anchor {
-        self.anchor
-            .unwrap_or_else(|| blank_anchor(&self.basis, point_of(&self.dials)))
+    /// Lives are scaled from this one from now on.
+    fn drop_anchor(&mut self, at: &OperatingPoint, life: &LifeEstimate) {
+        let known = [Some(self.loaded), self.anchor.map(|anchor| anchor.loaded)];
+        let known = known.into_iter().flatten().find(|one| one.holds_at(at));
+        let loaded = known.unwrap_or_else(|| self.basis.loaded(at));
+        self.anchor = Some(Anchor::new(
+            &self.basis,
+            loaded,
+            at.slide_roll,
+            simulated(life),
+        ));
+    }
+}
+
+fn simulated(life: &LifeEstimate) -> Factors {
+    Factors {
+        cycle: Some(life.cycle_factor),
+        peak: life.peak_factor,
+        traction: life.traction_factor,
+        load: life.load_factor,
     }
 }
 
@@ -356,6 +408,7 @@ fn point_of(dials: &[Dial]) -> OperatingPoint {
         load_n: target_of(dials, Knob::ForceN) + target_of(dials, Knob::ForceNPerM),
         amplitude_1_m: target_of(dials, Knob::Amplitude1M),
         amplitude_2_m: target_of(dials, Knob::Amplitude2M),
+        entrainment_m_s: target_of(dials, Knob::EntrainmentMS),
     }
 }
 
@@ -364,18 +417,4 @@ fn target_of(dials: &[Dial], knob: Knob) -> f64 {
         .iter()
         .find(|dial| dial.knob == knob)
         .map_or(0.0, |dial| dial.target)
-}
-
-/// Before anything was simulated only the cycles are known: peaks and traction count as 1.
-fn blank_anchor(basis: &EstimateBasis, at: OperatingPoint) -> Anchor {
-    let (n_1, n_2) = basis.contacts(&at);
-    let worst = n_1
-        .zip(n_2)
-        .map_or(1.0, |(first, second)| first.max(second));
-    Anchor {
-        at,
-        cycle_factor: 1.0 / worst,
-        peak_factor: 1.0,
-        traction_factor: 1.0,
-    }
 }

@@ -1,6 +1,7 @@
 //! What an action does.
 
 use crate::run::Command;
+use crate::sim::Knob;
 use crate::tui::action::{Action, KEYS};
 use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pace, Pinned, Zoom};
 use crate::tui::dial::Life;
@@ -86,7 +87,7 @@ impl App {
         let next = self.pixels().next();
         self.set_pixels(next);
         self.say(format!(
-            "map in {}, if the terminal has them (g: others)",
+            "map drawn in {}, if the terminal supports them (g: next)",
             next.name()
         ));
     }
@@ -143,7 +144,7 @@ impl App {
         let dial = &mut self.dials[place];
         if let Life::Dead(reason) = dial.life {
             let line = format!(
-                "{}: the surface is {reason}, there is nothing to turn",
+                "{}: the surface is {reason}, so there is nothing to turn",
                 dial.label
             );
             self.say(line);
@@ -211,29 +212,30 @@ impl App {
             return vec![Effect::Errand(errand)];
         }
         self.say(match errand {
-            ErrandKind::Record => "this run has no recorder to switch",
+            ErrandKind::Record => "this run is not recorded",
             ErrandKind::View => {
                 "no viewer is at hand; `asperity view FILE.rrd` says how to get one"
             }
-            ErrandKind::Save => "this scene cannot be saved from here",
-            ErrandKind::Write => "this run writes no files from here",
-            ErrandKind::Rebuild => "this run cannot be changed for another from here",
+            ErrandKind::Save => "scenes cannot be saved from here",
+            ErrandKind::Write => "nothing can be exported from here",
+            ErrandKind::Rebuild => "no other scene can be started from here",
         });
         Vec::new()
     }
 
     fn pin(&mut self) {
-        let Some(life_relative) = self.leading_life() else {
+        let lives = self.leading_life().zip(self.leading_factors());
+        let Some((life_relative, factors)) = lives else {
             self.say("nothing to pin yet: there is no life estimate");
             return;
         };
-        let p_hertz_pa = self.estimate.p_hertz_pa;
         self.pinned = Some(Pinned {
             life_relative,
-            life_comparable: self.comparable(life_relative, p_hertz_pa),
+            load_factor: factors.load,
             leading: self.leading(),
-            slide_roll: self.dials[0].target,
-            p_hertz_pa,
+            slide_roll: self.target(Knob::SlideRoll),
+            load_n: self.load_n(),
+            p_hertz_pa: self.estimate.p_hertz_pa,
         });
     }
 

@@ -19,7 +19,7 @@ impl App {
         (self.map, self.zoom, self.quantity) = (old.map, old.zoom, old.quantity);
         (self.curve, self.pixels) = (old.curve, old.pixels);
         self.pinned = old.pinned.filter(|_| same_contact);
-        (self.staged, self.own_scene) = (old.staged, old.own_scene);
+        (self.staged, self.own) = (old.staged, old.own);
         self.tour = old.tour.map(|tour| tour.anew(0.0));
         match self.tour {
             Some(tour) => self.set_beat(tour),
@@ -44,7 +44,7 @@ impl App {
             self.overlay = Overlay::Scene;
             self.draft = Some(Draft::new(self.scene_now()));
         } else {
-            self.say("this run cannot be changed for another from here");
+            self.say("no other scene can be started from here");
         }
     }
 
@@ -69,8 +69,11 @@ impl App {
         self.overlay = Overlay::None;
         self.tour = None;
         self.staged = None;
-        self.own_scene = draft.scene.clone().into();
-        vec![Effect::Rebuild(Box::new(draft.scene))]
+        let name = draft
+            .preset
+            .map_or_else(|| self.own.1.clone(), str::to_owned);
+        self.own = (draft.scene.clone().into(), name.clone());
+        vec![Effect::Rebuild(Box::new(draft.scene), name)]
     }
 
     pub(super) fn toggle_tour(&mut self) -> Vec<Effect> {
@@ -81,7 +84,7 @@ impl App {
         self.draft = None;
         if self.staged.is_none() {
             // What the knobs were turned to is kept for the time after the tour.
-            self.own_scene = self.scene_now().into();
+            self.own = (self.scene_now().into(), self.setup.name.clone());
         }
         self.begin_lesson(0)
     }
@@ -105,7 +108,8 @@ impl App {
     fn end_tour(&mut self) -> Vec<Effect> {
         match self.staged.take() {
             Some(_) if self.offers(ErrandKind::Rebuild) => {
-                vec![Effect::Rebuild(Box::new((*self.own_scene).clone()))]
+                let (scene, name) = &self.own;
+                vec![Effect::Rebuild(Box::new((**scene).clone()), name.clone())]
             }
             _ => self.apply(Action::HomeAll),
         }
@@ -121,7 +125,7 @@ impl App {
             return match staging.scene() {
                 Ok(scene) => {
                     self.staged = Some(staging);
-                    vec![Effect::Rebuild(Box::new(scene))]
+                    vec![Effect::Rebuild(Box::new(scene), staging.preset.to_owned())]
                 }
                 Err(error) => {
                     self.not_rebuilt(error.to_string());

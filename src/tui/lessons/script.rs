@@ -89,14 +89,19 @@ pub const LESSONS: &[Lesson] = &[
                 caption: "Pure rolling, S = 0, only body 1 is rough. Follow the diamond: a point of the surface crosses the contact and is pressed once, n = 1.",
                 map: Some(Pressure),
                 passages: 1.5,
-                claims: &[claim(N1, 1.0, 1.0), claim(N2, 1.0, 1.0)],
+                claims: &[
+                    claim(N1, 1.0, 1.0),
+                    claim(Counted1, 0.8, 1.2),
+                    claim(N2, 1.0, 1.0),
+                    claim(Counted2, 0.8, 1.2),
+                ],
                 ..Beat::PLAIN
             },
             Beat {
                 caption: "Its ridges cross with it: pressure peaks stand on them, but they stay the same peaks. Left out: heat, yield, wear; the bodies are elastic.",
                 map: Some(Pressure),
                 passages: 2.0,
-                claims: &[claim(Counted1, 0.0, 1.2), claim(PeakPressure, 1.1, 3.0)],
+                claims: &[claim(Counted1, 0.8, 1.2), claim(PeakPressure, 1.1, 3.0)],
                 ..Beat::PLAIN
             },
         ],
@@ -116,7 +121,7 @@ pub const LESSONS: &[Lesson] = &[
                 caption: "S = 0.1: the mate's crests now overtake the point while it crosses. Each is a stress cycle of its own: n = 3, of which two or three are counted.",
                 sets: &[(S, To(0.1))],
                 passages: 2.5,
-                claims: &[claim(N1, 2.8, 3.2), claim(Counted1, 1.0, 3.1)],
+                claims: &[claim(N1, 2.8, 3.2), claim(Counted1, 1.6, 3.1)],
                 ..Beat::PLAIN
             },
             Beat {
@@ -133,7 +138,12 @@ pub const LESSONS: &[Lesson] = &[
             Beat {
                 caption: "n is an upper bound on damage: it counts a small ripple like a full cycle. Left out: wear, which can reverse the trend with S.",
                 passages: 1.0,
-                claims: &[claim(N1, 13.5, 14.5), claim(N2, 8.0, 10.0)],
+                claims: &[
+                    claim(N1, 13.5, 14.5),
+                    claim(Counted1, 12.0, 14.5),
+                    claim(N2, 8.0, 10.0),
+                    claim(Counted2, 6.5, 10.0),
+                ],
                 ..Beat::PLAIN
             },
         ],
@@ -212,8 +222,9 @@ pub const LESSONS: &[Lesson] = &[
                 passages: 2.5,
                 claims: &[
                     claim(N1, 3.8, 4.5),
-                    claim(N2, 1.0, 1.0),
                     claim(Counted1, 2.8, 4.5),
+                    claim(N2, 1.0, 1.0),
+                    claim(Counted2, 0.8, 1.2),
                 ],
                 ..Beat::PLAIN
             },
@@ -228,7 +239,11 @@ pub const LESSONS: &[Lesson] = &[
                 caption: "The same ridges along the motion: no crest passes a point, n₁ = 1 at any S. Peaks are there all the same.",
                 map: Some(Pressure),
                 passages: 2.5,
-                claims: &[claim(N1, 1.0, 1.0), claim(PeakPressure, 1.05, 3.0)],
+                claims: &[
+                    claim(N1, 1.0, 1.0),
+                    claim(Counted1, 0.8, 1.2),
+                    claim(PeakPressure, 1.05, 3.0),
+                ],
                 ..Beat::PLAIN
             },
             Beat {
@@ -245,27 +260,44 @@ pub const LESSONS: &[Lesson] = &[
         title: "A gear tooth from dedendum to tip",
         beats: &[
             Beat {
-                staging: Some(on("fzg_point_a", &["grid.nodes=257"])),
-                caption: "Pinion's dedendum, where contact begins: S = 1.3. Body 1, the pinion, is the slower and meets most crests: n₁ 24, n₂ 6. Here pits begin.",
+                staging: Some(on("fzg_point_a", &[])),
+                caption: "Pinion's dedendum, where contact begins: S = 1.3. Body 1, the pinion, is the slower and meets most crests: n₁ 7, n₂ 2. Here pits begin.",
                 map: Some(Pressure),
-                passages: 2.5,
-                claims: &[claim(N1, 23.0, 26.0), claim(N2, 5.5, 6.5)],
+                passages: 3.5,
+                claims: &[
+                    claim(N1, 6.5, 7.2),
+                    claim(Counted1, 5.3, 7.2),
+                    claim(N2, 2.0, 2.4),
+                    claim(Counted2, 1.2, 2.4),
+                    claim(PeakPressure, 1.2, 2.5),
+                ],
                 ..Beat::PLAIN
             },
             Beat {
-                staging: Some(on("fzg_pitch_point", &["grid.nodes=257"])),
+                staging: Some(on("fzg_pitch_point", &[])),
                 caption: "Pitch point: one pair carries all the load, and rolls: S = 0, n = 1 for both.",
                 map: Some(Pressure),
                 passages: 1.5,
-                claims: &[claim(N1, 1.0, 1.0), claim(N2, 1.0, 1.0)],
+                claims: &[
+                    claim(N1, 1.0, 1.0),
+                    claim(Counted1, 0.8, 1.6),
+                    claim(N2, 1.0, 1.0),
+                    claim(Counted2, 0.8, 1.6),
+                ],
                 ..Beat::PLAIN
             },
             Beat {
-                staging: Some(on("fzg_point_e", &["grid.nodes=257"])),
-                caption: "Pinion's tip: S = −1.04, now the wheel is the slower: n₂ 20, n₁ 7. Left out: a tooth passes through all this in a millisecond; each point here stands.",
+                staging: Some(on("fzg_point_e", &[])),
+                caption: "Pinion's tip: S = −1.04, now the wheel is the slower: n₂ 6, n₁ 2.5. Left out: a tooth passes through all this in a millisecond; each point here stands.",
                 map: Some(Pressure),
                 passages: 2.5,
-                claims: &[claim(N1, 6.5, 7.8), claim(N2, 19.0, 22.0)],
+                claims: &[
+                    claim(N1, 2.3, 2.8),
+                    claim(Counted1, 1.4, 2.8),
+                    claim(N2, 5.5, 6.2),
+                    claim(Counted2, 4.3, 6.2),
+                    claim(PeakPressure, 1.2, 3.0),
+                ],
                 ..Beat::PLAIN
             },
         ],

@@ -40,7 +40,8 @@ fn heading(app: &App) -> Line<'static> {
         Span::styled(format!("{mark}{text} "), theme.style(role))
     };
     line.push_span(entry(theme.pick("━", "p "), "pressure", Role::Pressure));
-    line.push_span(entry(theme.pick("━", "h "), "film", Role::Film));
+    let film = if theme.is_mono() { "╌" } else { "━" };
+    line.push_span(entry(theme.pick(film, "h "), "film", Role::Film));
     line.push_span(entry(theme.pick("┄", ". "), "Hertz", Role::Hertz));
     line
 }
@@ -56,10 +57,7 @@ fn x_range(app: &App, frame: &Frame) -> [f64; 2] {
 
 fn curves(app: &App, frame: &Frame, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
     let theme = app.theme;
-    let pen = |role: Role, letter: char| Pen {
-        style: theme.style(role),
-        letter,
-    };
+    let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let hertz = frame.p_hertz_pa / app.ranges.pressure_pa.max(1.0);
     let mut chart = Chart::new(plot, x, [0.0, 1.0]);
     let fine = usize::from(plot.width) * 2;

@@ -4,6 +4,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
+use crate::tui::theme::{Role, Theme};
+
 /// Bit of a dot in a Braille cell, `[row][column]`.
 const BITS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
 
@@ -27,9 +29,45 @@ pub(super) struct Chart {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pen {
     /// Colour and weight.
-    pub(super) style: Style,
+    style: Style,
     /// Character where there is no Braille.
-    pub(super) letter: char,
+    letter: char,
+    dash: Dash,
+}
+
+/// Which dots of a curve are drawn: without colours curves are told apart by it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Dash {
+    Solid,
+    /// Four dots, four left out.
+    Dashed,
+    /// One dot in three.
+    Dotted,
+}
+
+impl Pen {
+    /// The pen for a role.
+    pub(super) fn new(theme: Theme, role: Role, letter: char) -> Self {
+        let dash = match role {
+            _ if !theme.is_mono() => Dash::Solid,
+            Role::Film | Role::Formula => Dash::Dashed,
+            Role::Border | Role::Hertz => Dash::Dotted,
+            _ => Dash::Solid,
+        };
+        Self {
+            style: theme.style(role),
+            letter,
+            dash,
+        }
+    }
+
+    fn draws(self, column: usize, row: usize) -> bool {
+        match self.dash {
+            Dash::Solid => true,
+            Dash::Dashed => (column + row) % 8 < 4,
+            Dash::Dotted => (column + row).is_multiple_of(3),
+        }
+    }
 }
 
 impl Chart {
@@ -135,6 +173,9 @@ impl Chart {
             return;
         }
         let (column, row) = (column as usize, row as usize);
+        if !pen.draws(column, row) {
+            return;
+        }
         let place = row / 4 * usize::from(self.area.width) + column / 2;
         if let Some(cell) = self.cells.get_mut(place) {
             cell.dots |= BITS[row % 4][column % 2];
@@ -164,7 +205,22 @@ mod tests {
         Pen {
             style: Style::new(),
             letter: '*',
+            dash: Dash::Solid,
         }
+    }
+
+    #[test]
+    fn without_colours_curves_differ_by_their_dashes() {
+        let dots = |dash: Dash| {
+            let mut chart = Chart::new(Rect::new(0, 0, 40, 1), [0.0, 1.0], [0.0, 1.0]);
+            chart.line([(0.0, 0.5), (1.0, 0.5)], Pen { dash, ..pen() });
+            let dots = chart.cells.iter().map(|cell| cell.dots.count_ones());
+            dots.sum::<u32>()
+        };
+        assert_eq!(
+            [Dash::Solid, Dash::Dashed, Dash::Dotted].map(dots),
+            [80, 40, 27]
+        );
     }
 
     #[test]

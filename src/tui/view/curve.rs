@@ -58,10 +58,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 fn pen(app: &App, role: Role, letter: char) -> Pen {
-    Pen {
-        style: app.theme.style(role),
-        letter,
-    }
+    Pen::new(app.theme, role, letter)
 }
 
 fn draw(app: &App, figure: &Figure, area: Rect, buffer: &mut Buffer) {

@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 use crate::physics::estimate::speed_ratios;
 use crate::sim::Stage;
 use crate::tui::app::{App, Pace};
+use crate::tui::dial::Dial;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
 use crate::tui::view::{ascii_text, put, put_right};
@@ -22,7 +23,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         Span::styled(" asperity ", theme.style(Role::Title)),
         Span::styled(format!("{mark}{word} "), theme.style(role)),
     ]);
-    let title = ascii_text(theme, &app.setup.scene.title);
+    let title = ascii_text(theme, &title(app));
     let title = whole_words(&title, usize::from(room).saturating_sub(left.width() + 1));
     left.push_span(Span::styled(
         ascii_text(theme, &title),
@@ -37,6 +38,22 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         &left,
         buffer,
     );
+}
+
+/// The scene's title, which may hold numbers; where knobs were turned its name, and which.
+fn title(app: &App) -> String {
+    let away = |dial: &&Dial| (dial.target - dial.home).abs() > 1e-6 * dial.home.abs();
+    let turned = app
+        .dials
+        .iter()
+        .filter(|dial| away(dial) || dial.is_moving());
+    let turned: Vec<&str> = turned
+        .filter_map(|dial| dial.label.split(' ').next())
+        .collect();
+    if turned.is_empty() {
+        return app.setup.scene.title.clone();
+    }
+    format!("{}, turned: {}", app.setup.name, turned.join(", "))
 }
 
 /// As many whole words as fit, and a sign that there are more.
@@ -69,9 +86,9 @@ fn state(app: &App) -> (&'static str, String, Role) {
     }
     if app.replay.is_some() && app.status.health == Health::Running {
         let word = if app.replay_stands() {
-            "orbit, held"
+            "replay, held"
         } else {
-            "orbit"
+            "replay"
         };
         return (theme.pick("↻ ", "@ "), word.into(), Role::Good);
     }
@@ -100,10 +117,15 @@ fn numbers(app: &App, columns: u16) -> Line<'static> {
         (Some(first), Some(second)) => sig(first.max(second), 3),
         _ => theme.pick("∞", "inf").to_owned(),
     };
+    let lambda = if app.setup.scene.lubricant.is_none() {
+        "dry".to_owned()
+    } else {
+        sig_or_dash(metrics.lambda_ratio, 2)
+    };
     let mut pairs = vec![
         ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
         ("p_h", pressure.show(frame.p_hertz_pa, 3), Role::Strong),
-        ("λ", sig_or_dash(metrics.lambda_ratio, 2), Role::Strong),
+        ("λ", lambda, Role::Strong),
         ("n", n, Role::Strong),
     ];
     if columns >= ROOMY {

@@ -244,6 +244,17 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
         return;
     }
     let is_load = matches!(dial.knob, Knob::ForceN | Knob::ForceNPerM);
+    let stands = standing(dial.target).filter(|_| dial.knob == Knob::SlideRoll);
+    if let Some(body) = stands {
+        let text = format!("body {body} stands: not in life");
+        put(
+            slot,
+            2,
+            &Line::styled(text, theme.style(Role::Warn)),
+            buffer,
+        );
+        return;
+    }
     if !is_load || slot.width >= 24 {
         let ends = Line::styled(tick(unit.of(dial.min)), theme.style(Role::Dim));
         put(slot, 2, &ends, buffer);
@@ -268,6 +279,12 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
             buffer,
         );
     }
+}
+
+/// The body that stands at |S| = 2: it never crosses the contact, so it has no life in crossings.
+pub(super) fn standing(slide_roll: f64) -> Option<u8> {
+    let body = if slide_roll > 0.0 { 1 } else { 2 };
+    (slide_roll.abs() >= 2.0).then_some(body)
 }
 
 /// Where there is room: both bodies' speeds, the contact's size, and what the letters mean.

@@ -4,13 +4,16 @@ mod counts;
 mod mechanisms;
 mod number;
 mod scale;
+mod validity;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
+use ratatui::text::Line;
 
 use crate::tui::app::{App, Leading};
-use crate::tui::view::{Areas, Density, curve, panel, title};
+use crate::tui::theme::Role;
+use crate::tui::view::{Areas, Density, curve, panel, put, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
@@ -18,7 +21,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         theme,
         areas,
         areas.life,
-        title(theme, "", "relative life"),
+        title(theme, "", number::name(app, areas)),
         buffer,
     );
     let inner = if areas.density == Density::Full {
@@ -34,11 +37,16 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         area: inner,
         next: 0,
     };
+    if app.setup.scene.life.is_none() {
+        without_life(app, &mut rows, buffer);
+        return;
+    }
     let roomy = inner.height >= 20;
     if roomy {
         rows.skip();
     }
     number::figure(app, &mut rows, buffer);
+    validity::line(app, rows.take(1), buffer);
     scale::scale(app, &mut rows, buffer);
     if roomy {
         number::model(app, rows.take(1), buffer);
@@ -51,6 +59,18 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     if app.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }
+    curve::render(app, rows.rest(), buffer);
+}
+
+/// A scene that asks for no life: it is not waited for.
+fn without_life(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+    let dim = app.theme.style(Role::Dim);
+    let words = ["no life in this scene:", "it has no [life] table"];
+    for text in words {
+        put(rows.take(1), 0, &Line::styled(text, dim), buffer);
+    }
+    rows.skip();
+    counts::counts(app, rows, buffer);
     curve::render(app, rows.rest(), buffer);
 }
 
@@ -88,6 +108,6 @@ impl Rows {
 fn simulated(app: &App, style: Style) -> Style {
     match app.leading() {
         Leading::Simulated => style,
-        Leading::Formula => style.add_modifier(Modifier::DIM),
+        Leading::Scaled | Leading::Formula => style.add_modifier(Modifier::DIM),
     }
 }

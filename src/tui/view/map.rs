@@ -3,6 +3,7 @@
 //! Lengths are drawn in half-widths, x/a along and y/b across, so that the Hertz ellipse is a
 //! circle. A cell holds two pixels (half blocks); without colour one character of more or less ink.
 
+mod axes;
 mod motion;
 mod paint;
 mod raster;
@@ -47,7 +48,10 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         None => put(
             image,
             image.height / 2,
-            &Line::styled("this scene computes no stress", theme.style(Role::Dim)),
+            &Line::styled(
+                "no stress is computed in this scene",
+                theme.style(Role::Dim),
+            ),
             buffer,
         ),
     }
@@ -59,6 +63,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             }
         }
     }
+    axes::draw(app, frame, &window, image, picture, buffer);
     color_bar(theme, &look, app.map, bar, buffer);
     motion(app, frame, areas, inner, buffer);
     probe(app, frame, (picture, image), buffer);
@@ -159,7 +164,10 @@ fn heading(app: &App) -> Line<'static> {
 
 fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    let text = "starting: dry Hertz, then film";
+    let text = match app.setup.scene.lubricant {
+        Some(_) => "starting: dry Hertz, then film",
+        None => "starting: dry Hertz",
+    };
     put(
         area,
         area.height / 2,
@@ -168,14 +176,16 @@ fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
     );
 }
 
-/// Room for the picture and for the colour bar; the motion takes the last row (full: and the first).
+/// Room for the picture and for the colour bar; the motion takes the last row (full: and the first), the axes the
+/// row above it and the columns at the left.
 fn split(areas: &Areas, inner: Rect) -> (Rect, Rect) {
     let above = u16::from(areas.density == Density::Full);
+    let [left, below] = axes::room(inner);
     let picture = Rect {
+        x: inner.x + left,
         y: inner.y + above,
-        height: inner.height.saturating_sub(1 + above),
-        width: inner.width.saturating_sub(BAR),
-        ..inner
+        height: inner.height.saturating_sub(1 + above + below),
+        width: inner.width.saturating_sub(BAR + left),
     };
     let bar = Rect {
         x: picture.right(),

@@ -17,6 +17,7 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Margin, Position, Rect};
+use ratatui::style::{Color, Style};
 use ratatui::symbols;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
@@ -84,7 +85,7 @@ impl Areas {
         let (left, right) = side_widths(screen.width, density);
         let (point_rows, status_rows) = match density {
             Density::Compact => (if screen.height >= 26 { 6 } else { 5 }, 2),
-            Density::Full => ((screen.height / 5).clamp(8, 12), 3),
+            Density::Full => ((screen.height / 5 + 1).clamp(9, 12), 3),
         };
         let caption_rows = match banner {
             Banner::None => 0,
@@ -126,6 +127,26 @@ pub fn draw(app: &App, frame: &mut Frame<'_>) {
 
 /// Draws the whole screen into a buffer.
 pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
+    draw_panels(app, screen, buffer);
+    if let Some(page) = app.theme.page() {
+        on_page(page, screen, buffer);
+    }
+}
+
+/// Gives paper and ink to all that has no colour of its own.
+fn on_page(page: Style, screen: Rect, buffer: &mut Buffer) {
+    for at in screen.positions() {
+        let cell = &mut buffer[at];
+        if let (Color::Reset, Some(paper)) = (cell.bg, page.bg) {
+            cell.bg = paper;
+        }
+        if let (Color::Reset, Some(ink)) = (cell.fg, page.fg) {
+            cell.fg = ink;
+        }
+    }
+}
+
+fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
     let caption = caption::of(app);
     let Some(areas) = Areas::of(screen, banner(caption.as_ref(), screen)) else {
         too_small(app, screen, buffer);
@@ -153,6 +174,7 @@ pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
         (None, Overlay::Scene) => overlay::scene(app, body, buffer),
         (None, Overlay::None) => {}
     }
+    status::message(app, &areas, screen, buffer);
 }
 
 /// The cells that the terminal's own pixels fill; `None`: none, or something lies over them.

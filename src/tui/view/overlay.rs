@@ -33,7 +33,10 @@ fn boxed(
     let block = Block::new()
         .borders(Borders::ALL)
         .border_style(theme.style(role))
-        .title_top(Line::styled(format!(" {title} "), theme.style(Role::Title)));
+        .title_top(match title {
+            "" => Line::default(),
+            title => Line::styled(format!(" {title} "), theme.style(Role::Title)),
+        });
     let block = if theme.is_ascii() {
         block.border_set(ASCII_BORDER)
     } else {
@@ -152,12 +155,25 @@ fn ascii_keys(app: &App, keys: &str) -> String {
     ascii_text(app.theme, &plain)
 }
 
-/// What is computed, what is left out, and why.
+/// What is computed, what is not, and why.
 pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let mut lines = Vec::new();
+    let cautions = app.cautions();
+    if !cautions.is_empty() {
+        lines.push(Line::styled("Cautions", theme.style(Role::Warn)));
+        lines.extend(
+            cautions
+                .iter()
+                .map(|caution| Line::raw(format!("  {}", ascii_text(theme, &caution.text)))),
+        );
+        lines.push(Line::default());
+    }
     if !app.setup.left_out.is_empty() {
-        lines.push(Line::styled("Left out", theme.style(Role::Warn)));
+        lines.push(Line::styled(
+            "Not modelled or not needed",
+            theme.style(Role::Warn),
+        ));
         for left in &app.setup.left_out {
             lines.push(Line::from(vec![
                 Span::styled(
@@ -171,7 +187,7 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
     }
     lines.push(Line::styled("The model itself", theme.style(Role::Warn)));
     lines.push(Line::raw(
-        "  no wear, isothermal, elastic, initiation only; no absolute life without a calibration point",
+        "  no wear; isothermal, elastic, crack initiation only; no absolute life without a calibration point",
     ));
     lines.push(Line::default());
     lines.extend(
@@ -203,7 +219,7 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
         app,
         within,
         (66, rows + 6),
-        "another scene (e closes)",
+        "change the scene (e closes)",
         Role::Key,
         buffer,
     );
@@ -242,6 +258,34 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
     Paragraph::new(text)
         .wrap(Wrap { trim: true })
         .render(below, buffer);
+}
+
+/// Words that are too long for the last line, in a box at the foot of the screen.
+pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let wide = 100.min(screen.width);
+    let each = wide.saturating_sub(4).max(1);
+    let rows: u16 = text
+        .lines()
+        // Lines break at words, which leaves some columns empty.
+        .map(|line| (line.chars().count() as u16 + 8).div_ceil(each).max(1))
+        .sum();
+    let foot = Rect {
+        y: screen.bottom().saturating_sub(rows + 3),
+        height: (rows + 2).min(screen.height),
+        ..screen
+    };
+    let size = (wide, rows + 2);
+    let inner = boxed(app, foot, size, "", Role::Warn, buffer);
+    Paragraph::new(ascii_lines(app, text))
+        .style(theme.style(Role::Warn))
+        .wrap(Wrap { trim: true })
+        .render(inner, buffer);
+}
+
+fn ascii_lines(app: &App, text: &str) -> String {
+    let lines = text.lines().map(|line| ascii_text(app.theme, line));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// An engine that failed.

@@ -1,16 +1,16 @@
-//! Bottom: the stress history of one material point while it crosses the contact, with the cycles
-//! that were counted. At S = 0 one cycle, at S = 0.5 a comb.
+//! Bottom: the stress history of one material point while it crosses the contact, each peak counted as it
+//! passes. At S = 0 one cycle, at S = 0.5 a comb.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
-use crate::sim::Frame;
+use crate::sim::{Frame, Stage};
 use crate::tui::action::Action;
 use crate::tui::app::{App, PointNow, PointQuantity};
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
-use crate::tui::units::{sig, sig_or_dash, tick};
+use crate::tui::units::{sig_or_dash, tick};
 use crate::tui::view::chart::{Chart, Pen};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
 
@@ -19,10 +19,15 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let inner = panel(theme, areas, areas.point, heading(app), buffer);
     let Some(frame) = app.frame() else { return };
     let Some(point) = app.point_now() else {
+        let text = match (frame.stage, &app.setup.scene.stress) {
+            (_, None) => "no stress is computed in this scene, so no material point is followed",
+            (Stage::StartUp, _) => "followed once the passage begins",
+            (Stage::Passage, _) => "no material point is followed",
+        };
         put(
             inner,
             0,
-            &Line::styled("no material point is followed", theme.style(Role::Dim)),
+            &Line::styled(text, theme.style(Role::Dim)),
             buffer,
         );
         return;
@@ -38,16 +43,16 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         return;
     }
     trace(app, frame, plot, buffer);
-    cycles_ticked(app, frame, plot, buffer);
+    peaks_ticked(app, frame, plot, buffer);
     axis(app, plot, point.depth_m, buffer);
 }
 
 /// Columns of the numbers.
 fn words(areas: &Areas) -> u16 {
     if areas.density == Density::Full {
-        26
+        27
     } else {
-        20
+        24
     }
 }
 
@@ -92,7 +97,9 @@ fn heading(app: &App) -> Line<'static> {
     };
     let mut line = title(theme, "p", name);
     if let Some(point) = app.point_now() {
-        let note = format!("body {} ", point.body);
+        let depth = app.units.length().show(point.depth_m, 2);
+        let note = format!("body {}, {depth} deep ", point.body);
+        let note = ascii_text(theme, &note);
         line.push_span(Span::styled("P ", theme.style(Role::Key)));
         line.push_span(Span::styled(note, theme.style(Role::Dim)));
     }
@@ -109,14 +116,28 @@ fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut 
     let pressure = app.units.pressure();
     let sample = point.sample;
     let crossing = if app.replay.is_some() {
-        "this crossing"
+        "in this crossing"
     } else {
-        "a crossing"
+        "crossing before"
     };
+    let count = |value: f64| format!("{value:.0}");
     let lines = [
-        ("cycles so far", sig(sample.cycles, 3), Role::Cycles),
-        (crossing, sig_or_dash(point.counted, 3), Role::Strong),
-        ("n by formula", sig_or_dash(point.formula, 3), Role::Formula),
+        ("peaks so far", count(sample.cycles), Role::Cycles),
+        (
+            crossing,
+            point.closed.map_or_else(|| "–".to_owned(), count),
+            Role::Strong,
+        ),
+        (
+            "counted on average",
+            sig_or_dash(point.average, 3),
+            Role::Strong,
+        ),
+        (
+            "expected on average",
+            sig_or_dash(point.expected, 3),
+            Role::Formula,
+        ),
         ("x", format!("{:.2} a", sample.x_m / frame.a_m), role),
         (
             "pressure",
@@ -127,11 +148,6 @@ fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut 
         (
             "effective",
             pressure.show(sample.effective_pa, 3),
-            Role::Text,
-        ),
-        (
-            "depth",
-            app.units.length().show(point.depth_m, 3),
             Role::Text,
         ),
     ];
@@ -156,10 +172,7 @@ fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let range = range(app);
     let mut chart = Chart::new(plot, X_RANGE, range);
-    let pen = |role: Role, letter: char| Pen {
-        style: theme.style(role),
-        letter,
-    };
+    let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let quantity = app.quantity;
     let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
         samples
@@ -184,8 +197,7 @@ fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
     chart.line(points(app.trace.current()), pen(role, '*'));
     chart.render(theme.is_ascii(), buffer);
     if let Some(last) = app.trace.current().last() {
-        let down = 1.0 - (value(quantity, last) - range[0]) / (range[1] - range[0]);
-        let row = (down.clamp(0.0, 1.0) * f64::from(plot.height - 1)).round() as u16;
+        let row = row_of(plot, range, value(quantity, last));
         mark(
             app,
             plot,
@@ -212,19 +224,50 @@ fn range(app: &App) -> [f64; 2] {
     }
 }
 
-/// A tick under the trace for each cycle that was counted.
-fn cycles_ticked(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
-    for x_m in app.trace.ticks() {
-        mark(
-            app,
-            plot,
-            x_m / frame.a_m,
-            plot.height,
-            "╿",
-            Role::Cycles,
-            buffer,
-        );
+/// A tick under the trace for each peak that has passed, and its number on the curve where there is room.
+fn peaks_ticked(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
+    let range = range(app);
+    let mut free_from = 0;
+    for tick in app.trace.ticks() {
+        let x = tick.x_m / frame.a_m;
+        let Some(column) = column_of(plot, x) else {
+            continue;
+        };
+        mark(app, plot, x, plot.height, "╿", Role::Cycles, buffer);
+        let number = tick.number.to_string();
+        let width = number.len() as u16;
+        let first = (column.saturating_sub((width - 1) / 2)).min(plot.right() - width);
+        let Some(sample) = nearest(app.trace.current(), tick.x_m) else {
+            continue;
+        };
+        if first < free_from {
+            continue;
+        }
+        // Above the curve, or on it where it touches the top.
+        let row = row_of(plot, range, value(app.quantity, sample)).saturating_sub(1);
+        let line = Line::styled(number, app.theme.style(Role::Cycles));
+        buffer.set_line(first, plot.y + row, &line, width);
+        free_from = first + width + 1;
     }
+}
+
+fn nearest(samples: &[TraceSample], x_m: f64) -> Option<&TraceSample> {
+    let away = |sample: &TraceSample| (sample.x_m - x_m).abs();
+    let all = samples.iter();
+    all.min_by(|one, two| away(one).total_cmp(&away(two)))
+}
+
+/// Row of the plot for a value.
+fn row_of(plot: Rect, range: [f64; 2], value: f64) -> u16 {
+    let down = 1.0 - (value - range[0]) / (range[1] - range[0]);
+    (down.clamp(0.0, 1.0) * f64::from(plot.height - 1)).round() as u16
+}
+
+/// Column of the screen for x/a; `None` outside the plot.
+fn column_of(plot: Rect, x: f64) -> Option<u16> {
+    let part = (x - X_RANGE[0]) / (X_RANGE[1] - X_RANGE[0]);
+    let column = plot.x + (part * f64::from(plot.width - 1)).round() as u16;
+    (0.0..=1.0).contains(&part).then_some(column)
 }
 
 fn mark(
@@ -236,16 +279,11 @@ fn mark(
     role: Role,
     buffer: &mut Buffer,
 ) {
-    let part = (x - X_RANGE[0]) / (X_RANGE[1] - X_RANGE[0]);
-    if !(0.0..=1.0).contains(&part) {
+    let Some(column) = column_of(plot, x) else {
         return;
-    }
+    };
     let ascii = if symbol == "◆" { "X" } else { "|" };
-    let at = (
-        plot.x + (part * f64::from(plot.width - 1)).round() as u16,
-        plot.y + row,
-    );
-    if let Some(cell) = buffer.cell_mut(at) {
+    if let Some(cell) = buffer.cell_mut((column, plot.y + row)) {
         cell.set_symbol(app.theme.pick(symbol, ascii))
             .set_style(app.theme.style(role));
     }

@@ -6,10 +6,10 @@ use ratatui::text::{Line, Span};
 
 use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
 use crate::study::sweep::Along;
-use crate::tui::app::{App, ErrandKind};
+use crate::tui::app::{App, ErrandKind, Trouble, Unconverged};
 use crate::tui::theme::Role;
-use crate::tui::units::{bytes, seconds, sig, sig_or_dash};
-use crate::tui::view::{Areas, Density, ascii_text, put, put_right};
+use crate::tui::units::{bytes, seconds, sig};
+use crate::tui::view::{Areas, Density, ascii_text, knobs, overlay, put, put_right};
 use crate::tui::wiring::RecorderActivity;
 
 /// Words and their roles, in the order in which they are dropped from the right.
@@ -24,7 +24,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             write(app, area, row, &words, buffer);
             row += 1;
             words = quality(app, frame);
-        } else if frame.metrics.converged {
+        } else if app.trouble().is_none() {
             words.extend(quality(app, frame));
         } else {
             // What is wrong stands first: the rest may not fit.
@@ -57,17 +57,34 @@ fn write(app: &App, area: Rect, row: u16, words: &Words, buffer: &mut Buffer) {
 }
 
 fn progress(app: &App, frame: &Frame) -> Words {
-    let stage = match frame.stage {
-        Stage::StartUp => ("start-up".to_owned(), Role::Warn),
-        Stage::Passage => (format!("passage {:.2}", frame.passages), Role::Text),
-    };
-    let rate = sig_or_dash(app.steps_per_s(), 2);
+    if frame.stage == Stage::StartUp {
+        let share = (100.0 * frame.start_up).floor();
+        return vec![
+            (format!("start-up {share:.0} %"), Role::Warn),
+            (
+                match app.setup.scene.lubricant {
+                    Some(_) => "smooth film on finer and finer grids, then roughness",
+                    None => "smooth contact on finer and finer grids, then roughness",
+                }
+                .to_owned(),
+                Role::Text,
+            ),
+        ];
+    }
     let mut words = vec![
-        stage,
+        (format!("passage {:.2}", frame.passages), Role::Text),
         (format!("step {}", frame.step), Role::Text),
-        (format!("{rate} steps/s"), Role::Text),
-        (format!("t {}", seconds(frame.time_s)), Role::Text),
     ];
+    if let Some(rate) = app.steps_per_s() {
+        words.push((format!("{} steps/s", sig(rate, 2)), Role::Text));
+    }
+    words.push((format!("t {}", seconds(frame.time_s)), Role::Text));
+    if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
+        words.push((
+            format!("body {body} stands: its life is not counted"),
+            Role::Warn,
+        ));
+    }
     if let Some(repeat) = frame.metrics.repeat.filter(|repeat| repeat.repeats) {
         let what = match repeat.rhythm {
             Rhythm::Steady => "steady".to_owned(),
@@ -91,22 +108,18 @@ fn progress(app: &App, frame: &Frame) -> Words {
 
 fn quality(app: &App, frame: &Frame) -> Words {
     let metrics = &frame.metrics;
-    let residual = if metrics.converged {
-        (format!("residual {:.0e}", metrics.residual), Role::Text)
-    } else {
-        (
-            format!(
-                " NOT CONVERGED residual {:.1e} after {} retries ",
-                metrics.residual, metrics.retries
-            ),
-            Role::Bad,
-        )
+    let trouble = app.trouble();
+    let residual = match trouble {
+        None => (format!("residual {:.0e}", metrics.residual), Role::Text),
+        Some(trouble) => (not_converged(app, trouble), Role::Bad),
     };
     let (regime, role) = regime(metrics);
-    let lambda = sig_or_dash(metrics.lambda_ratio, 2);
+    let lambda = metrics
+        .lambda_ratio
+        .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
     let mut words = vec![
         residual,
-        (format!("{regime} λ {lambda}"), role),
+        (format!("{regime}{lambda}"), role),
         (
             format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
             Role::Text,
@@ -130,11 +143,26 @@ fn quality(app: &App, frame: &Frame) -> Words {
         let share = sig(100.0 * errors.h_central, 2);
         words.push((format!("mesh ±{share} % of h"), Role::Dim));
     }
-    if !metrics.converged {
+    if trouble.is_some() {
         // A failure stands first.
         words.truncate(4);
     }
     words
+}
+
+/// Which step did not converge, and why.
+fn not_converged(app: &App, trouble: Trouble) -> String {
+    let why = match trouble.what {
+        Unconverged::Pressure(residual, retries) => {
+            format!("residual {residual:.1e} after {retries} retries")
+        }
+        Unconverged::Film(part) => format!("{part:.1e} of the film not balanced"),
+        Unconverged::Overlap(overlap_m) => {
+            let overlap = app.units.film().show(overlap_m, 2);
+            format!("surfaces overlap by {overlap}, perhaps at the domain's edge")
+        }
+    };
+    format!(" STEP {} NOT CONVERGED: {why} ", trouble.step)
 }
 
 /// The letter of what a sweep goes along.
@@ -172,8 +200,11 @@ fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
     };
     put_right(area, row, &recorder, buffer);
     if let Some(message) = app.message() {
-        let line = Line::styled(format!(" {message}"), theme.style(Role::Warn));
-        put(room, row, &line, buffer);
+        // A longer one is laid over the panels above.
+        if one_line(message, room.width) {
+            let line = Line::styled(format!(" {message}"), theme.style(Role::Warn));
+            put(room, row, &line, buffer);
+        }
         return;
     }
     let mut words: Vec<(&str, String)> = hints(app)
@@ -204,6 +235,20 @@ fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
     put(room, row, &Line::from(spans), buffer);
 }
 
+fn one_line(message: &str, columns: u16) -> bool {
+    !message.contains('\n') && message.chars().count() < usize::from(columns)
+}
+
+/// A message that the last line cannot hold, whole, above it.
+pub(super) fn message(app: &App, areas: &Areas, screen: Rect, buffer: &mut Buffer) {
+    let Some(message) = app.message() else { return };
+    let recorder = recorder(app).width() as u16 + 1;
+    if one_line(message, areas.status.width.saturating_sub(recorder)) {
+        return;
+    }
+    overlay::message(app, message, screen, buffer);
+}
+
 /// Columns of a key with its word and the gap after it.
 fn hint_width((key, word): &(&str, String)) -> usize {
     key.len() + word.chars().count() + 3
@@ -213,11 +258,11 @@ fn hint_width((key, word): &(&str, String)) -> usize {
 fn left_out(app: &App, room: usize) -> String {
     let left_out = &app.setup.left_out;
     let stages: Vec<&str> = left_out.iter().map(|left| left.stage.as_str()).collect();
-    let all = ascii_text(app.theme, &format!("left out: {}", stages.join(", ")));
+    let all = ascii_text(app.theme, &format!("not computed: {}", stages.join(", ")));
     if all.chars().count() + 4 <= room {
         all
     } else {
-        format!("{} left out", left_out.len())
+        format!("{} not computed", left_out.len())
     }
 }
 

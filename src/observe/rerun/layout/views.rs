@@ -21,6 +21,11 @@ pub(super) struct Property {
     pub(super) value: Box<dyn AsComponents>,
 }
 
+/// What lines and labels are drawn on: their colours were chosen for it, and a viewer's theme may be light or dark.
+fn background() -> Background {
+    Background::new(BackgroundKind::SolidColor).with_color(Color::from(BACKGROUND))
+}
+
 /// Views under construction, with their properties.
 #[derive(Default)]
 pub(super) struct Views {
@@ -62,6 +67,7 @@ impl Views {
             y_range: Range1D(y),
         };
         self.set(&view, "VisualBounds2D", VisualBounds2D::new(Bounds(range)));
+        self.set(&view, "Background", background());
         view
     }
 
@@ -86,9 +92,7 @@ impl Views {
             .with_look_target(target.map(|v| v as f32))
             .with_eye_up([0.0_f32, 0.0, 1.0]);
         self.set(&view, "EyeControls3D", controls);
-        let background =
-            Background::new(BackgroundKind::SolidColor).with_color(Color::from(BACKGROUND));
-        self.set(&view, "Background", background);
+        self.set(&view, "Background", background());
         self.set(&view, "LineGrid3D", LineGrid3D::new().with_visible(false));
         view
     }

@@ -7,7 +7,7 @@ use super::super::mesh::{Window, triangles};
 use super::super::stream::Stream;
 use super::{BODIES, FILM, POINT, SLICE, SPACE, SPOTS, Space, steel};
 use crate::observe::ObserveError;
-use crate::observe::scales::{GPA, number, ticks};
+use crate::observe::scales::{GPA, MM, number, ticks};
 
 impl Space {
     pub(super) fn log_static(&mut self, stream: &Stream) -> Result<(), ObserveError> {
@@ -37,7 +37,7 @@ impl Space {
             .with_colors([Color::from([90, 255, 250])]);
         stream.log_static(SPOTS, &spots)?;
         let point = Points3D::update_fields()
-            .with_radii([0.075, 0.055].map(|r| (r * self.geometry.a) as f32))
+            .with_radii([0.075, 0.055, 0.0].map(|r| (r * self.geometry.a) as f32))
             .with_show_labels(true);
         stream.log_static(POINT, &point)
     }
@@ -66,13 +66,13 @@ impl Space {
         };
         let g = self.geometry;
         let level = self.levels.slice;
-        let positions = (0..sheet.rows.len()).flat_map(|row| {
-            let z = (level - sheet.rows.depth_mm(row)) as f32;
+        let positions = sheet.depths.shown_m().iter().flat_map(|depth_m| {
+            let z = (level - depth_m * MM) as f32;
             let xs = sheet.columns.iter().map(move |&i| g.x(i) as f32);
             xs.map(move |x| [x, 0.0, z])
         });
         let mesh = Mesh3D::new(positions)
-            .with_triangle_indices(triangles(sheet.columns.len(), sheet.rows.len()));
+            .with_triangle_indices(triangles(sheet.columns.len(), sheet.depths.len()));
         let entity = format!("{SPACE}/{SLICE}");
         stream.log_static(
             entity.as_str(),
@@ -83,7 +83,7 @@ impl Space {
             },
         )?;
         let (left, right) = sheet.edges(g);
-        let bottom = level - sheet.rows.depth_mm(sheet.rows.len() - 1);
+        let bottom = level - sheet.deepest_mm();
         let edge = [
             [left, level],
             [right, level],
@@ -104,7 +104,7 @@ impl Space {
                 .map(|z| [(left - 0.1 * g.a) as f32, 0.0, (level - z) as f32]),
         )
         .with_radii([Radius::new_scene_units(0.0)])
-        .with_colors([Color::from(GREY)])
+        .with_colors([Color::from(WHITE)])
         .with_labels(depths.iter().map(|&z| format!("{} mm", number(z))))
         .with_show_labels(true);
         stream.log_static(format!("{SPACE}/cut/depths"), &labels)

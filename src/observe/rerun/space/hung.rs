@@ -3,10 +3,10 @@
 
 use rerun::{Color, Mesh3D, Points3D, Radius};
 
-use super::super::colour::{GREY, Ramp, Tints};
-use super::super::damage::DECADES;
+use super::super::colour::{BACKGROUND, Ramp, Tints, WHITE, packed};
+use super::super::damage::{DECADES, powers};
+use super::super::depths::Depths;
 use super::super::mesh::triangles;
-use super::super::slice::Rows;
 use super::super::stream::Stream;
 use super::super::waiting;
 use super::{SPACE, Space};
@@ -43,7 +43,7 @@ impl Hung {
 
 /// The sheet's rows, and what of the block each of its columns shows.
 struct Sheet {
-    rows: Rows,
+    depths: Depths,
     columns: Vec<usize>,
     /// Columns and length (m) of the block.
     block: (usize, f64),
@@ -56,27 +56,24 @@ impl Sheet {
             ((way * block.columns as f64) as usize).min(block.columns - 1)
         };
         Some(Self {
-            rows: Rows::new(&block.depths_m, 0.025 * a, DEPTH * a)?,
+            depths: Depths::down_to(&block.depths_m, DEPTH * a / MM)?,
             columns: (0..COLUMNS).map(column).collect(),
             block: (block.columns, block.length_m),
         })
     }
 
     fn fits(&self, block: &DamageBlock) -> bool {
-        self.rows.are_over(&block.depths_m) && self.block == (block.columns, block.length_m)
+        self.depths.are_of(&block.depths_m) && self.block == (block.columns, block.length_m)
     }
 
-    /// Row by row; every column of the block is coloured once.
+    /// Row by row; what has not crossed yet is of the colour behind it.
     fn colour(&self, block: &DamageBlock, tints: &Tints, colours: &mut Vec<u32>) {
-        let powers = powers(block);
-        let mut wave = Vec::with_capacity(block.columns);
-        for row in 0..self.rows.len() {
-            wave.clear();
-            wave.extend((0..block.columns).map(|column| {
-                let power = self.rows.value(&powers, block.columns, row, column);
-                tints.colour(0.5 + 0.5 * power / DECADES as f32, 1.0)
+        let powers = powers(block, self.depths.len(), -DECADES as f32);
+        for row in powers.chunks_exact(block.columns) {
+            colours.extend(self.columns.iter().map(|&column| match row[column] {
+                power if power.is_nan() => packed(BACKGROUND),
+                power => tints.colour(0.5 + 0.5 * power / DECADES as f32, 1.0),
             }));
-            colours.extend(self.columns.iter().map(|&column| wave[column]));
         }
     }
 }
@@ -122,13 +119,13 @@ impl Space {
             return Ok(());
         };
         let (a, level) = (self.geometry.a, self.levels.damage);
-        let positions = (0..sheet.rows.len()).flat_map(|row| {
-            let z = (level - sheet.rows.depth_mm(row)) as f32;
+        let positions = sheet.depths.shown_m().iter().flat_map(|depth_m| {
+            let z = (level - depth_m * MM) as f32;
             (0..COLUMNS).map(move |i| [x(i, a) as f32, 0.0, z])
         });
         let shape = Mesh3D::update_fields()
             .with_vertex_positions(positions)
-            .with_triangle_indices(triangles(COLUMNS, sheet.rows.len()));
+            .with_triangle_indices(triangles(COLUMNS, sheet.depths.len()));
         stream.log(DAMAGE, &shape)?;
         self.log_title(stream)
     }
@@ -138,20 +135,11 @@ impl Space {
         let at = [0.0, 0.0, (self.levels.damage - (DEPTH + 0.3) * a) as f32];
         let title = Points3D::new([at])
             .with_radii([Radius::new_scene_units(0.0)])
-            .with_colors([Color::from(GREY)])
+            .with_colors([Color::from(WHITE)])
             .with_labels([format!(
                 "damage of body 1, log10 D from -{DECADES} to {DECADES}; one wave, repeated"
             )])
             .with_show_labels(true);
         stream.log(&format!("{SPACE}/damage_title"), &title)
     }
-}
-
-/// log10 D depth by depth; nothing below what colours tell apart.
-fn powers(block: &DamageBlock) -> Vec<f32> {
-    let (columns, depths) = (block.columns, block.depths_m.len());
-    (0..columns * depths)
-        .map(|at| block.damage[at % columns * depths + at / columns])
-        .map(|value| value.log10().max(-DECADES as f32))
-        .collect()
 }

@@ -48,7 +48,7 @@ fn life(app: &App) -> Figure {
     let known = known.map(|place| place.1);
     let y = decades(known.chain(points.iter().map(|place| place.1)));
     Figure {
-        name: "life by S",
+        name: "life against S",
         formula,
         points,
         knob,
@@ -85,7 +85,7 @@ fn friction(app: &App) -> Figure {
     let (x, knob) = axis(app, Knob::SlideRoll);
     let (points, most) = frictions(app, Along::SlideRoll, |found| found.at.slide_roll);
     Figure {
-        name: "friction by S",
+        name: "friction against S",
         formula: Vec::new(),
         points,
         knob,

@@ -76,7 +76,8 @@ pub(super) fn comparison(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
     let Some(pinned) = &app.pinned else { return };
     if rows.rest().height >= 20 {
         let text = format!(
-            "  pinned: {} at S {}, p_h {}",
+            "  pinned: {} {} at S {}, p_h {}",
+            pinned.leading.name(),
             sig(pinned.life_relative, 2),
             sig(pinned.slide_roll, 2),
             app.units.pressure().show(pinned.p_hertz_pa, 3)

@@ -5,35 +5,22 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::Rows;
-use crate::sim::LifeEstimate;
-use crate::tui::app::{App, Leading};
+use crate::scene::ContactKind;
+use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::sig_or_dash;
 use crate::tui::view::{ascii_text, put, put_right};
 
-/// The factors one under the other on one logarithmic scale: each bar begins where the one above
-/// ended, so that the last ends at the life.
+/// The factors one under the other on one logarithmic scale: each bar begins where the one above ended, so that the
+/// third ends at the life; the fourth is what the load costs beside it.
 pub(super) fn mechanisms(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
-    let (cycles, peaks, traction) = match (app.leading(), app.life()) {
-        (
-            Leading::Simulated,
-            Some(LifeEstimate {
-                cycle_factor,
-                peak_factor,
-                traction_factor,
-                ..
-            }),
-        ) => (Some(cycle_factor), Some(peak_factor), traction_factor),
-        _ => (
-            app.estimate.cycle_factor,
-            app.estimate.peak_factor,
-            app.estimate.traction_factor,
-        ),
-    };
+    let now = app.leading_factors();
+    let pinned = app.pinned.map_or(1.0, |pinned| pinned.load_factor);
     let factors = [
-        ("cycles", cycles, Role::Cycles),
-        ("peaks", peaks, Role::Peaks),
-        ("traction", Some(traction), Role::Traction),
+        ("cycles", now.and_then(|now| now.cycle), Role::Cycles),
+        ("peaks", now.map(|now| now.peak), Role::Peaks),
+        ("traction", now.map(|now| now.traction), Role::Traction),
+        ("load", now.map(|now| now.load / pinned), Role::Strong),
     ];
     let decades = waterfall_decades(factors.map(|(_, factor, _)| factor));
     let mut from = 1.0;
@@ -44,11 +31,36 @@ pub(super) fn mechanisms(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
         waterfall_bar(app, row, decades, [from, to], role, buffer);
         from = to;
     }
+    let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
+    if rows.rest().height >= 16 || turned {
+        against(app, rows.take(1), buffer);
+    }
+}
+
+/// What the load's factor is against.
+fn against(app: &App, row: Rect, buffer: &mut Buffer) {
+    let unit = match app.setup.scene.kind() {
+        ContactKind::Point => app.units.force(),
+        ContactKind::Line => app.units.force_per_length(),
+    };
+    let (whose, load) = match app.pinned {
+        Some(pinned) => ("pinned", pinned.load_n),
+        None => ("the scene's", app.setup.load_n),
+    };
+    let words = format!("  against {whose} {}", unit.show(load, 3));
+    let words = if words.chars().count() <= usize::from(row.width) {
+        words
+    } else {
+        format!("  of {whose} {}", unit.show(load, 3))
+    };
+    let line = Line::styled(ascii_text(app.theme, &words), app.theme.style(Role::Dim));
+    put(row, 0, &line, buffer);
 }
 
 /// Whole decades that hold every end of a bar.
-fn waterfall_decades(factors: [Option<f64>; 3]) -> [f64; 2] {
-    let (mut decade, mut low, mut high) = (0.0, -1.0_f64, 0.0_f64);
+fn waterfall_decades(factors: [Option<f64>; 4]) -> [f64; 2] {
+    // Four decades, as the scale of the life has: bars that rescale with every value cannot be compared.
+    let (mut decade, mut low, mut high) = (0.0, -4.0_f64, 0.0_f64);
     for factor in factors.into_iter().flatten() {
         decade += factor.max(1e-12).log10();
         low = low.min(decade.floor());

@@ -8,34 +8,47 @@ use super::Rows;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{ascii_text, digits, put};
+use crate::tui::view::{Areas, Density, ascii_text, digits, put};
+
+/// What the number is, for the panel's title: where there is no room beside the figure, against what.
+pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
+    let times = app.theme.pick("× smooth rolling", "x smooth rolling");
+    match areas.life.width {
+        _ if areas.density == Density::Full => "relative life",
+        23.. => app
+            .theme
+            .pick("life × smooth rolling", "life x smooth rolling"),
+        _ => times,
+    }
+}
 
 /// The number itself.
 pub(super) fn figure(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
     let theme = app.theme;
-    let leading = app.leading();
-    let role = match leading {
+    let role = match app.leading() {
         Leading::Simulated => Role::Strong,
-        Leading::Formula => Role::Formula,
+        Leading::Scaled | Leading::Formula => Role::Formula,
     };
     let text = short(app.leading_life());
     let area = rows.take(digits::ROWS);
-    if theme.is_ascii() {
+    if app.leading_life().is_none() {
+        let why = if app.setup.scene.life.is_none() {
+            "no life in this scene"
+        } else if app.estimate.formula.cycle.is_none() {
+            "a body stands: no life"
+        } else {
+            "no estimate"
+        };
+        put(area, 1, &Line::styled(why, theme.style(Role::Dim)), buffer);
+    } else if theme.is_ascii() {
         let line = Line::styled(format!(">> {text} <<"), theme.style(Role::Strong));
         put(area, 1, &line, buffer);
-    } else if app.leading_life().is_some() {
-        digits::render(&text, area, theme.style(role), buffer);
     } else {
-        put(
-            area,
-            1,
-            &Line::styled("no estimate", theme.style(Role::Dim)),
-            buffer,
-        );
+        digits::render(&text, area, theme.style(role), buffer);
     }
-    said(app, area, digits::width(&text), buffer);
+    let beside = said(app, area, digits::width(&text), buffer);
     let below = rows.take(1);
-    put(below, 0, &provenance(app, below.width), buffer);
+    put(below, 0, &provenance(app, below.width, beside), buffer);
 }
 
 /// Which model and effective stress, and how far other choices would move the number.
@@ -59,16 +72,32 @@ pub(super) fn model(app: &App, row: Rect, buffer: &mut Buffer) {
     put(row, 0, &line, buffer);
 }
 
+/// Whether the large figure's source stands beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Beside {
+    Source,
+    Nothing,
+}
+
+fn source(app: &App) -> (&'static str, Role) {
+    let leading = app.leading();
+    let role = match leading {
+        Leading::Simulated => Role::Good,
+        Leading::Scaled | Leading::Formula => Role::Formula,
+    };
+    (leading.name(), role)
+}
+
 /// Beside the large figure: where the number comes from.
-fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) {
+fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
     let theme = app.theme;
     let used = if theme.is_ascii() {
         used / 2 + 8
     } else {
         used + 2
     };
-    if area.width < used + 9 {
-        return;
+    if area.width < used + 16 || app.leading_life().is_none() {
+        return Beside::Nothing;
     }
     let right = Rect {
         x: area.x + used,
@@ -76,45 +105,66 @@ fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) {
         ..area
     };
     let dim = theme.style(Role::Dim);
-    let word = match app.leading() {
-        Leading::Simulated => Line::styled("simulated", theme.style(Role::Good)),
-        Leading::Formula => Line::styled("formula", theme.style(Role::Formula)),
-    };
-    put(right, 0, &word, buffer);
-    if right.width >= 16 {
-        let of = ascii_text(theme, "× smooth rolling");
-        put(right, 1, &Line::styled(of, dim), buffer);
-        put(right, 2, &Line::styled("at the same load", dim), buffer);
-    }
+    let (word, role) = source(app);
+    put(right, 0, &Line::styled(word, theme.style(role)), buffer);
+    let of = ascii_text(theme, "× smooth rolling");
+    put(right, 1, &Line::styled(of, dim), buffer);
+    put(right, 2, &Line::styled("at the same load", dim), buffer);
+    Beside::Source
 }
 
-/// The other number, and the band.
-fn provenance(app: &App, width: u16) -> Line<'static> {
+/// The number's source, where it does not stand beside it; its band, and the other numbers as far as there is room.
+fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
     let theme = app.theme;
-    let text = match (app.leading(), app.life()) {
+    if app.leading_life().is_none() {
+        return Line::default();
+    }
+    let (word, role) = source(app);
+    let mut spans = Vec::new();
+    let mut used = 0;
+    let mut add = |text: String, role: Role| {
+        let text = ascii_text(theme, &text);
+        let length = text.chars().count();
+        if used + length <= usize::from(width) {
+            used += length;
+            spans.push(Span::styled(text, theme.style(role)));
+        }
+    };
+    let formula = sig_or_dash(app.estimate.formula.life(), 2);
+    match (app.leading(), app.life()) {
         (Leading::Simulated, Some(life)) => {
             let (low, high) = (life.life_relative_low, life.life_relative_high);
-            let band = format!("band {}–{}", sig(low, 2), sig(high, 2));
-            let formula = format!("  formula {}", sig_or_dash(app.estimate.life_relative, 2));
-            let mut spans = vec![Span::styled(
-                ascii_text(theme, &band),
-                theme.style(Role::Text),
-            )];
-            if band.chars().count() + formula.len() <= usize::from(width) {
-                spans.push(Span::styled(formula, theme.style(Role::Formula)));
+            let band = format!("{}–{}", sig(low, 2), sig(high, 2));
+            match beside {
+                Beside::Source => add(format!("band {band}"), Role::Text),
+                Beside::Nothing if word.len() + 1 + band.chars().count() <= usize::from(width) => {
+                    add(format!("{word} "), role);
+                    add(band, Role::Text);
+                }
+                Beside::Nothing => {
+                    add("sim. ".to_owned(), role);
+                    add(band, Role::Text);
+                }
             }
-            return Line::from(spans);
+            add(format!("  formula {formula}"), Role::Formula);
         }
-        (_, Some(life)) => format!("settling: {}", sig(life.life_relative, 2)),
-        (_, None) => "not simulated yet".to_owned(),
-    };
-    Line::from(vec![
-        Span::styled(
-            format!("{} ", theme.pick("≈", "~")),
-            theme.style(Role::Formula),
-        ),
-        Span::styled(text, theme.style(Role::Dim)),
-    ])
+        (leading, life) => {
+            if beside == Beside::Nothing {
+                add(format!("{word} "), role);
+            }
+            match life {
+                Some(life) => add(
+                    format!("settling {}", sig(life.life_relative, 2)),
+                    Role::Dim,
+                ),
+                None => add("not simulated".to_owned(), Role::Dim),
+            }
+            if leading == Leading::Scaled {
+                add(format!("  formula {formula}"), Role::Formula);
+            }
+        }
+    }
+    Line::from(spans)
 }
 
 /// A number short enough for large figures.

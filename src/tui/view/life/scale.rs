@@ -59,7 +59,7 @@ pub(super) fn scale(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
         }
         mark(life.life_relative, theme.pick("●", "O"), style);
     }
-    if let Some(estimate) = app.estimate.life_relative {
+    if let Some(estimate) = app.estimate.formula.life() {
         mark(estimate, theme.pick("◇", "f"), theme.style(Role::Formula));
     }
     if let Some(pinned) = &app.pinned {

@@ -6,6 +6,7 @@ use ratatui::style::Color;
 use ratatui::text::{Line, Span};
 
 use super::raster::{Raster, Window};
+use crate::observe::interferogram::colour as fringe;
 use crate::tui::app::{App, MapKind};
 use crate::tui::pixels::Picture;
 use crate::tui::theme::{Ramp, Role, Theme};
@@ -56,16 +57,6 @@ impl Look {
     }
 }
 
-/// Two-beam interference in three colours, `I = ½ (1 + cos(4π n h/λ))`: n = 1.5 of the oil, λ in red, green
-/// and blue. Orders repeat; as everywhere the colour bar says which film is which colour.
-fn fringe(film_m: f64) -> [u8; 3] {
-    const INDEX: f64 = 1.5;
-    [610e-9, 550e-9, 465e-9].map(|wave_m: f64| {
-        let phase = 4.0 * std::f64::consts::PI * INDEX * film_m.max(0.0) / wave_m;
-        (127.5 * (1.0 + phase.cos())) as u8
-    })
-}
-
 /// What a pixel shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Tint {
@@ -95,7 +86,7 @@ impl Tint {
         if t.is_nan() {
             Self::Blank
         } else if kind == MapKind::Fringes {
-            Self::Plain(fringe(value))
+            Self::Plain(raster.fringe(column, row))
         } else if kind == MapKind::Contact && raster.spot(column, row) {
             Self::Plain([120, 214, 255])
         } else if kind == MapKind::Contact {
@@ -227,7 +218,7 @@ fn ink(
         MapKind::Contact if ring => "o",
         MapKind::Contact => Theme::map_ink(0.3 * t),
         MapKind::Fringes => {
-            let [_, green, _] = fringe(f64::from(raster.at(column, row)));
+            let [_, green, _] = raster.fringe(column, row);
             Theme::map_ink(f32::from(green) / 255.0)
         }
         _ => Theme::map_ink(t),
@@ -254,14 +245,14 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
         };
         let dim = if kind == MapKind::Contact { 0.45 } else { 1.0 };
         let color = |half: u16| match kind {
-            MapKind::Fringes => theme.rgb(fringe(value(half))),
+            MapKind::Fringes => theme.rgb(fringe(value(half) as f32, 0.0)),
             _ => theme.map_color(look.ramp, dim * look.part(value(half))),
         };
         if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
             if theme.paints() {
                 cell.set_symbol("▀").set_fg(color(0)).set_bg(color(1));
             } else if kind == MapKind::Fringes {
-                let [_, green, _] = fringe(value(0));
+                let [_, green, _] = fringe(value(0) as f32, 0.0);
                 cell.set_symbol(Theme::map_ink(f32::from(green) / 255.0));
             } else {
                 cell.set_symbol(Theme::map_ink(look.part(value(0))));
@@ -294,23 +285,8 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
     if kind == MapKind::Contact && bar.height >= 9 {
         let spot = Line::from(vec![
             Span::styled(theme.pick("█", "#"), theme.style(Role::Film)),
-            Span::styled("spot", dim),
+            Span::styled("touch", dim),
         ]);
         put(text, bar.height - 3, &spot, buffer);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fringes_follow_the_film() {
-        assert_eq!(fringe(0.0), [255; 3]);
-        // Dark where the way through the oil and back is half a wave: h = λ/(4 n); bright again at twice that.
-        let [_, green, _] = fringe(550e-9 / 6.0);
-        assert!(green < 2);
-        let [_, green, _] = fringe(550e-9 / 3.0);
-        assert!(green > 253);
     }
 }

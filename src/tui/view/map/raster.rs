@@ -1,6 +1,7 @@
 //! From the nodes of a frame to the pixels of the picture: the mean of the nodes in a pixel, or,
 //! where pixels are finer than nodes, linear interpolation between them.
 
+use crate::observe::interferogram::Film;
 use crate::scene::ContactKind;
 use crate::sim::Frame;
 use crate::tui::app::MapKind;
@@ -32,6 +33,8 @@ pub(super) struct Raster {
     pub(super) rows: usize,
     values: Vec<f32>,
     spots: Vec<bool>,
+    /// Of an interferogram.
+    fringes: Vec<[u8; 3]>,
     kind: ContactKind,
 }
 
@@ -48,6 +51,12 @@ impl Raster {
             ContactKind::Point => x.hypot(y),
             ContactKind::Line => x.abs(),
         }
+    }
+
+    /// Colour of a pixel of an interferogram.
+    pub(super) fn fringe(&self, column: usize, row: usize) -> [u8; 3] {
+        let place = row * self.columns + column;
+        self.fringes.get(place).copied().unwrap_or([0; 3])
     }
 
     /// Whether any node of a pixel is in contact.
@@ -88,16 +97,25 @@ pub(super) fn rasterize(
             rows,
             values,
             spots: Vec::new(),
+            fringes: Vec::new(),
             kind: frame.kind,
         });
     }
     let y = axis_of(frame.y_min_m / frame.b_m, frame.dy_m / frame.b_m, frame.ny);
     let down = spans(rows, window.y, frame.ny, &y)?;
     let take = |field: &[f32]| values(field, frame.nx, &along, &down);
-    let mut spots = Vec::new();
+    let (mut spots, mut fringes) = (Vec::new(), Vec::new());
     let values = match kind {
         MapKind::Pressure | MapKind::Stress | MapKind::PressureWaves => take(&frame.pressure_pa),
-        MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => take(&frame.film_m),
+        MapKind::Film | MapKind::FilmWaves => take(&frame.film_m),
+        MapKind::Fringes => {
+            let film = Film::new(&frame.film_m, frame.nx, frame.ny)?;
+            let along = cells(columns, window.x, &x);
+            for y in cells(rows, window.y, &y) {
+                fringes.extend(along.iter().map(|x| film.cell(*x, y)));
+            }
+            take(&frame.film_m)
+        }
         MapKind::Roughness => take(&frame.roughness_1_m)
             .into_iter()
             .zip(take(&frame.roughness_2_m))
@@ -113,6 +131,7 @@ pub(super) fn rasterize(
         rows,
         values,
         spots,
+        fringes,
         kind: frame.kind,
     })
 }
@@ -140,6 +159,7 @@ pub(super) fn rasterize_lines<'a>(
         rows,
         values,
         spots: Vec::new(),
+        fringes: Vec::new(),
         kind: frame.kind,
     })
 }
@@ -189,6 +209,17 @@ fn place_among(depths: &[f64], z: f64) -> f64 {
     }
 }
 
+/// From where to where each pixel reaches, in nodes.
+fn cells(pixels: usize, window: [f64; 2], place: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    let at = |pixel: usize| {
+        let part = pixel as f64 / pixels as f64;
+        place(window[0] + (window[1] - window[0]) * part)
+    };
+    (0..pixels)
+        .map(|pixel| [at(pixel), at(pixel + 1)])
+        .collect()
+}
+
 fn spans(
     pixels: usize,
     window: [f64; 2],
@@ -198,10 +229,8 @@ fn spans(
     if nodes < 2 || pixels == 0 {
         return None;
     }
-    let at = |part: f64| place(window[0] + (window[1] - window[0]) * part);
-    let spans = (0..pixels).map(|pixel| {
-        let from = at(pixel as f64 / pixels as f64);
-        let to = at((pixel + 1) as f64 / pixels as f64);
+    let cells = cells(pixels, window, place);
+    let spans = cells.into_iter().map(|[from, to]| {
         let (first, last) = (from.ceil() as usize, to.floor() as usize);
         if last > first {
             return Span {

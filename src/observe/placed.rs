@@ -1,0 +1,254 @@
+//! Where an output's file lies while it is written, and where when it is done.
+//!
+//! | there before | while it is written | when it is done | after a kill |
+//! |---|---|---|---|
+//! | nothing | under its name | under its name; gone if nothing came | under its name, up to the last whole message |
+//! | a file, `--force` | beside it, as `NAME.part-PID-N.ENDING` | in place of it; it stays if nothing came | the old file; the new one beside it |
+//! | a device | in it | | |
+//!
+//! A file that another run is writing is refused, by a lock that ends with its process.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use super::ObserveError;
+use crate::files::{folder_of, part_of, publish, sync_file, sync_folder, write_whole};
+
+/// What to do with an output file that is there already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Overwrite {
+    /// It is left alone and the output is refused.
+    #[default]
+    Refuse,
+    /// It is replaced once its successor is whole.
+    Replace,
+}
+
+/// What a name leads to.
+enum There {
+    Nothing,
+    /// A plain file, links followed.
+    File(PathBuf),
+    /// Something that is written into: a device, a pipe.
+    Device,
+}
+
+impl Overwrite {
+    /// What `--force` means.
+    pub fn from_force(force: bool) -> Self {
+        if force { Self::Replace } else { Self::Refuse }
+    }
+
+    /// Sees that a file of that name can be written when the time comes. Nothing is changed.
+    ///
+    /// # Errors
+    /// When it exists and may not be replaced, or its folder takes no file.
+    pub fn check(self, path: &Path) -> Result<(), ObserveError> {
+        let beside = match self.look(path)? {
+            There::Device => return Ok(()),
+            There::Nothing => path.to_owned(),
+            There::File(real) => real,
+        };
+        let part = part_of(&beside);
+        let made = OpenOptions::new().write(true).create_new(true).open(&part);
+        made.map_err(|error| refused(path, &error))?;
+        std::fs::remove_file(&part).map_err(|error| refused(path, &error))
+    }
+
+    /// Writes a file whole or not at all.
+    ///
+    /// # Errors
+    /// When it exists and may not be replaced, or the disk says no; then a file that was there is as it was.
+    pub fn write(self, path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
+        self.write_by(path, |at| std::fs::write(at, bytes))
+    }
+
+    /// Same by somebody who writes a file of the name that he is given.
+    ///
+    /// # Errors
+    /// As [`Overwrite::write`].
+    pub fn write_by<T>(
+        self,
+        path: &Path,
+        writer: impl FnOnce(&Path) -> std::io::Result<T>,
+    ) -> Result<T, ObserveError> {
+        let written = match self.look(path)? {
+            There::Device => writer(path),
+            There::Nothing => write_whole(path, false, writer),
+            There::File(real) => write_whole(&real, true, writer),
+        };
+        written.map_err(|error| refused(path, &error))
+    }
+
+    /// Opens a file that is written bit by bit.
+    ///
+    /// # Errors
+    /// When it exists and may not be replaced, is being written by another run, or cannot be written.
+    pub(super) fn open(self, path: &Path) -> Result<(File, Placed), ObserveError> {
+        let failed = |error: std::io::Error| refused(path, &error);
+        let new = |at: &Path| OpenOptions::new().write(true).create_new(true).open(at);
+        let mut placed = Placed {
+            target: path.to_owned(),
+            at: path.to_owned(),
+            lock: None,
+            holds_something: false,
+            is_device: false,
+            is_settled: false,
+        };
+        let file = match self.look(path)? {
+            There::Device => {
+                placed.is_device = true;
+                OpenOptions::new().write(true).open(path).map_err(failed)?
+            }
+            There::Nothing => {
+                let file = new(path).map_err(failed)?;
+                placed.lock = Some(file.try_clone().map_err(failed)?);
+                file
+            }
+            There::File(real) => {
+                let old = std::fs::metadata(&real).map_err(failed)?;
+                if old.permissions().readonly() {
+                    return Err(failed(ErrorKind::PermissionDenied.into()));
+                }
+                // A file that may be written but not read is not locked.
+                placed.lock = File::open(&real).ok();
+                placed.at = part_of(&real);
+                placed.target = real;
+                let file = new(&placed.at).map_err(failed)?;
+                // Where the system has none the new file has its usual ones.
+                drop(file.set_permissions(old.permissions()));
+                file
+            }
+        };
+        placed.take_lock(path)?;
+        Ok((file, placed))
+    }
+
+    fn look(self, path: &Path) -> Result<There, ObserveError> {
+        let refuse = |reason: &str| Err(ObserveError::new(path.display().to_string(), reason));
+        match std::fs::symlink_metadata(path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                if folder_of(path).is_dir() {
+                    Ok(There::Nothing)
+                } else {
+                    Err(refused(path, &error))
+                }
+            }
+            Err(error) => Err(refused(path, &error)),
+            Ok(_) if self == Self::Refuse => Err(refused(path, &ErrorKind::AlreadyExists.into())),
+            Ok(_) => match std::fs::metadata(path) {
+                Err(_) => refuse("a link to a file that is not there; take the link away"),
+                Ok(there) if there.is_dir() => refuse("a folder has this name"),
+                Ok(there) if !there.is_file() => Ok(There::Device),
+                Ok(_) => path
+                    .canonicalize()
+                    .map(There::File)
+                    .map_err(|error| refused(path, &error)),
+            },
+        }
+    }
+}
+
+fn refused(path: &Path, error: &std::io::Error) -> ObserveError {
+    let reason = match error.kind() {
+        ErrorKind::AlreadyExists => {
+            "the file exists; choose another name or ask for overwriting (--force)".to_owned()
+        }
+        ErrorKind::NotFound => "its folder does not exist; create it first".to_owned(),
+        _ => format!("cannot be written: {error}"),
+    };
+    ObserveError::new(path.display().to_string(), reason)
+}
+
+/// A file that is being written, and the name that it will have.
+#[derive(Debug)]
+pub(super) struct Placed {
+    target: PathBuf,
+    /// Where it is written.
+    at: PathBuf,
+    /// Held while it is written.
+    lock: Option<File>,
+    holds_something: bool,
+    is_device: bool,
+    is_settled: bool,
+}
+
+impl Placed {
+    /// Refuses a file that another run holds. Where the system knows no locks there is none to respect.
+    fn take_lock(&mut self, path: &Path) -> Result<(), ObserveError> {
+        // Elsewhere a lock also keeps readers out, such as a viewer that looks on.
+        if !cfg!(unix) {
+            self.lock = None;
+        }
+        let tried = self.lock.as_ref().map(File::try_lock);
+        if let Some(Err(TryLockError::WouldBlock)) = tried {
+            // The part file alone is this run's.
+            if self.at != self.target {
+                drop(std::fs::remove_file(&self.at));
+            }
+            self.is_settled = true;
+            let reason = "another run is writing it; wait for its end or choose another name";
+            return Err(ObserveError::new(path.display().to_string(), reason));
+        }
+        Ok(())
+    }
+
+    /// Where it is written: its name, or beside the file that it will replace.
+    pub(super) fn at(&self) -> &Path {
+        &self.at
+    }
+
+    /// There is something in it that is worth its name.
+    pub(super) fn hold(&mut self) {
+        self.holds_something = true;
+    }
+
+    /// Leaves it where it is: it has failed, and what it replaces is worth more. Says where that is, if it is not
+    /// its own name.
+    pub(super) fn leave(&mut self) -> Option<PathBuf> {
+        if !self.holds_something {
+            self.discard();
+            return None;
+        }
+        self.is_settled = true;
+        (self.at != self.target && !self.is_device).then(|| self.at.clone())
+    }
+
+    /// Brings it to the disk and gives it its name; takes it away if nothing is in it. Whether it is there.
+    pub(super) fn settle(&mut self) -> std::io::Result<bool> {
+        if self.is_settled || self.is_device {
+            self.is_settled = true;
+            return Ok(self.holds_something);
+        }
+        if !self.holds_something {
+            self.discard();
+            return Ok(false);
+        }
+        self.is_settled = true;
+        sync_file(&self.at)?;
+        if self.at == self.target {
+            sync_folder(folder_of(&self.at));
+        } else {
+            publish(&self.at, &self.target, true)?;
+        }
+        Ok(true)
+    }
+
+    /// Takes away a file that nothing is in.
+    fn discard(&mut self) {
+        if !self.is_settled && !self.is_device {
+            // Gone already is as good.
+            drop(std::fs::remove_file(&self.at));
+        }
+        self.is_settled = true;
+    }
+}
+
+impl Drop for Placed {
+    /// An output that nobody finished keeps what it was given.
+    fn drop(&mut self) {
+        // Nobody is left to tell.
+        drop(self.settle());
+    }
+}

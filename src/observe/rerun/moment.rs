@@ -1,0 +1,48 @@
+//! Timelines, and places on them.
+
+use rerun::time::TimePoint;
+use rerun::{TimeCell, TimeColumn};
+
+/// Timelines of every frame.
+pub(super) const STEP: &str = "step";
+/// Simulated time since the start of the passage.
+pub(super) const SIMULATED_TIME: &str = "simulated_time";
+/// Lengths of 4 a travelled at U, in thousandths (a timeline holds no fractions).
+pub(super) const PASSAGE: &str = "passage_x1000";
+
+/// A place on all three timelines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Moment {
+    step: i64,
+    nanos: i64,
+    passage: i64,
+}
+
+impl Moment {
+    /// After so many steps, seconds and passages.
+    pub(super) fn new(step: u64, time_s: f64, passages: f64) -> Self {
+        Self {
+            step: i64::try_from(step).unwrap_or(i64::MAX),
+            nanos: (time_s * 1e9).round() as i64,
+            passage: (passages * 1000.0).round() as i64,
+        }
+    }
+
+    /// As the library has it.
+    pub(super) fn timepoint(self) -> TimePoint {
+        TimePoint::default()
+            .with_index(STEP, TimeCell::from_sequence(self.step))
+            .with_index(SIMULATED_TIME, TimeCell::from_duration_nanos(self.nanos))
+            .with_index(PASSAGE, TimeCell::from_sequence(self.passage))
+    }
+}
+
+/// The three timelines of so many rows.
+pub(super) fn time_columns(moments: &[Moment]) -> [TimeColumn; 3] {
+    let of = |part: fn(&Moment) -> i64| moments.iter().map(part);
+    [
+        TimeColumn::new_sequence(STEP, of(|at| at.step)),
+        TimeColumn::new_duration_nanos(SIMULATED_TIME, of(|at| at.nanos)),
+        TimeColumn::new_sequence(PASSAGE, of(|at| at.passage)),
+    ]
+}

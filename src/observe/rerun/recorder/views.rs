@@ -1,0 +1,225 @@
+//! The parts of a recording that the first frame sets up.
+
+use super::super::cadence::Cadence;
+use super::super::centre_line::CentreLine;
+use super::super::damage::Damage;
+use super::super::geometry::Geometry;
+use super::super::kymograph::{self, Kymograph};
+use super::super::layout::{self, Shown};
+use super::super::maps::{self, Maps};
+use super::super::raster::{Beyond, Raster};
+use super::super::series::Series;
+use super::super::slice::Slice;
+use super::super::space::{Space, Tops};
+use super::super::stream::Stream;
+use super::super::text;
+use super::super::trace::Trace;
+use crate::math::number::sig;
+use crate::observe::ObserveError;
+use crate::observe::scales::{Ranges, ToCome};
+use crate::scene::{Record, Scene};
+use crate::sim::Frame;
+
+/// The maps of the second tab and of damage are recorded in every so-many-th picture: they cost as much as all
+/// the others, and for looking at textures and at what collects slowly half the pace does.
+const BESIDE_EVERY: u64 = 2;
+
+/// What is set up by the first frame.
+pub(super) struct Views {
+    pub(super) geometry: Geometry,
+    pub(super) cadence: Cadence,
+    pub(super) series: Series,
+    maps: Maps,
+    slice: Option<Slice>,
+    space: Option<Space>,
+    centre_line: CentreLine,
+    trace: Option<Trace>,
+    pub(super) kymographs: [Kymograph; 2],
+    damage: Damage,
+    /// Bodies whose damage is mapped.
+    damaged: [bool; 2],
+    /// Frames whose fields were logged.
+    pub(super) pictures: u64,
+}
+
+impl Views {
+    pub(super) fn new(
+        stream: &Stream,
+        record: &Record,
+        scene: Option<&Scene>,
+        first: &Frame,
+    ) -> Result<Self, ObserveError> {
+        let to_come = ToCome::of(scene, first);
+        let geometry = Geometry::of(first, to_come.size);
+        if !geometry.holds(first) {
+            return Err(ObserveError::new(
+                stream.output(),
+                "the first frame's fields have not the sizes of its grid",
+            ));
+        }
+        let ranges = Ranges::of(first, &to_come);
+        let maps = Maps::new(stream, geometry, &ranges)?;
+        let slice = Slice::new(stream, geometry, first, &ranges)?;
+        let tops = Tops {
+            pressure_pa: maps.pressure_top_pa(),
+            effective_pa: slice.as_ref().map(Slice::effective_top_pa),
+            rough: maps.rough(),
+            roughness_m: to_come.amplitude_m.iter().sum(),
+        };
+        let space = Space::new(stream, geometry, first, tops)?;
+        let centre_line = CentreLine::new(stream, geometry, tops.pressure_pa, maps.film_top_m())?;
+        let trace = first
+            .material_point
+            .map(|_| Trace::new(stream, geometry, tops.pressure_pa))
+            .transpose()?;
+        let steps = expected_steps(scene, first);
+        let step_s = scene.map_or(0.0, |scene| {
+            scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
+        });
+        let kymograph = |shown| Kymograph::new(stream, geometry, shown, steps, step_s);
+        let kymographs = [
+            kymograph(kymograph::Shown::Pressure {
+                top_pa: tops.pressure_pa,
+            })?,
+            kymograph(kymograph::Shown::Film {
+                top_m: maps.film_top_m(),
+            })?,
+        ];
+        let cadence = Cadence::new(record, steps, frame_bytes(geometry));
+        let exaggeration = space.as_ref().map(Space::note).unwrap_or_default();
+        let below = slice.iter().flat_map(Slice::rasters);
+        let scales = maps.rasters().chain(below);
+        let scales = scales.map(|(entity, raster)| (entity, raster.scale()));
+        text::log_notes(stream, scales, &cadence.note(), &exaggeration)?;
+        let views = Self {
+            geometry,
+            cadence,
+            series: Series::new(stream, first.kind)?,
+            maps,
+            slice,
+            space,
+            centre_line,
+            trace,
+            kymographs,
+            damage: Damage::default(),
+            damaged: scene
+                .and_then(|scene| scene.life.as_ref())
+                .map_or([false; 2], crate::scene::Life::maps),
+            pictures: 0,
+        };
+        layout::send(stream, &views.shown(first, stream.is_live()))?;
+        Ok(views)
+    }
+
+    fn shown(&self, first: &Frame, live: bool) -> Shown {
+        Shown {
+            live,
+            kind: first.kind,
+            map: maps::plot_box(self.geometry),
+            interferogram: self.maps.interferogram().plot().clone(),
+            centre_line: self.centre_line.plot().clone(),
+            slice: self.slice.as_ref().map(|slice| slice.plot().clone()),
+            trace: self.trace.as_ref().map(|trace| trace.plot().clone()),
+            kymograph: self.kymographs[0].plot().clone(),
+            camera: self.space.as_ref().map(Space::camera),
+            rough: self.maps.rough(),
+            damaged: self.damaged,
+            life: first.metrics.life.is_some(),
+        }
+    }
+
+    fn rasters(&self) -> impl Iterator<Item = (&'static str, &Raster)> {
+        self.maps
+            .rasters()
+            .chain(self.slice.iter().flat_map(Slice::rasters))
+    }
+
+    /// What of the last pictures lay beyond their ranges. The bath around the contact is no news.
+    pub(super) fn beyond(&self) -> Vec<text::Above> {
+        let rasters = self.rasters().filter(|(entity, _)| *entity != maps::FILM);
+        let above = rasters.map(|(entity, raster)| (entity, raster.beyond(), raster.scale().unit));
+        above.filter(|(_, beyond, _)| beyond.above > 0).collect()
+    }
+
+    /// Samples that could not be stored as they are, and words about them.
+    pub(super) fn clipped(&self) -> (u64, String) {
+        let clipped = |(entity, raster): (&'static str, &Raster)| {
+            let Beyond {
+                clipped,
+                clipped_by,
+                ..
+            } = raster.beyond_in_all();
+            let unit = raster.scale().unit;
+            let by = sig(clipped_by.into(), 3);
+            (clipped > 0).then(|| {
+                (
+                    clipped,
+                    format!("{clipped} of {entity} by up to {by} {unit}"),
+                )
+            })
+        };
+        let (counts, words): (Vec<u64>, Vec<String>) = self.rasters().filter_map(clipped).unzip();
+        (counts.iter().sum(), words.join(", "))
+    }
+
+    /// What has to see every step.
+    pub(super) fn follow(&mut self, frame: &Frame) {
+        if let Some(trace) = &mut self.trace {
+            trace.follow(frame);
+        }
+        for kymograph in &mut self.kymographs {
+            kymograph.follow(frame);
+        }
+    }
+
+    /// The fields of a frame.
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        self.maps.log(stream, frame)?;
+        self.centre_line.log(stream, frame)?;
+        if let Some(slice) = &mut self.slice {
+            slice.log(stream, frame)?;
+        }
+        if let Some(space) = &mut self.space {
+            space.log(stream, frame)?;
+        }
+        if let Some(trace) = &mut self.trace {
+            trace.log(stream, frame)?;
+        }
+        if self.pictures.is_multiple_of(BESIDE_EVERY) {
+            self.maps.log_beside(stream, frame)?;
+            if let Some(slice) = &self.slice {
+                slice.log_shear(stream, frame)?;
+            }
+            if let Some(space) = &mut self.space {
+                space.log_damage(stream, frame)?;
+            }
+            self.damage.log(stream, frame)?;
+        }
+        self.pictures += 1;
+        for kymograph in &mut self.kymographs {
+            kymograph.log_if_due(stream)?;
+        }
+        Ok(())
+    }
+}
+
+/// Steps that the scene asks for.
+fn expected_steps(scene: Option<&Scene>, first: &Frame) -> f64 {
+    let Some(time) = scene.map(|scene| &scene.time) else {
+        return 1.0;
+    };
+    let steps = time.passages * 4.0 * first.a_m / (first.dx_m * time.step_nodes);
+    if steps.is_finite() {
+        steps.max(1.0)
+    } else {
+        1.0
+    }
+}
+
+/// Raw bytes of one frame's fields, roughly: what the first cadence is decided from.
+pub(super) fn frame_bytes(g: Geometry) -> u64 {
+    let nodes = (g.nx * g.ny) as u64;
+    // Two maps of two bytes and one of one, the slice; of every second frame three maps more, the
+    // interferogram and another slice; the sheets of the 3-D view.
+    (5 + 2 + (6 + 4 + 2) / 2) * nodes + 100_000
+}

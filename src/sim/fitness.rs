@@ -1,0 +1,144 @@
+//! Whether a saved state fits a simulation: a state comes from a file, and a file may come from anywhere.
+//!
+//! Checked before anything of it is used: that every field is as long as this scene's, that what follows from the scene
+//! is what it says (so that no size is taken from the file), and that values lie where a run can bring them. Numbers
+//! are finite already: the file's format has no others.
+
+use super::setup::{COARSEST, grid_of};
+use super::simulation::{Phase, Simulation};
+use super::smooth::Conditions;
+use super::stress_stage::StressStage;
+use super::{Knob, SimError, State};
+use crate::plan::Plan;
+
+/// Steps that no run makes.
+const MOST_STEPS: u64 = 1 << 52;
+/// Steps, in units of this scene's start-up, that settling in a neighbour's wake never takes.
+const LONGEST_SETTLING: u64 = 1000;
+
+fn refuse(what: &str) -> SimError {
+    SimError::State(what.to_owned())
+}
+
+fn demand(holds: bool, what: &str) -> Result<(), SimError> {
+    if holds { Ok(()) } else { Err(refuse(what)) }
+}
+
+/// Nodes per side of the grids that the start-up climbs through.
+pub(super) fn climb(plan: &Plan) -> impl Iterator<Item = usize> {
+    let finest = plan.domain.nodes;
+    std::iter::successors(Some(COARSEST.min(finest)), |n| Some(2 * (n - 1) + 1))
+        .take_while(move |n| *n <= finest)
+}
+
+impl Simulation {
+    /// Whether the state is one of this scene's contact: its fields, its stages.
+    pub(super) fn check(&self, state: &State) -> Result<(), SimError> {
+        demand(
+            climb(&self.plan).any(|n| n == state.nodes),
+            "its grid is none of this scene's",
+        )?;
+        let finest = self.plan.domain.nodes;
+        let grid = |nodes| grid_of(&self.plan, nodes, self.door.b_over_a);
+        let unlike = self.work.solver.is_unlike();
+        demand(
+            state.contact.fits(grid(state.nodes).len(), unlike),
+            "its fields do not fill the grid",
+        )?;
+        demand(state.contact.is_sound(), "its pressures are below zero")?;
+        if let Some(smooth) = &state.smooth {
+            let known = climb(&self.plan).any(|n| n == smooth.nodes);
+            demand(
+                known && smooth.fits(grid(smooth.nodes).len(), unlike),
+                "its smooth contact does not fill a grid",
+            )?;
+        }
+        let fine = grid(finest);
+        demand(state.orbit.fits(fine.len()), "its orbit is spoiled")?;
+        demand(
+            state.counting.is_some() == self.state.counting.is_some()
+                && state.life.is_some() == self.state.life.is_some(),
+            "it was saved with other stages for stress and life",
+        )?;
+        let depths = self
+            .work
+            .stress
+            .as_ref()
+            .map_or(0, StressStage::depth_count);
+        if let (Some(own), Some(saved)) = (&self.state.counting, &state.counting) {
+            demand(own.fits(saved, depths), "its counts are spoiled")?;
+        }
+        if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {
+            demand(own.fits(saved), "its life is of another make")?;
+        }
+        Ok(())
+    }
+
+    /// Whether a run of this scene can have come there.
+    pub(super) fn check_course(&self, state: &State) -> Result<(), SimError> {
+        let start_up = self.state.start_up_steps.1.max(1);
+        let on_finest = state.nodes == self.plan.domain.nodes;
+        let phase_fits = match state.phase {
+            Phase::Smooth { left } => left <= self.smooth_steps(state.nodes, self.plan.has_flow()),
+            Phase::Settle { coarse, fine } => {
+                on_finest && coarse.max(fine) <= LONGEST_SETTLING * start_up
+            }
+            Phase::Develop { left } => on_finest && left <= start_up,
+            Phase::Passage => on_finest,
+        };
+        demand(phase_fits, "its start-up is none of this scene's")?;
+        let steps = [state.step, state.start_up_steps.0, state.start_up_steps.1];
+        let counted = steps.into_iter().chain(state.stats.all());
+        demand(
+            counted.into_iter().all(|n| n <= MOST_STEPS) && state.way >= 0.0 && state.time_s >= 0.0,
+            "its steps or times are none",
+        )?;
+        demand(
+            state.motion.fits(&self.state.motion) && state.pace.is_sound(),
+            "its motion is of another make",
+        )?;
+        if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {
+            demand(own.same_waves(saved), "its life is of other waves")?;
+        }
+        let smooth = state.smooth.as_ref();
+        demand(
+            smooth.is_none_or(|smooth| {
+                smooth.left <= self.smooth_steps(smooth.nodes, true) && self.can_be(smooth.at)
+            }),
+            "its smooth contact is none of this scene's",
+        )?;
+        for drive in [&state.drive, &state.wanted]
+            .into_iter()
+            .chain(smooth.map(|smooth| &smooth.drive))
+        {
+            for knob in Knob::ALL {
+                let (own, saved) = (self.state.drive.get(knob), drive.get(knob));
+                let both = [saved.now, saved.target];
+                demand(
+                    own.rate == saved.rate && both.into_iter().all(|v| self.can_stand_at(knob, v)),
+                    &format!("{} is out of its range", knob.key()),
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    fn can_be(&self, at: Conditions) -> bool {
+        self.can_stand_at(self.door.load_knob(), at.load)
+            && self.can_stand_at(Knob::EntrainmentMS, at.speed_m_s)
+    }
+
+    /// Whether a knob can stand there, on its way too.
+    fn can_stand_at(&self, knob: Knob, value: f64) -> bool {
+        match knob {
+            Knob::SlideRoll => value.abs() <= 2.0,
+            Knob::ForceN | Knob::ForceNPerM => {
+                let most = self.plan.most_force_n() * (1.0 + 1e-9);
+                value > 0.0 && (knob != self.door.load_knob() || value <= most)
+            }
+            Knob::Amplitude1M => value >= 0.0 && (value == 0.0 || self.work.terrain.is_rough(0)),
+            Knob::Amplitude2M => value >= 0.0 && (value == 0.0 || self.work.terrain.is_rough(1)),
+            Knob::EntrainmentMS => value > 0.0,
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! When the average of the life may be shown as the result.
+//!
+//! ```text
+//! ramp      a knob walks                          every step begins the wait anew
+//! flush     DEVELOP a/U after it                  what entered meanwhile leaves the contact; then all sums begin
+//! average   over a period P                       |ln L now − ln L before| over the last P/2:  ≤ B/2 settled,  > B not
+//!           fields come back                      c · drift ≤ B/2 settled
+//!           no common period, 3 P                 settled; the band is as much wider as the mean wandered in 2 P
+//! B = c max(ε, 2 tol)                             ε relative error of stress by the mesh, tol a step's of pressure
+//! ```
+//! L ∝ (σ)^{−c}: an error ε of stress is c ε of ln L. B is never below what two means of steps that are solved to
+//! `numerics.tolerance` may differ by. A mean over a whole number of periods meets the same phases at both of its
+//! ends, so it moves by what the contact has not forgotten and by nothing else. Bodies whose waves have no common
+//! period never repeat: a mean over P comes and goes with the crests that happen to meet, and that is part of what is
+//! not known of it.
+
+use serde::{Deserialize, Serialize};
+
+use super::frame::{Repeat, Rhythm};
+use crate::physics::fatigue::LifeLaw;
+use crate::solve::life::LifeMeter;
+
+/// Whether the average has stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Settling {
+    law: LifeLaw,
+    /// Relative error of pressure that a step is solved to.
+    tolerance: f64,
+    settled: bool,
+    /// By how much of ln L a mean without a common period wanders.
+    wander: f64,
+}
+
+impl Settling {
+    /// Before the first sample.
+    pub(super) fn new(law: LifeLaw, tolerance: f64) -> Self {
+        Self {
+            law,
+            tolerance,
+            settled: false,
+            wander: 0.0,
+        }
+    }
+
+    /// The average begins anew.
+    pub(super) fn restart(&mut self) {
+        (self.settled, self.wander) = (false, 0.0);
+    }
+
+    /// Takes what the meter's mean did, after a sample.
+    pub(super) fn judge(&mut self, meter: &LifeMeter, stress_error: f64, repeat: Option<Repeat>) {
+        if !meter.covers() {
+            return;
+        }
+        let band = self.law.stress_exponent * stress_error.max(2.0 * self.tolerance);
+        let life = |ln_integral: f64| ln_integral / self.law.weibull_slope;
+        let comes_back = repeat.is_some_and(|repeat| {
+            let drift = repeat.drift.filter(|_| repeat.rhythm != Rhythm::Statistics);
+            drift.is_some_and(|drift| self.law.stress_exponent * drift <= 0.5 * band)
+        });
+        let moved = meter.moved(0.5).map(life);
+        let most = if self.settled { band } else { 0.5 * band };
+        self.settled = comes_back || moved.is_some_and(|moved| moved <= most);
+        self.wander = 0.0;
+        let without_period = repeat.is_some_and(|repeat| repeat.rhythm == Rhythm::Statistics);
+        if without_period && let Some(moved) = meter.moved(2.0).map(life) {
+            (self.settled, self.wander) = (true, moved);
+        }
+    }
+
+    /// Whether it has.
+    pub(super) fn has_settled(&self) -> bool {
+        self.settled
+    }
+
+    /// What the band is wider by, in ln L.
+    pub(super) fn wander(&self) -> f64 {
+        self.wander
+    }
+}

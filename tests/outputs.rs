@@ -1,0 +1,554 @@
+//! Files of runs under attack: nothing that was there is lost, nothing half-written passes for whole, a stopped run
+//! says so. By the binary alone.
+#![cfg(unix)]
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::io::Read as _;
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// A small scene that still has everything: coarse grid, long waves, half a passage.
+const SMALL: [&str; 7] = [
+    "--set=grid.nodes=33",
+    "--set=body_1.surface.wavelength_x_m=4e-4",
+    "--set=body_2.surface.wavelength_x_m=4e-4",
+    "--set=body_2.surface.wavelength_y_m=4e-4",
+    "--set=body_1.surface.amplitude_m=1e-7",
+    "--set=body_2.surface.amplitude_m=1e-7",
+    "--threads=1",
+];
+
+fn command(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    command.args(args).current_dir(folder).stdin(Stdio::null());
+    command
+}
+
+fn asperity(folder: &Path, args: &[&str]) -> Output {
+    command(folder, args).output().unwrap()
+}
+
+fn small<'a>(passages: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let own = ["run", "--passages", passages];
+    let own = own.into_iter().chain(SMALL);
+    own.chain(more.iter().copied()).collect()
+}
+
+/// Half a passage of the small scene.
+fn short(folder: &Path, more: &[&str]) -> Output {
+    asperity(folder, &small("0.5", more))
+}
+
+/// A run of the small scene that ends when it is told to.
+fn endless(folder: &Path, more: &[&str]) -> Child {
+    let mut command = command(folder, &small("10000", more));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn assert_code(output: &Output, code: i32) {
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{out}\n{err}");
+    assert!(!err.contains("panicked"), "{err}");
+}
+
+/// The command fails with that code and says the words on stderr.
+fn refused(output: &Output, code: i32, words: &[&str]) {
+    assert_code(output, code);
+    let stderr = text(&output.stderr);
+    for word in words {
+        assert!(stderr.contains(word), "{word:?} is missing in {stderr}");
+    }
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
+    let mut names: Vec<String> = entries
+        .map(|entry| name(entry).into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
+    let began = Instant::now();
+    while !is_so() {
+        assert!(began.elapsed() < Duration::from_mins(2), "{what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+fn rows(path: &Path) -> usize {
+    std::fs::read_to_string(path).map_or(0, |text| text.lines().count())
+}
+
+fn signal(child: &Child, name: &str) {
+    let args = [name.to_owned(), child.id().to_string()];
+    assert!(Command::new("kill").args(args).status().unwrap().success());
+}
+
+/// Exit code, stdout and stderr of a run that ends.
+fn ended(mut child: Child) -> (Option<i32>, String, String) {
+    let (mut out, mut err) = (String::new(), String::new());
+    child
+        .stdout
+        .take()
+        .unwrap()
+        .read_to_string(&mut out)
+        .unwrap();
+    child
+        .stderr
+        .take()
+        .unwrap()
+        .read_to_string(&mut err)
+        .unwrap();
+    (child.wait().unwrap().code(), out, err)
+}
+
+const MINE: [&str; 4] = ["run.rrd", "run.csv", "run.json", "run.state"];
+const OVER_MINE: [&str; 5] = [
+    "--force",
+    "--out=run.rrd",
+    "--table=run.csv",
+    "--summary=run.json",
+    "--save-state=run.state",
+];
+
+/// Four files with somebody's work.
+fn put_mine(folder: &Path) {
+    for name in MINE {
+        std::fs::write(folder.join(name), format!("mine: {name}")).unwrap();
+    }
+}
+
+fn assert_mine(folder: &Path) {
+    for name in MINE {
+        let found = std::fs::read_to_string(folder.join(name)).unwrap();
+        assert_eq!(found, format!("mine: {name}"));
+    }
+}
+
+#[test]
+fn what_is_wrong_with_an_input_costs_no_output() {
+    let folder = tempfile::tempdir().unwrap();
+    put_mine(folder.path());
+    std::fs::write(folder.path().join("bad.state"), "asperity state").unwrap();
+    for wrong in [
+        "--from-state=nowhere.state",
+        "--from-state=bad.state",
+        "--set=motion.slide_roll=7",
+    ] {
+        let more: Vec<&str> = OVER_MINE.into_iter().chain([wrong]).collect();
+        assert_code(&short(folder.path(), &more), 1);
+        assert_mine(folder.path());
+    }
+    // An output that cannot be made costs none of the others, and nobody listens at port 9.
+    for wrong in ["--export=run.csv/fields", "--connect=127.0.0.1:9"] {
+        let more: Vec<&str> = OVER_MINE.into_iter().chain([wrong]).collect();
+        assert_code(&short(folder.path(), &more), 4);
+        assert_mine(folder.path());
+    }
+    assert_eq!(names(folder.path()).len(), 5, "{:?}", names(folder.path()));
+}
+
+#[test]
+fn a_run_that_fails_leaves_no_stub_that_blocks_the_next() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    let outputs = &OVER_MINE[1..];
+    let with = |more: &[&'static str]| {
+        outputs
+            .iter()
+            .copied()
+            .chain(more.iter().copied())
+            .collect::<Vec<_>>()
+    };
+    assert_code(&short(place, &with(&["--connect=127.0.0.1:9"])), 4);
+    assert_code(&short(place, &with(&["--from-state=nowhere"])), 1);
+    assert_code(
+        &short(place, &with(&["--export=fields", "--connect=127.0.0.1:9"])),
+        4,
+    );
+    assert_eq!(names(place), [""; 0]);
+    assert_code(&short(place, &with(&[])), 0);
+    let mut all = MINE.map(str::to_owned);
+    all.sort();
+    assert_eq!(names(place), all);
+    // One that is there is refused, and none of the others is touched.
+    std::fs::remove_file(place.join("run.rrd")).unwrap();
+    refused(&short(place, &with(&[])), 4, &["exists", "--force"]);
+    assert!(!place.join("run.rrd").exists());
+}
+
+#[test]
+fn an_output_is_no_input_and_no_other_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    std::fs::create_dir(place.join("sub")).unwrap();
+    std::os::unix::fs::symlink("one.csv", place.join("link.csv")).unwrap();
+    std::fs::write(place.join("one.csv"), "mine").unwrap();
+    let scene = asperity(place, &["scenes", "demonstration"]).stdout;
+    std::fs::write(place.join("mine.toml"), &scene).unwrap();
+    assert_code(&short(place, &["--no-record", "--save-state=a.state"]), 0);
+    let before = std::fs::read(place.join("a.state")).unwrap();
+    let cases: [&[&str]; 7] = [
+        &["--out=x", "--table=./x"],
+        &["--table=one.csv", "--summary=sub/../one.csv"],
+        &["--table=link.csv", "--summary=one.csv"],
+        &["--from-state=a.state", "--save-state=./a.state"],
+        &["--from-state=a.state", "--table=a.state"],
+        &["--summary=f/scene.toml", "--export=f"],
+        &["--export=.", "--table=step_000016.npz"],
+    ];
+    for case in cases {
+        let more: Vec<&str> = ["--force"]
+            .into_iter()
+            .chain(case.iter().copied())
+            .collect();
+        refused(&short(place, &more), 1, &[" is ", "a name of its own"]);
+    }
+    let over_scene = [
+        "run",
+        "mine.toml",
+        "--no-record",
+        "--force",
+        "--table=mine.toml",
+    ];
+    refused(&asperity(place, &over_scene), 1, &["--table", "the scene"]);
+    assert_eq!(std::fs::read(place.join("mine.toml")).unwrap(), scene);
+    assert_eq!(std::fs::read(place.join("a.state")).unwrap(), before);
+    assert_eq!(
+        std::fs::read_to_string(place.join("one.csv")).unwrap(),
+        "mine"
+    );
+    // What a link leads to is replaced, not the link.
+    assert_code(
+        &short(place, &["--no-record", "--force", "--table=link.csv"]),
+        0,
+    );
+    assert!(place.join("link.csv").is_symlink());
+    assert!(rows(&place.join("one.csv")) > 1);
+}
+
+#[test]
+fn a_killed_run_leaves_what_it_was_to_replace_and_what_it_had_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    put_mine(place);
+    let mut child = endless(place, &OVER_MINE);
+    let part = |ending: &str| -> Option<PathBuf> {
+        let found = names(place);
+        let name = found
+            .iter()
+            .find(|name| name.starts_with("run.part-") && name.ends_with(ending))?;
+        Some(place.join(name))
+    };
+    wait_until("rows beside", || {
+        assert!(child.try_wait().unwrap().is_none());
+        part(".csv").is_some_and(|path| rows(&path) > 20)
+    });
+    assert_mine(place);
+    // Another run on the same names is refused while this one is at it, and spoils nothing.
+    refused(
+        &short(place, &["--force", "--out=run.rrd"]),
+        4,
+        &["run.rrd", "another run"],
+    );
+    // The recording is written within a second.
+    std::thread::sleep(Duration::from_secs(1));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_mine(place);
+    let kept = part(".rrd").unwrap();
+    let name = kept.file_name().unwrap().to_str().unwrap();
+    let again = asperity(place, &["run", "--from", name, "--no-record"]);
+    assert_code(&again, 0);
+    // The lock went with the process; now all are replaced, whole, and nothing lies beside.
+    for path in [kept, part(".csv").unwrap()] {
+        std::fs::remove_file(path).unwrap();
+    }
+    assert_code(&short(place, &OVER_MINE), 0);
+    let mut all = MINE.map(str::to_owned);
+    all.sort();
+    assert_eq!(names(place), all);
+    assert_code(&short(place, &["--from-state=run.state", "--no-record"]), 0);
+    let again = asperity(place, &["run", "--from=run.rrd", "--no-record"]);
+    assert_code(&again, 0);
+}
+
+#[test]
+fn a_stopped_run_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    for name in ["-TERM", "-HUP", "-INT"] {
+        let table = place.join(format!("{name}.csv"));
+        let to_table = format!("--table={}", table.display());
+        let child = endless(place, &["--no-record", "--summary=-", &to_table]);
+        wait_until("rows", || rows(&table) > 3);
+        signal(&child, name);
+        let (code, out, err) = ended(child);
+        assert_eq!(code, Some(5), "{name}: {err}");
+        let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
+        assert_eq!(summary["stopped"], true);
+        let (done, planned) = (summary["steps"].as_u64(), summary["steps_planned"].as_u64());
+        assert!(
+            done.unwrap() < planned.unwrap() && planned > Some(100_000),
+            "{summary}"
+        );
+        let said = format!("stopped by the user after {} of", done.unwrap());
+        assert!(err.contains(&said), "{err}");
+        assert_eq!(rows(&table) as u64, done.unwrap() + 1);
+    }
+    let whole = short(place, &["--no-record", "--summary=-"]);
+    assert_code(&whole, 0);
+    let summary: serde_json::Value = serde_json::from_slice(&whole.stdout).unwrap();
+    assert_eq!(summary["stopped"], false);
+    assert_eq!(summary["steps"], summary["steps_planned"]);
+}
+
+#[test]
+fn what_cannot_be_told_is_an_output_that_failed() {
+    let full = || std::fs::File::options().write(true).open("/dev/full");
+    if full().is_err() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let summary = small("0.5", &["--no-record", "--summary=-"]);
+    let cases: [&[&str]; 5] = [
+        &summary,
+        &["scenes"],
+        &["check"],
+        &["--help"],
+        &["sweep", "slide_roll", "--show=file"],
+    ];
+    for args in cases {
+        let mut command = command(folder.path(), args);
+        let output = command.stdout(full().unwrap()).output().unwrap();
+        refused(&output, 4, &["stdout", "No space left"]);
+    }
+}
+
+#[test]
+fn an_export_takes_away_its_own_steps_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let fields = folder.path().join("fields");
+    let export = [
+        "--no-record",
+        "--export=fields",
+        "--export-as=npz,png",
+        "--export-every=8",
+    ];
+    assert_code(&short(folder.path(), &export), 0);
+    let first = names(&fields);
+    assert!(first.contains(&"step_000008.npz".to_owned()), "{first:?}");
+    for name in [
+        "step_000999.npz",
+        "step_000999_pressure.png",
+        "step_1.npz",
+        "step_000999_mine.png",
+        "notes",
+    ] {
+        std::fs::write(fields.join(name), "old").unwrap();
+    }
+    // A run that makes no step takes nothing away.
+    let broken = [&export[..], &["--force", "--from-state=nowhere"]].concat();
+    assert_code(&short(folder.path(), &broken), 1);
+    assert_eq!(names(&fields).len(), first.len() + 5);
+    let again = [&export[..], &["--force"]].concat();
+    assert_code(&short(folder.path(), &again), 0);
+    let mut all = first;
+    all.extend(["step_1.npz", "step_000999_mine.png", "notes"].map(str::to_owned));
+    all.sort();
+    assert_eq!(names(&fields), all);
+    std::fs::write(fields.join("scene.toml"), "title = 'mine'").unwrap();
+    refused(
+        &short(folder.path(), &again),
+        4,
+        &["scene.toml", "no export"],
+    );
+}
+
+#[test]
+fn a_server_on_any_port_says_which() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = short(folder.path(), &["--no-record", "--serve=0"]);
+    assert_code(&output, 0);
+    let told = text(&output.stderr);
+    assert!(
+        told.contains("127.0.0.1:") && !told.contains("127.0.0.1:0/"),
+        "{told}"
+    );
+}
+
+#[test]
+fn nothing_was_sent_to_a_viewer_that_never_answered() {
+    let folder = tempfile::tempdir().unwrap();
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let connect = format!("--connect={}", listener.local_addr().unwrap());
+    let output = short(folder.path(), &["--no-record", &connect]);
+    assert_code(&output, 0);
+    let told = text(&output.stdout);
+    assert!(
+        told.contains("(0 frames") && told.contains("never answered"),
+        "{told}"
+    );
+}
+
+#[test]
+fn no_text_drives_the_terminal_or_floods_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    let output = short(
+        place,
+        &[
+            "--no-record",
+            "--set=title=\"a \\u001b[31mred \\u009b2J\\u0007\"",
+        ],
+    );
+    assert_code(&output, 0);
+    let told = text(&output.stdout);
+    assert!(
+        told.contains("\\u{1b}[31mred") && !told.contains(['\u{1b}', '\u{9b}', '\u{7}']),
+        "{told}"
+    );
+    std::fs::write(
+        place.join("escape.toml"),
+        "title = \u{1b}[31m\u{1b}]0;mine\u{7}\n",
+    )
+    .unwrap();
+    std::fs::write(
+        place.join("long.toml"),
+        format!("title = {}\n", "x".repeat(100_000)),
+    )
+    .unwrap();
+    let long = format!("{}.toml", "y".repeat(100_000));
+    for args in [
+        ["check", "escape.toml"],
+        ["check", "long.toml"],
+        ["check", &long],
+        ["sweep", "escape.toml"],
+        ["sweep", "long.toml"],
+        ["view", "\u{1b}[31m.rrd"],
+        ["check", "--\u{1b}[31m"],
+    ] {
+        let output = asperity(place, &args);
+        assert_code(&output, 1);
+        let told = text(&output.stderr);
+        assert!(!told.contains(['\u{1b}', '\u{7}']), "{told}");
+        assert!(
+            told.len() < 6000,
+            "{} bytes for {:.40}",
+            told.len(),
+            args[1]
+        );
+    }
+}
+
+#[test]
+fn a_pipe_is_refused_and_not_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    assert!(
+        Command::new("mkfifo")
+            .arg(place.join("pipe.toml"))
+            .status()
+            .unwrap()
+            .success()
+    );
+    let cases: [&[&str]; 4] = [
+        &["check", "pipe.toml"],
+        &["sweep", "pipe.toml"],
+        &["run", "--from=pipe.toml", "--no-record"],
+        &["view", "pipe.toml"],
+    ];
+    for args in cases {
+        let mut child = command(place, args)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let began = Instant::now();
+        while child.try_wait().unwrap().is_none() {
+            if began.elapsed() > Duration::from_secs(20) {
+                child.kill().unwrap();
+                panic!("{args:?} waits");
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let (code, _, err) = ended(child);
+        assert_eq!(code, Some(1), "{args:?}: {err}");
+        assert!(err.contains("not a plain file"), "{err}");
+    }
+}
+
+/// Ridges of so many nm on 16 x 16 pixels.
+fn write_map(path: &Path, height_nm: f64) {
+    let row = |_| {
+        (0..16)
+            .map(|i| format!("{}", height_nm * f64::from(i % 8)))
+            .collect::<Vec<_>>()
+            .join(",")
+    };
+    let rows: Vec<String> = (0..16).map(row).collect();
+    std::fs::write(path, rows.join("\n")).unwrap();
+}
+
+#[test]
+fn another_surface_under_the_same_name_is_another_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    let map = place.join("map.csv");
+    write_map(&map, 10.0);
+    let file = format!("--set=body_2.surface.file={}", map.display());
+    let scene = [
+        "--set=body_2.surface.kind=height_map",
+        "--set=body_2.surface.pixel_m=5e-5",
+        "--set=body_2.surface.unit_m=1e-9",
+        &file,
+    ];
+    let run = |more: &[&str]| {
+        let own = [
+            "run",
+            "--passages=0.25",
+            "--set=grid.nodes=33",
+            "--threads=1",
+        ];
+        let all = [
+            &own[..],
+            &["--set=body_1.surface.kind=smooth"],
+            &scene[..],
+            more,
+        ]
+        .concat();
+        asperity(place, &all)
+    };
+    assert!(matches!(
+        run(&["--out=one.rrd", "--save-state=one.state"])
+            .status
+            .code(),
+        Some(0 | 2)
+    ));
+    let goes_on = ["--from-state=one.state", "--no-record"];
+    let repeats = ["run", "--from=one.rrd", "--no-record"];
+    assert!(matches!(run(&goes_on).status.code(), Some(0 | 2)));
+    assert!(matches!(
+        asperity(place, &repeats).status.code(),
+        Some(0 | 2)
+    ));
+    // Written in another way it is the same surface.
+    let other_words = std::fs::read_to_string(&map)
+        .unwrap()
+        .replace("10,", "1e1,");
+    std::fs::write(&map, other_words + "\n").unwrap();
+    assert!(matches!(run(&goes_on).status.code(), Some(0 | 2)));
+    write_map(&map, 11.0);
+    refused(&run(&goes_on), 1, &["map.csv", "have changed"]);
+    refused(&asperity(place, &repeats), 1, &["map.csv", "have changed"]);
+}

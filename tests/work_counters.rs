@@ -1,0 +1,110 @@
+//! The work of five named cases, counted: a change of algorithm shows as a difference of integers.
+//!
+//! The counts do not depend on the number of threads (run with one and with two here), nor on the clock.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use asperity::plan::Plan;
+use asperity::scene::{Override, Scene};
+use asperity::sim::{Simulation, Stats};
+
+/// A case: name, preset, overrides, and its counts.
+struct Case {
+    name: &'static str,
+    preset: &'static str,
+    sets: &'static [&'static str],
+    /// Steps, Newton iterations, Krylov iterations, transforms, retries.
+    golden: [u64; 5],
+}
+
+const CASES: [Case; 5] = [
+    Case {
+        name: "mixed, mirrored",
+        preset: "demonstration",
+        sets: &["grid.nodes=65", "time.passages=0.5"],
+        golden: [0; 5],
+    },
+    Case {
+        name: "mixed, whole grid, mass-conserving",
+        preset: "demonstration",
+        sets: &[
+            "grid.nodes=33",
+            "time.passages=1",
+            "lubricant.cavitation=jfo",
+            "body_1.surface.wavelength_x_m=3e-4",
+            "body_1.surface.angle_deg=30",
+            "body_2.surface.wavelength_x_m=3e-4",
+            "body_2.surface.wavelength_y_m=3e-4",
+        ],
+        golden: [0; 5],
+    },
+    Case {
+        name: "dry",
+        preset: "demonstration",
+        sets: &["grid.nodes=65", "time.passages=0.5", "lubricant=none"],
+        golden: [0; 5],
+    },
+    Case {
+        name: "line, adaptive steps",
+        preset: "demonstration",
+        sets: &[
+            "contact.kind=line",
+            "contact.ry_m=none",
+            "load.force_n=none",
+            "load.force_n_per_m=2e5",
+            "body_2.surface.wavelength_y_m=inf",
+            "time.passages=1",
+            "time.tolerance=1e-2",
+        ],
+        golden: [0; 5],
+    },
+    Case {
+        name: "unlike bodies, near dry",
+        preset: "ball_on_glass",
+        sets: &[
+            "grid.nodes=65",
+            "time.passages=0.5",
+            "motion.slide_roll=0.5",
+            "motion.entrainment_m_s=5e-2",
+        ],
+        golden: [0; 5],
+    },
+];
+
+fn counted(case: &Case, threads: usize) -> Stats {
+    let common = ["life=none", "stress=none", "record=none"];
+    let sets = common.iter().chain(case.sets);
+    let sets: Vec<Override> = sets.map(|s| s.parse().unwrap()).collect();
+    let scene = Scene::load_with(case.preset, &sets).unwrap();
+    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), threads).unwrap();
+    while !sim.is_done() {
+        sim.step().unwrap();
+        assert!(sim.metrics().converged, "{}", case.name);
+    }
+    *sim.stats()
+}
+
+#[test]
+fn the_work_of_five_cases_is_what_it_was() {
+    let mut differing = Vec::new();
+    for case in &CASES {
+        let stats = counted(case, 1);
+        assert_eq!(
+            stats,
+            counted(case, 2),
+            "{}: threads change the work",
+            case.name
+        );
+        let found = [
+            stats.steps,
+            stats.newton_iterations,
+            stats.linear_iterations,
+            stats.ffts,
+            stats.retries,
+        ];
+        println!("{}: {found:?}, golden {:?}", case.name, case.golden);
+        if found != case.golden {
+            differing.push(case.name);
+        }
+    }
+    assert!(differing.is_empty(), "{differing:?}");
+}
