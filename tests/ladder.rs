@@ -234,59 +234,52 @@ fn steps_that_cannot_converge_are_named() {
     assert!(found.named > 0 || found.stalled.is_some(), "{found:?}");
 }
 
-/// Dry steps too: by the gaps that they leave, the tolerance told, kept where those are small, else the end of the run.
+/// Dry steps too, by the gaps that they leave, with what was asked: bodies so unlike, and so rough to each other, that the
+/// passes between pressure and traction do not settle. (Above 5 % the run ends, as wet ones do; `tests/hertz_dry.rs` shows
+/// that the gap error is there to be judged. No scene is known that leaves so much.)
 #[test]
 fn dry_steps_that_cannot_converge_are_named() {
-    // Each conjugate direction is one of 25 to a Newton iteration: one is not enough for 150 spots. And single precision
-    // does not know 1e-12.
     let dry = |more: &[&str]| {
         let sets = [
             "lubricant=none",
             "grid.nodes=65",
             "life=none",
             "stress=none",
-            "body_1.surface.amplitude_m=1.5e-6",
-            "body_2.surface.amplitude_m=1.5e-6",
+            "motion.slide_roll=1",
+            "body_1.surface.wavelength_x_m=6e-4",
+            "body_2.surface.wavelength_x_m=6e-4",
+            "body_2.surface.wavelength_y_m=6e-4",
+            "body_1.young_pa=2e10",
+            "body_1.poisson=0.1",
         ];
         let sets = sets.iter().chain(more);
         let sets: Vec<Override> = sets.map(|s| s.parse().unwrap()).collect();
         let scene = Scene::load_with("demonstration", &sets).unwrap();
         let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
-        let (mut named, mut error) = (0, None);
-        while sim.passage_steps() < 4 && error.is_none() {
-            error = sim.step().err();
+        let mut named = Vec::new();
+        while sim.passage_steps() < 2 {
+            sim.step().unwrap();
             let metrics = sim.metrics();
+            assert_eq!(metrics.asked, [1e-6; 2], "of dry steps");
             let [residual, gap] = metrics.asked;
             let is_within = metrics.residual <= residual && metrics.film_error <= gap;
             // What is called converged is so, and the other way round.
-            if error.is_none() && sim.stats().steps > 1 {
-                assert_eq!(metrics.converged, is_within, "{metrics:?}");
+            assert_eq!(metrics.converged, is_within, "{metrics:?}");
+            if !metrics.converged {
+                named.push((metrics.residual, metrics.film_error));
             }
-            named += u32::from(!metrics.converged);
         }
-        (named, error)
+        named
     };
-    let (named, error) = dry(&[]);
-    assert!(named == 0 && error.is_none(), "{error:?}");
-    let (named, error) = dry(&["numerics.tolerance=1e-9"]);
-    println!("tolerance 1e-9: {named} steps named, {error:?}");
-    assert!(named > 0 || error.is_some());
-    // Unlike bodies that drag each other by more than the passes can settle.
-    let unlike = [
-        "body_1.young_pa=5e9",
-        "body_1.poisson=0.1",
-        "friction.boundary=1",
-        "motion.slide_roll=1",
-    ];
-    let (named, error) = dry(&unlike);
-    println!("unlike, friction 1: {named} steps named, {error:?}");
-    let (named, error) = dry(&["numerics.max_iterations=2", "body_1.surface.angle_deg=40"]);
-    println!("few directions: {named} steps named, {error:?}");
-    let Some(StepError::Stalled { unsolved, .. }) = &error else {
-        panic!("{named} steps named, {error:?}");
-    };
-    assert!(unsolved.dry && unsolved.film_error > 0.05);
-    assert!(unsolved.residual_asked == 1e-6 && unsolved.film_error_asked == 1e-6);
+    assert_eq!(dry(&["friction.boundary=0.5"]), []);
+    let named = dry(&["friction.boundary=1"]);
+    println!("residual and gap error of the steps named: {named:?}");
+    // The change of pressure alone would not tell why.
+    assert!(
+        named
+            .iter()
+            .any(|(residual, gap)| *residual < 1e-6 && *gap > 1e-6)
+    );
 }
 
 /// A load turned up by hand is taken as far as its contact stays within the domain, and refused beyond with the

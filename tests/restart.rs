@@ -217,7 +217,7 @@ fn a_spoiled_or_foreign_state_is_refused() {
 #[test]
 fn crafted_states_are_refused_in_words() {
     use serde_json::{Value, json};
-    let scene = scene(&[&SMALL[..], &["grid.nodes=33", "life.cycles=peaks"]].concat());
+    let scene = scene(&[&SMALL[..], &["life.cycles=peaks"]].concat());
     let mut sim = simulation(&scene);
     while sim.passage_steps() < 3 {
         sim.step().unwrap();
@@ -235,7 +235,7 @@ fn crafted_states_are_refused_in_words() {
     let first_history = "/counting/trackers/0/points/0/pressure/flow/capacity";
     let crafted = [
         ("/nodes", huge.clone()),
-        ("/nodes", json!(65)),
+        ("/nodes", json!(129)),
         ("/contact/pressure", shorter("/contact/pressure")),
         ("/contact/sheared", json!([1.0])),
         ("/contact/pressure/100", json!(-1.0)),
