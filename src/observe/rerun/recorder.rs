@@ -19,7 +19,6 @@ use crate::observe::{
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
 
-
 /// Writes a recording.
 pub struct Recorder {
     stream: Stream,
