@@ -265,7 +265,7 @@ impl Raster {
     pub(super) fn log(&self, stream: &Stream, field: Field) -> Result<(), ObserveError> {
         let mut beyond = Beyond::default();
         stream.log_levels(self.image, |halves| {
-            beyond = self.scale.store(field, halves)
+            beyond = self.scale.store(field, halves);
         })?;
         self.last.set(beyond);
         self.all.set(self.all.get().with(beyond));
