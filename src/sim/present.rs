@@ -2,6 +2,7 @@
 //! grounds of cautions.
 
 use super::measure::Measured;
+use super::setup::stress_error;
 use super::{Grounds, Knob, LubricationRegime, MeshErrors, Simulation};
 use crate::plan::{FilmPlan, mesh_error};
 use crate::solve::march::Flow;
@@ -11,6 +12,15 @@ impl Simulation {
     pub(super) fn size_now(&self) -> f64 {
         let load = self.state.drive.get(self.door.load_knob()).now / self.plan.force_n;
         self.door.size_ratio(load)
+    }
+
+    /// Relative error of stress by the mesh, of the bodies that are rough now.
+    pub(super) fn stress_error_now(&self) -> f64 {
+        let amplitudes = [Knob::Amplitude1M, Knob::Amplitude2M];
+        stress_error(
+            &self.plan,
+            amplitudes.map(|knob| self.state.drive.get(knob).now),
+        )
     }
 
     /// Films, regime and mesh error of the committed step.

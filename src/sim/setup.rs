@@ -67,6 +67,7 @@ impl Simulation {
             watched: [0.0; 2],
             counting: stages.counting,
             life: stages.life,
+            smooth: None,
             phase: Phase::Smooth { left: 0 },
             metrics: Metrics::default(),
             stats: Stats::default(),
@@ -88,10 +89,11 @@ impl Simulation {
                 stress: stages.stress,
                 traction: vec![0.0; fine.len()],
                 row_sums: vec![RowSums::default(); fine.ny],
+                smooth: None,
             },
             cuts: cuts(scene),
             iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
-            stress_error: stress_error(&plan),
+            stress_error: stress_error(&plan, [1.0; 2]),
             law: traction_law(scene, &door),
             composite: scene.surfaces().map(rms_share),
             grounds: grounds_of(scene),
@@ -107,7 +109,7 @@ impl Simulation {
         };
         this.make_room();
         this.state.phase = Phase::Smooth {
-            left: this.smooth_steps(first),
+            left: this.smooth_steps(first, this.plan.has_flow()),
         };
         this.state.start_up_steps.1 = this.all_start_up_steps();
         let measured = this.measure();
@@ -347,10 +349,11 @@ fn traction_law(scene: &Scene, door: &Door) -> TractionLaw {
 
 /// Relative error of stress by sampling: that of Hertz's edge, measured at 64 nodes a half-width (4e-4 of
 /// the integral, a tenth of it in stress), and of the shortest wave, (2π/nodes)²/12 of a ripple as high as
-/// the mean. An estimate, not a bound.
-fn stress_error(plan: &Plan) -> f64 {
+/// the mean; of bodies without amplitude none. An estimate, not a bound.
+pub(super) fn stress_error(plan: &Plan, amplitudes_m: [f64; 2]) -> f64 {
     let wave = |nodes: f64| (std::f64::consts::TAU / nodes).powi(2) / 12.0;
-    let waves = plan.waves.iter().flatten();
+    let rough = plan.waves.iter().zip(amplitudes_m);
+    let waves = rough.filter_map(|(wave, amplitude_m)| wave.filter(|_| amplitude_m > 0.0));
     let worst = waves
         .flat_map(|w| w.nodes)
         .filter(|nodes| nodes.is_finite())

@@ -112,6 +112,7 @@ impl Simulation {
                 self.passage_step()
             }
             Phase::Develop { left } => {
+                self.step_smooth()?;
                 self.advance()?;
                 self.state.phase = Phase::Develop { left: left - 1 };
                 self.state.start_up_steps.0 += 1;
@@ -149,6 +150,7 @@ impl Simulation {
     }
 
     fn passage_step(&mut self) -> Result<(), StepError> {
+        self.step_smooth()?;
         let before = self.state.way;
         let held =
             matches!(self.plan.march, Marching::Steady { .. }) && self.state.motion.is_flushed();
@@ -197,13 +199,8 @@ impl Simulation {
             }
             .advance(nodes)
         });
-        self.state.stats.newton_iterations += u64::from(attempted.newton);
-        self.state.stats.linear_iterations += u64::from(attempted.linear);
-        self.state.stats.ffts += self.work.solver.transforms() - transforms;
-        self.state.stats.retries += u64::from(attempted.retries);
-        self.state.stats.halved += u64::from(attempted.halvings > 0);
-        self.state.stats.safer += u64::from(attempted.safer);
-        self.state.stats.rejected += u64::from(attempted.rejected);
+        let made = self.work.solver.transforms() - transforms;
+        self.state.stats.add(&attempted, made);
         if let Some(error) = attempted.fatal(self.state.time_s) {
             return Err(error);
         }

@@ -35,6 +35,7 @@ impl Simulation {
     }
 
     fn measure_stress(&mut self, measured: &Measured) {
+        let stress_error = self.stress_error_now();
         let Some(stress) = &mut self.work.stress else {
             return;
         };
@@ -47,7 +48,6 @@ impl Simulation {
             self.state.phase == Phase::Passage && self.state.way >= self.state.next_volume - 1e-9;
         let flushed = self.state.motion.is_flushed();
         let repeat = self.state.metrics.repeat;
-        let stress_error = self.stress_error;
         self.pool.install(|| {
             stress.slice(p, q, measured.friction);
             if let Some(life) = &mut self.state.life
@@ -195,7 +195,8 @@ impl Simulation {
             n: [self.state.metrics.n_body_1, self.state.metrics.n_body_2],
             slide_roll: self.state.metrics.slide_roll,
             size: self.size_now(),
-            stress_error: self.stress_error,
+            stress_error: self.stress_error_now(),
+            has_reference: self.has_reference_of_now(),
         };
         self.state
             .life

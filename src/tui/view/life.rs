@@ -65,7 +65,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 /// A scene that asks for no life: it is not waited for.
 fn without_life(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
     let dim = app.theme.style(Role::Dim);
-    let words = ["no life in this scene:", "it has no [life] table"];
+    let words = ["no life in this scene", "(no [life] table)"];
     for text in words {
         put(rows.take(1), 0, &Line::styled(text, dim), buffer);
     }

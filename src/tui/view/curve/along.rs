@@ -46,13 +46,14 @@ fn life(app: &App) -> Figure {
     // At ±2 a body stands and the life falls without end: the axis is not for that.
     let known = formula.iter().filter(|place| place.0.abs() < MOVES);
     let known = known.map(|place| place.1);
-    let y = decades(known.chain(points.iter().map(|place| place.1)));
+    let now = app.leading_life().map(f64::log10);
+    let y = decades(known.chain(points.iter().map(|place| place.1)).chain(now));
     Figure {
         name: "life against S",
         formula,
         points,
         knob,
-        now: app.leading_life().map(f64::log10),
+        now,
         x,
         y,
         y_ends: y.map(power),
