@@ -149,22 +149,22 @@ pub const LESSONS: &[Lesson] = &[
         ],
     },
     Lesson {
-        title: "Thin film: from λ = 4 to dry",
+        title: "Thin film: from λ = 5 to dry",
         beats: &[
             Beat {
                 staging: Some(FAST),
-                caption: "Fast: the film is four times as thick as the roughness, λ = 4. Nothing touches; the film's horseshoe shows.",
+                caption: "Fast: the film is five times as thick as the roughness, λ = 5. Nothing touches; the film's horseshoe shows.",
                 map: Some(Film),
                 passages: 1.5,
-                claims: &[claim(Lambda, 3.5, 4.8), claim(ContactPercent, 0.0, 0.01)],
+                claims: &[claim(Lambda, 4.5, 5.5), claim(ContactPercent, 0.0, 0.01)],
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "An eighth of the speed: λ = 1, ripples and film are alike, pressure peaks grow.",
+                caption: "An eighth of the speed: λ = 1.2, ripples and film are alike, pressure peaks grow.",
                 sets: &[(SPEED, TimesHome(0.125))],
                 map: Some(Film),
                 passages: 2.0,
-                claims: &[claim(Lambda, 0.9, 1.2), claim(PeakPressure, 1.2, 3.0)],
+                claims: &[claim(Lambda, 1.0, 1.4), claim(PeakPressure, 1.2, 3.0)],
                 ..Beat::PLAIN
             },
             Beat {
@@ -275,7 +275,7 @@ pub const LESSONS: &[Lesson] = &[
             },
             Beat {
                 staging: Some(on("fzg_pitch_point", &[])),
-                caption: "Pitch point: one pair carries all the load, and rolls: S = 0, n = 1 for both. Crests that enter and leave shift load between the others: 1.3 are counted.",
+                caption: "Pitch point: one pair carries all the load, and rolls: S = 0, n = 1 for both. 1.3 are counted: the oil adds small cycles of its own (dry: 1.0).",
                 map: Some(Pressure),
                 passages: 1.5,
                 claims: &[
@@ -328,8 +328,8 @@ pub const LESSONS: &[Lesson] = &[
                 passages: 2.0,
                 claims: &[
                     claim(PeakDepth, 0.0, 0.3),
-                    claim(Counted2, 1.0, 12.0),
-                    claim(N2, 3.0, 6.0),
+                    claim(Counted2, 2.3, 4.4),
+                    claim(N2, 3.8, 4.5),
                 ],
                 ..Beat::PLAIN
             },
