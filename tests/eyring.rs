@@ -316,13 +316,13 @@ fn what_is_left_of_a_ripple_is_what_the_closed_form_says() {
                 );
             };
             if form.0 == ALONG.0 {
-                within(0.01, closed.left, published);
+                // Two digits.
+                within(0.015, closed.left, published);
                 within(0.03, solver.left, closed.left);
                 within(0.03, solver.pressure, closed.pressure);
-                // In FZG B at 30 um the wave is gone before the window begins, by a factor of ten: read from there it
-                // depends on the window, 4.9 to 6.4 (closed 5.6), and is no more than far from the first order's 10.
-                let tolerance = if closed.decay > 3.0 { 0.2 } else { 0.1 };
-                within(tolerance, solver.decay, closed.decay);
+                // A decay beside a bound wave that itself grows along x: from window to window it differs by a tenth.
+                // In FZG B at 30 um the wave is gone before the window begins, by a factor of ten.
+                within(0.15, solver.decay, closed.decay);
             } else {
                 // The stress, and with it the secant viscosity, falls by a tenth from the centre to the window's ends.
                 within(0.1, solver.left, closed.left);
