@@ -350,7 +350,7 @@ mod tests {
                 });
             }),
             (NoLife, "no life", |m, g| {
-                (m.life, g.has_life) = (None, false)
+                (m.life, g.has_life) = (None, false);
             }),
             (StrengthUnknown, "body 2", |_, g| g.strength[1] = None),
         ];
