@@ -78,7 +78,7 @@ fn a_scene_without_life_or_oil_says_so() {
     bare.lubricant = None;
     let mut app = App::new(setup_of(bare));
     let started = text(&app, 80, 24);
-    assert!(started.contains("starting: dry Hertz") && !started.contains("film"));
+    assert!(started.contains("starting: dry Hertz") && !started.contains("then film"));
     take(&mut app, 1, |metrics| {
         metrics.life = None;
         metrics.lambda_ratio = None;
