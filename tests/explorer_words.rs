@@ -7,7 +7,7 @@ mod tui_fixture;
 use std::sync::Arc;
 use std::time::Duration;
 
-use asperity::sim::{Frame, Metrics, Repeat, Rhythm, Stage};
+use asperity::sim::{Frame, LubricationRegime, Metrics, Repeat, Rhythm, Stage};
 use asperity::tui::action::Action;
 use asperity::tui::app::App;
 use asperity::tui::theme::{ColorDepth, Contrast, Glyphs, Theme};
@@ -82,6 +82,7 @@ fn a_scene_without_life_or_oil_says_so() {
     take(&mut app, 1, |metrics| {
         metrics.life = None;
         metrics.lambda_ratio = None;
+        metrics.regime = LubricationRegime::Dry;
     });
     for (width, height) in [(80, 24), (160, 48)] {
         let shown = text(&app, width, height);
