@@ -1,8 +1,6 @@
 //! What a material point has felt since it entered the contact, against where it was: one hump in
 //! pure rolling, a comb when the mating roughness slides over it, each peak numbered as it passes.
 
-use std::fmt::Write as _;
-
 use rerun::{Points2D, Radius};
 
 use super::centre_line::line;
@@ -228,13 +226,10 @@ fn counts(point: &MaterialPoint, frame: &Frame) -> String {
         1 => frame.metrics.n_body_1,
         _ => frame.metrics.n_body_2,
     };
-    // Writing to a string cannot fail.
-    let mut text = format!("body {}: {} peaks so far", point.body, point.cycles_counted);
-    if let Some(closed) = point.cycles_before {
-        let _ = write!(text, ", {closed} cycles in the crossing before");
-    }
-    if let Some(n) = expected {
-        let _ = write!(text, ", {} expected on average", sig(n, 3));
-    }
-    text
+    let counted = point.cycles_counted;
+    let mut parts = vec![format!("body {}: {counted} peaks so far", point.body)];
+    let before = point.cycles_before;
+    parts.extend(before.map(|closed| format!("{closed} cycles in the crossing before")));
+    parts.extend(expected.map(|n| format!("{} expected on average", sig(n, 3))));
+    parts.join(", ")
 }
