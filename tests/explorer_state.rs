@@ -378,3 +378,27 @@ fn the_mouse_moves_sliders_and_reads_the_map() {
         "the probe reads the pressure"
     );
 }
+
+/// Where the number comes from, what it is against, and the weightiest caution are read on every screen.
+#[test]
+fn the_source_of_the_life_and_its_weightiest_caution_fit_small_screens() {
+    let new = App::new(setup_of(scene()));
+    let mut live = running(plain());
+    let first = live.cautions().first().unwrap().clone();
+    for (width, height) in [(80, 24), (100, 30), (160, 48)] {
+        let screen = text(&new, width, height);
+        assert!(screen.contains("formula"), "{screen}");
+        let screen = text(&live, width, height);
+        assert!(screen.contains("simulated"), "{screen}");
+        assert!(screen.contains("× smooth rolling"), "{screen}");
+        assert!(screen.contains("load"), "{screen}");
+        let more = format!(" +{} i", live.cautions().len() - 1);
+        assert!(screen.contains(&more), "{screen}");
+    }
+    live.apply(Action::Turn(1));
+    for (width, height) in [(80, 24), (160, 48)] {
+        assert!(text(&live, width, height).contains("scaled"));
+    }
+    live.apply(Action::Plan);
+    assert!(text(&live, 160, 48).contains(&first.text));
+}
