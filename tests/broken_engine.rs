@@ -174,7 +174,7 @@ mod test {
         // The same scene again: a new run, whose fault is its own.
         // `e` alone would do; Escape at once before it would be Alt-e to any terminal.
         terminal.press("e");
-        terminal.see("another scene");
+        terminal.see("change the scene");
         terminal.press("\r");
         terminal.wait("new run", |screen| {
             let text = screen.contents();

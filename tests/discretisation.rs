@@ -161,6 +161,27 @@ fn compare(case: &Case, more: &[&str], truth: usize) -> bool {
             1.0,
         ),
         (
+            "touching",
+            summary.contact_ratio,
+            exact.contact_ratio,
+            summary.error_contact_ratio,
+            0.0,
+        ),
+        (
+            "load on it",
+            summary.contact_load_ratio,
+            exact.contact_load_ratio,
+            summary.error_contact_load_ratio,
+            0.0,
+        ),
+        (
+            "friction",
+            summary.friction_coefficient,
+            exact.friction_coefficient,
+            summary.error_friction_coefficient,
+            0.0,
+        ),
+        (
             "ln life",
             ln(summary.life_relative),
             ln(exact.life_relative),

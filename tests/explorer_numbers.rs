@@ -166,7 +166,7 @@ fn check_simulated(screen: &[String], metrics: &Metrics, at: &Closed) {
     assert_eq!(word(head, "p_h "), gpa(at.p_hertz_pa));
     assert_eq!(word(head, "λ "), sig(metrics.lambda_ratio.unwrap(), 2));
     assert_eq!(word(head, " n "), sig(at.n[0].max(at.n[1]), 3));
-    assert_eq!(word(screen, "n by formula"), sig(at.n[0], 3));
+    assert_eq!(word(screen, "expected on average"), sig(at.n[0], 3));
     assert_eq!(word(screen, "U₁ body 1"), sig(at.speeds_m_s[0], 3));
     assert_eq!(word(screen, "U₂ body 2"), sig(at.speeds_m_s[1], 3));
     let sliding = (at.speeds_m_s[1] - at.speeds_m_s[0]).abs();
@@ -230,7 +230,7 @@ fn check_marker(screen: &[String], slide_roll: f64, life: f64) {
         });
         places.collect::<Vec<_>>()
     };
-    let heading = find("y life by S")[0];
+    let heading = find("y life against S")[0];
     let foot = *find("S -2").iter().find(|(x, _)| *x > heading.0).unwrap();
     let marker = find("◉")[0];
     let decade = |y: usize| {

@@ -213,3 +213,22 @@ fn unlike_bodies_slide_alike_by_both_paths() {
     assert!(moved < 1e-5, "{moved}");
     assert!(moment.abs() > 1e-3);
 }
+
+/// A solution that did not converge says by what: the greatest gap or overlap, from a uniform pressure most of what
+/// p_h on a node makes, falling to nothing.
+#[test]
+fn a_dry_solution_tells_the_gap_that_it_leaves() {
+    let left = |directions: usize| {
+        let grid = Grid::new(65, -1.5, 1.5, 1.5, Symmetry::MirrorY);
+        let mut march = March::from_hertz(grid, &CIRCLE, 0.0, 1.0, Flow::Dry);
+        march.state.history.pressure_1.fill(0.0);
+        let mut asked = tolerance(1e-12);
+        asked.max_iterations = directions;
+        march.attempt(&conditions(&DRY, asked), 1.0, Guess::Last)
+    };
+    let reports = [0, 1].map(left);
+    println!("{reports:?}");
+    assert_eq!(reports[0].verdict, Verdict::Stalled);
+    assert!(reports[0].film_error > 0.05 && reports[0].film_error.is_finite());
+    assert!(reports[1].film_error < 1e-3 * reports[0].film_error);
+}

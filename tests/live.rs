@@ -36,12 +36,23 @@ fn a_busy_port_is_told_and_not_served() {
     assert!(error.reason.contains("--serve=PORT"), "{error}");
 }
 
-/// It takes the connection and never reads: the library's own stream would block for ever.
+/// It takes the connection, answers and never reads: the library's own stream would block for ever.
 #[test]
 fn a_frozen_viewer_loses_frames_and_the_file_none() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
-    let (_listener, address) = listener();
+    let (listener, address) = listener();
+    std::thread::spawn(move || {
+        // An empty frame of settings to each, which stays open.
+        let mut held = Vec::new();
+        for mut stream in listener.incoming().flatten() {
+            drop(std::io::Write::write_all(
+                &mut stream,
+                b"\0\0\0\x04\0\0\0\0\0",
+            ));
+            held.push(stream);
+        }
+    });
     let record = Record::default();
     let live = Recorder::live(Live::Connect(address), &record).unwrap();
     let mut live = Queue::spawn_live("frozen", 4, Box::new(live)).unwrap();

@@ -268,3 +268,43 @@ fn oblique_ridges_slide_and_converge() {
         assert!(distance(&frame.film_m, &flipped) > 1e-3);
     }
 }
+
+/// The traction law of a step is that of the knobs as the step has moved them, not as they were before: what traction
+/// does to the pressure of unlike bodies is there in the first step that slides.
+#[test]
+fn traction_bends_the_film_in_the_step_that_shears_it() {
+    let sets = [
+        "grid.nodes=65",
+        "lubricant=none",
+        "motion.slide_roll=0",
+        "body_2.surface.kind=smooth",
+        "record=none",
+    ];
+    let scene = scene("ball_on_glass", &sets);
+    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
+    while sim.passage_steps() < 1 {
+        sim.step().unwrap();
+    }
+    let pressure = |sim: &Simulation| {
+        let mut frame = Frame::default();
+        sim.fill(&mut frame);
+        frame.pressure_pa
+    };
+    let moved = |one: &[f32], two: &[f32]| {
+        let pairs = one.iter().zip(two);
+        let moved: f32 = pairs.map(|(a, b)| (a - b).abs()).sum();
+        moved / one.iter().sum::<f32>()
+    };
+    let rolling = pressure(&sim);
+    sim.set(Knob::SlideRoll, 0.5).unwrap();
+    sim.step().unwrap();
+    let first = pressure(&sim);
+    sim.step().unwrap();
+    let second = pressure(&sim);
+    let (turned, after) = (moved(&rolling, &first), moved(&first, &second));
+    println!(
+        "pressure moved by {turned:.2e} in the first step that slides, by {after:.2e} in the second"
+    );
+    // Dry friction is all there with the first slip.
+    assert!(turned > 1e-3 && after < 1e-5);
+}

@@ -144,13 +144,12 @@ fn what_cannot_be_repeated_is_refused_in_words() {
         scene: Arc::new(scene),
     };
     recorder.begin(&context).unwrap();
-    // As a kill leaves it: finished without a step it would be gone.
-    let killed = folder.path().join("killed.rrd");
-    std::fs::copy(&path, &killed).unwrap();
+    recorder.idle().unwrap();
+    let reason = Recorded::read(&path).unwrap_err().reason;
+    assert!(reason.contains("no step"), "{reason}");
+    // Finished without a step it holds nothing that is worth a file.
     recorder.finish().unwrap();
     assert!(!path.exists());
-    let reason = Recorded::read(&killed).unwrap_err().reason;
-    assert!(reason.contains("no step"), "{reason}");
     // One that went on from a state.
     let path = folder.path().join("state.rrd");
     let mut recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
@@ -159,7 +158,7 @@ fn what_cannot_be_repeated_is_refused_in_words() {
         ..context
     };
     recorder.begin(&context).unwrap();
-    recorder.finish().unwrap();
+    recorder.idle().unwrap();
     let reason = Recorded::read(&path).unwrap_err().reason;
     assert!(reason.contains("--from-state"), "{reason}");
 }

@@ -61,7 +61,7 @@ const SWEEP_EXAMPLES: &str = "\
 Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.
 
 Examples:
-  asperity sweep slide_roll                      21 values of S of the default scene, into ./slide_roll.sweep/
+  asperity sweep slide_roll                      the default scene at 21 values of S, into ./slide_roll.sweep/
   asperity sweep slide_roll --show file > mine.toml    a file to edit
   asperity sweep mine.toml --resume              continues after an interruption
   asperity sweep mine.toml --shard 3/8           the third of eight parts, on this machine or another

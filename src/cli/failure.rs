@@ -20,18 +20,18 @@ pub(crate) struct Failure {
 
 impl Failure {
     /// Bad input: exit code 1.
-    pub(crate) fn input(report: Report) -> Self {
-        Self::new(1, &report)
+    pub(crate) fn input(report: impl Into<Report>) -> Self {
+        Self::new(1, &report.into())
     }
 
     /// A run that broke off: exit code 3.
-    pub(crate) fn stalled(report: Report) -> Self {
-        Self::new(3, &report)
+    pub(crate) fn stalled(report: impl Into<Report>) -> Self {
+        Self::new(3, &report.into())
     }
 
     /// An output that failed: exit code 4.
-    pub(crate) fn output(report: Report) -> Self {
-        Self::new(4, &report)
+    pub(crate) fn output(report: impl Into<Report>) -> Self {
+        Self::new(4, &report.into())
     }
 
     /// The words may hold what a hostile file holds.

@@ -28,8 +28,7 @@ impl Repetition {
 /// Reads the recording.
 #[cfg(feature = "rerun")]
 pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
-    use std::io::Write as _;
-
+    use super::failure::tell;
     use asperity::observe::rerun::Recorded;
     use asperity::scene::Scene;
     use asperity::sim::Knob;
@@ -43,11 +42,10 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
     })?;
     let program = asperity::files::PROGRAM;
     if recorded.program != program {
-        let _ = writeln!(
-            std::io::stderr(),
-            "recorded by {}; this is {program}, so numbers may differ",
-            recorded.program
-        );
+        let by = &recorded.program;
+        tell(&format!(
+            "recorded by {by}; this is {program}, so numbers may differ"
+        ));
     }
     let scene = Scene::from_toml(&recorded.scene_toml)?;
     let mut turns = Vec::with_capacity(recorded.turns.len());

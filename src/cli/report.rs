@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use asperity::math::number::{seconds, sig, sig_or_dash};
 use asperity::run::{End, Outcome};
 use asperity::scene::{ContactKind, Scene};
 use asperity::sim::{Rhythm, Summary};
@@ -15,7 +16,7 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
     }
     if let Some(summary) = &outcome.summary {
         line(&mut text, "run", &run_line(outcome));
-        push_results(&mut text, scene.kind(), summary);
+        push_results(&mut text, scene, summary);
         if let Some(errors) = errors {
             line(&mut text, "discretisation", errors);
         }
@@ -79,35 +80,37 @@ pub(crate) fn stopped(outcome: &Outcome) -> String {
     )
 }
 
-fn push_results(text: &mut String, kind: ContactKind, s: &Summary) {
-    let (unit, zone) = match kind {
-        ContactKind::Point => ("N", "Hertz ellipse"),
-        ContactKind::Line => ("N/m", "Hertz width"),
+fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
+    let zone = match scene.kind() {
+        ContactKind::Point => "Hertz ellipse",
+        ContactKind::Line => "Hertz width",
     };
     let contact = format!(
-        "a {:.1} um, Hertz pressure {:.3} GPa, load {:.1} {unit}",
-        s.a_m * 1e6,
-        s.p_hertz_pa * 1e-9,
-        s.load_n
+        "a {} um, Hertz pressure {} GPa, load {}",
+        sig(s.a_m * 1e6, 4),
+        sig(s.p_hertz_pa * 1e-9, 4),
+        load(scene, s.load_n)
     );
     line(text, "contact", &contact);
     let pressure = format!(
-        "greatest {:.3} GPa = {:.2} of Hertz",
-        s.p_max_pa * 1e-9,
-        s.p_max_pa / s.p_hertz_pa
+        "greatest {} GPa = {} of Hertz; mean of the steps' greatest {} GPa",
+        sig(s.p_max_greatest_pa * 1e-9, 4),
+        sig(s.p_max_greatest_pa / s.p_hertz_pa, 3),
+        sig(s.p_max_pa * 1e-9, 4)
     );
     line(text, "pressure", &pressure);
     let film = format!(
-        "central {:.1} nm, least {:.1} nm; {:.2} % of the {zone} touches",
-        s.h_central_m * 1e9,
-        s.h_min_m * 1e9,
-        s.contact_ratio * 100.0
+        "central {} nm, least {} nm; mean of the steps' least {} nm",
+        nm(s.h_central_m),
+        nm(s.h_min_least_m),
+        nm(s.h_min_m)
     );
     line(text, "film", &film);
+    line(text, "regime", &regime(s, zone));
     line(
         text,
         "friction",
-        &format!("coefficient {:.4}", s.friction_coefficient),
+        &format!("coefficient {}", sig(s.friction_coefficient, 3)),
     );
     if s.n_body_1.is_some() || s.n_body_2.is_some() {
         let cycles = format!(
@@ -123,36 +126,66 @@ fn push_results(text: &mut String, kind: ContactKind, s: &Summary) {
         s.sigma_eff_max_x_m,
     ) {
         let stress = format!(
-            "greatest effective {:.3} GPa, {:.1} um deep at x = {:.1} um",
-            stress * 1e-9,
-            depth * 1e6,
-            x * 1e6
+            "greatest effective {} GPa, {} um deep at x = {} um",
+            sig(stress * 1e-9, 4),
+            sig(depth * 1e6, 3),
+            sig(x * 1e6, 3)
         );
         line(text, "stress", &stress);
     }
     if let Some(repetition) = repetition(s) {
         line(text, "passage", &repetition);
     }
-    push_life(text, s);
+    push_life(text, scene, s);
     let errors = format!("load {:.1e}, mass {:.1e}", s.load_error, s.mass_error);
     line(text, "errors", &errors);
+    for (k, caution) in s.cautions.iter().enumerate() {
+        line(text, if k == 0 { "cautions" } else { "" }, &caution.text);
+    }
 }
 
-fn push_life(text: &mut String, s: &Summary) {
+fn nm(value_m: f64) -> String {
+    sig(value_m * 1e9, 3)
+}
+
+/// A load with the unit of the scene's kind of contact.
+fn load(scene: &Scene, value: f64) -> String {
+    let unit = match scene.kind() {
+        ContactKind::Point => "N",
+        ContactKind::Line => "N/m",
+    };
+    format!("{} {unit}", sig(value, 4))
+}
+
+/// Who carries the load.
+fn regime(s: &Summary, zone: &str) -> String {
+    let lambda = s.lambda_ratio.map_or_else(String::new, |lambda| {
+        let lambda = sig(lambda, 3);
+        format!(", lambda {lambda} (smooth central film by formula over composite roughness)")
+    });
+    format!(
+        "{}{lambda}; {} % of the {zone} touches and carries {} % of the load",
+        s.regime.name(),
+        sig(s.contact_ratio * 100.0, 3),
+        sig(s.contact_load_ratio * 100.0, 3)
+    )
+}
+
+fn push_life(text: &mut String, scene: &Scene, s: &Summary) {
     let Some(life) = s.life_relative else {
         return;
     };
     let band = match (s.life_relative_low, s.life_relative_high) {
-        (Some(low), Some(high)) => format!(" ({} to {})", factor(low), factor(high)),
+        (Some(low), Some(high)) => format!(" ({} to {})", sig(low, 3), sig(high, 3)),
         _ => String::new(),
     };
     let factors = match (s.cycle_factor, s.peak_factor, s.traction_factor) {
         (Some(cycles), Some(peaks), Some(traction)) => {
             format!(
                 " = cycles {} x peaks {} x traction {}",
-                factor(cycles),
-                factor(peaks),
-                factor(traction)
+                sig(cycles, 3),
+                sig(peaks, 3),
+                sig(traction, 3)
             )
         }
         _ => String::new(),
@@ -160,31 +193,28 @@ fn push_life(text: &mut String, s: &Summary) {
     line(
         text,
         "relative life",
-        &format!("{}{band}{factors}", life_text(life)),
+        &format!("{}{band}{factors}", sig(life, 4)),
     );
-    push_life_beside(text, s);
-    if let Some(ratio) = s.survival_ratio.filter(|ratio| *ratio != 1.0) {
-        let what = format!("at the scene's survival every life is {ratio:.3} of that at 50 %");
+    line(
+        text,
+        "",
+        "against the smooth, frictionless contact at S = 0 at the load and speed of now",
+    );
+    if let Some(factor) = s.load_factor.filter(|factor| *factor != 1.0) {
+        let what = format!(
+            "load x {} against the scene's {} and {} m/s; with it the life is {} of the smooth contact's there",
+            sig(factor, 3),
+            load(scene, scene.force_n()),
+            sig(scene.motion.entrainment_m_s, 3),
+            sig(life * factor, 3)
+        );
         line(text, "", &what);
     }
-    line(
-        text,
-        "",
-        "against the smooth, frictionless contact at S = 0 of the same load and geometry;",
-    );
-    line(
-        text,
-        "",
-        "no wear, isothermal, elastic, initiation only; c and e are assumptions",
-    );
-}
-
-/// A relative life with four decimals, or digits that count where it is small.
-fn life_text(life: f64) -> String {
-    if life < SMALL {
-        factor(life)
-    } else {
-        format!("{life:.4}")
+    push_life_beside(text, s);
+    if let Some(ratio) = s.survival_ratio.filter(|ratio| *ratio != 1.0) {
+        let ratio = sig(ratio, 3);
+        let what = format!("at the scene's survival every life is {ratio} of that at 50 %");
+        line(text, "", &what);
     }
 }
 
@@ -197,9 +227,9 @@ fn push_life_beside(text: &mut String, s: &Summary) {
     if let (Some(one), Some(two)) = (s.life_body_1, s.life_body_2) {
         let system = s
             .life_system
-            .map(|life| format!("; both as a system, in time: {}", life_text(life)))
+            .map(|life| format!("; both as a system, in time: {}", four(life)))
             .unwrap_or_default();
-        let (one, two) = (life_text(one), life_text(two));
+        let (one, two) = (four(one), four(two));
         let what = format!("body 1 {one}, body 2 {two}{system}");
         line(text, "bodies", &what);
     }
@@ -207,13 +237,13 @@ fn push_life_beside(text: &mut String, s: &Summary) {
         (s.life_models_low, s.life_models_high, s.life_models)
         && count > 1
     {
-        let (low, high) = (life_text(low), life_text(high));
+        let (low, high) = (four(low), four(high));
         let what =
             format!("{low} to {high} over {count} choices of cycle basis, integral and model");
         line(text, "model spread", &what);
     }
     if let (Some(snapshot), Some(swept)) = (s.life_snapshot, s.life_swept) {
-        let (snapshot, swept) = (life_text(snapshot), life_text(swept));
+        let (snapshot, swept) = (four(snapshot), four(swept));
         let what = format!("snapshot {snapshot}, swept {swept} (bound)");
         line(text, "integrals", &what);
     }
@@ -232,22 +262,26 @@ fn push_life_beside(text: &mut String, s: &Summary) {
     for (body, (pit, depth)) in [s.pit_body_1, s.pit_body_2].iter().zip(depths).enumerate() {
         let Some(pit) = pit else { continue };
         let single = depth
-            .map(|depth| format!("; one cycle a passage below {:.1} um", depth * 1e6))
+            .map(|depth| format!("; one cycle a passage below {} um", sig(depth * 1e6, 3)))
             .unwrap_or_default();
         let what = format!(
-            "body {}: {:.1} um deep, {:.1} um from a crest, damage {:.3} of smooth{single}",
+            "body {}: {} um deep, {} um from a crest, damage {} of smooth{single}",
             body + 1,
-            pit.depth_m * 1e6,
-            pit.place_m * 1e6,
-            pit.damage
+            sig(pit.depth_m * 1e6, 3),
+            sig(pit.place_m * 1e6, 3),
+            sig(pit.damage, 3)
         );
         line(text, "pit starts", &what);
     }
     if let Some(a_iso) = s.a_iso {
-        let what =
-            format!("{a_iso:.3} (side comparison: it holds a penalty of roughness of its own)");
+        let a_iso = sig(a_iso, 3);
+        let what = format!("{a_iso} (side comparison: it holds a penalty of roughness of its own)");
         line(text, "ISO 281 a_ISO", &what);
     }
+}
+
+fn four(life: f64) -> String {
+    sig(life, 4)
 }
 
 /// The discretisation error of a run, from a companion on `nodes` that took `wall_s`.
@@ -255,25 +289,35 @@ pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
     let share = |error: Option<f64>, value: f64| {
         error.map_or_else(
             || "unknown".to_owned(),
-            |error| format!("{:.1} %", 100.0 * error / value),
+            |error| format!("{} %", sig(100.0 * error / value, 2)),
         )
     };
     let life = s.error_ln_life.map_or_else(String::new, |error| {
-        format!(", life a factor of {:.2}", error.exp())
+        format!(", life a factor of {}", sig(error.exp(), 3))
     });
     let limit = match (s.h_central_extrapolated_m, s.life_extrapolated) {
-        (Some(film), Some(life)) => format!(
-            "; extrapolated: central film {:.1} nm, life {life:.4}",
-            1e9 * film
-        ),
-        (Some(film), None) => format!("; extrapolated: central film {:.1} nm", 1e9 * film),
+        (Some(film), Some(life)) => {
+            let (film, life) = (nm(film), four(life));
+            format!("; extrapolated: central film {film} nm, life {life}")
+        }
+        (Some(film), None) => format!("; extrapolated: central film {} nm", nm(film)),
         _ => String::new(),
     };
+    let contact = s.error_contact_ratio.map_or_else(String::new, |error| {
+        format!(
+            ", touching area {} of {} %, load on it {} of {} %",
+            sig(100.0 * error, 2),
+            sig(100.0 * s.contact_ratio, 3),
+            sig_or_dash(s.error_contact_load_ratio.map(|error| 100.0 * error), 2),
+            sig(100.0 * s.contact_load_ratio, 3)
+        )
+    });
     format!(
-        "central film {}, least film {}, greatest pressure {}{life}; from {nodes} nodes in {wall_s:.1} s{limit}",
+        "central film {}, least film {}, greatest pressure {}, friction {}{contact}{life}; from {nodes} nodes in {wall_s:.1} s{limit}",
         share(s.error_h_central_m, s.h_central_m),
         share(s.error_h_min_m, s.h_min_m),
         share(s.error_p_max_pa, s.p_max_pa),
+        share(s.error_friction_coefficient, s.friction_coefficient),
     )
 }
 
@@ -282,11 +326,11 @@ fn repetition(s: &Summary) -> Option<String> {
     let (rhythm, period, repeats) = (s.rhythm?, s.period_s?, s.periodic?);
     let drift = s.period_drift.map_or_else(
         || "not seen twice yet".to_owned(),
-        |drift| format!("drift {:.2} %", 100.0 * drift),
+        |drift| format!("drift {} %", sig(100.0 * drift, 2)),
     );
     let what = match rhythm {
         Rhythm::Steady => "steady".to_owned(),
-        Rhythm::Orbit => format!("both bodies' waves come back after {:.3} ms", 1e3 * period),
+        Rhythm::Orbit => format!("both bodies' waves come back after {}", seconds(period)),
         Rhythm::Statistics => "no common period of both bodies' waves; means".to_owned(),
     };
     let verdict = if repeats {
@@ -297,21 +341,10 @@ fn repetition(s: &Summary) -> Option<String> {
     Some(format!("{verdict}: {what}, {drift}"))
 }
 
-/// Below it a factor shows its power of ten: three decimals would show nothing.
-const SMALL: f64 = 0.01;
-
-fn factor(value: f64) -> String {
-    if value < SMALL {
-        format!("{value:.2e}")
-    } else {
-        format!("{value:.3}")
-    }
-}
-
 fn cycles(formula: Option<f64>, counted: Option<f64>) -> String {
-    let formula = formula.map_or_else(|| "never ends".to_owned(), |n| format!("{n:.2}"));
+    let formula = formula.map_or_else(|| "never ends".to_owned(), |n| sig(n, 3));
     match counted {
-        Some(counted) => format!("{formula} (counted {counted:.2})"),
+        Some(counted) => format!("{formula} (counted {})", sig(counted, 3)),
         None => formula,
     }
 }

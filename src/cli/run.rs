@@ -60,6 +60,8 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     if let Some(path) = &headless.save_state {
         overwrite.check(path)?;
     }
+    // From the first file on a signal ends the run in order.
+    let interrupt = stop_on_signals()?;
     let mut outputs = Outputs::open(args, &prepared.scene, &path, Pace::Headless)?;
     let request = Request {
         name: prepared.name.clone(),
@@ -78,7 +80,6 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         None => Session::repeat(request, turns),
         Some(saved) => Session::resume(request, saved),
     }?;
-    let interrupt = stop_on_signals()?;
     wait(&session, estimate_s, &interrupt, "");
     let mut outcome = session.join()?;
     let errors = if is_plain {

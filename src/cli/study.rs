@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use asperity::files::write_whole;
 use asperity::study::accuracy::{
     accuracy, accuracy_table, accuracy_text, life_plot, work_precision_plot,
 };
@@ -158,7 +159,8 @@ fn write(folder: &Path, files: &[(String, String)]) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| failed(folder, &error))?;
     for (name, text) in files {
         let path = folder.join(name);
-        std::fs::write(&path, text).map_err(|error| failed(&path, &error))?;
+        let written = write_whole(&path, true, |at| std::fs::write(at, text));
+        written.map_err(|error| failed(&path, &error))?;
     }
     Ok(())
 }

@@ -42,13 +42,13 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         _ if args.shard != Shard::WHOLE => Existing::Resume,
         _ => Existing::Refuse,
     };
+    let progress = Arc::new(Progress::default());
+    watch_signals(&progress)?;
     let folder = Folder::create(&root, &sweep, existing)?;
     let threads = args.threads.map_or_else(
         || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
         usize::from,
     );
-    let progress = Arc::new(Progress::default());
-    watch_signals(&progress)?;
     let began = Instant::now();
     let report = with_bar(&progress, "", || {
         run(&sweep, &folder, args.shard, threads, &progress)

@@ -76,7 +76,15 @@ impl Overwrite {
         let written = match self.look(path)? {
             There::Device => writer(path),
             There::Nothing => write_whole(path, false, writer),
-            There::File(real) => write_whole(&real, true, writer),
+            There::File(real) => write_whole(&real, true, |at| {
+                let value = writer(at)?;
+                // Where the system has none the new file has its usual ones.
+                drop(
+                    std::fs::metadata(&real)
+                        .map(|old| std::fs::set_permissions(at, old.permissions())),
+                );
+                Ok(value)
+            }),
         };
         written.map_err(|error| refused(path, &error))
     }
@@ -88,37 +96,30 @@ impl Overwrite {
     pub(super) fn open(self, path: &Path) -> Result<(File, Placed), ObserveError> {
         let failed = |error: std::io::Error| refused(path, &error);
         let new = |at: &Path| OpenOptions::new().write(true).create_new(true).open(at);
-        let mut placed = Placed {
-            target: path.to_owned(),
-            at: path.to_owned(),
-            lock: None,
-            holds_something: false,
-            is_device: false,
-            is_settled: false,
-        };
-        let file = match self.look(path)? {
+        // A `Placed` is made of a file of this run's own only: it may take that away again.
+        let (file, mut placed) = match self.look(path)? {
             There::Device => {
+                let file = OpenOptions::new().write(true).open(path).map_err(failed)?;
+                let mut placed = Placed::new(path, path);
                 placed.is_device = true;
-                OpenOptions::new().write(true).open(path).map_err(failed)?
+                (file, placed)
             }
             There::Nothing => {
                 let file = new(path).map_err(failed)?;
+                let mut placed = Placed::new(path, path);
                 placed.lock = Some(file.try_clone().map_err(failed)?);
-                file
+                (file, placed)
             }
             There::File(real) => {
                 let old = std::fs::metadata(&real).map_err(failed)?;
-                if old.permissions().readonly() {
-                    return Err(failed(ErrorKind::PermissionDenied.into()));
-                }
-                // A file that may be written but not read is not locked.
-                placed.lock = File::open(&real).ok();
-                placed.at = part_of(&real);
-                placed.target = real;
-                let file = new(&placed.at).map_err(failed)?;
+                let part = part_of(&real);
+                let file = new(&part).map_err(failed)?;
                 // Where the system has none the new file has its usual ones.
                 drop(file.set_permissions(old.permissions()));
-                file
+                let mut placed = Placed::new(&real, &part);
+                // A file that may be written but not read is not locked.
+                placed.lock = File::open(&real).ok();
+                (file, placed)
             }
         };
         placed.take_lock(path)?;
@@ -141,6 +142,9 @@ impl Overwrite {
                 Err(_) => refuse("a link to a file that is not there; take the link away"),
                 Ok(there) if there.is_dir() => refuse("a folder has this name"),
                 Ok(there) if !there.is_file() => Ok(There::Device),
+                Ok(there) if there.permissions().readonly() => {
+                    Err(refused(path, &ErrorKind::PermissionDenied.into()))
+                }
                 Ok(_) => path
                     .canonicalize()
                     .map(There::File)
@@ -175,6 +179,17 @@ pub(super) struct Placed {
 }
 
 impl Placed {
+    fn new(target: &Path, at: &Path) -> Self {
+        Self {
+            target: target.to_owned(),
+            at: at.to_owned(),
+            lock: None,
+            holds_something: false,
+            is_device: false,
+            is_settled: false,
+        }
+    }
+
     /// Refuses a file that another run holds. Where the system knows no locks there is none to respect.
     fn take_lock(&mut self, path: &Path) -> Result<(), ObserveError> {
         // Elsewhere a lock also keeps readers out, such as a viewer that looks on.
@@ -195,6 +210,7 @@ impl Placed {
     }
 
     /// Where it is written: its name, or beside the file that it will replace.
+    #[cfg(feature = "rerun")]
     pub(super) fn at(&self) -> &Path {
         &self.at
     }
@@ -250,5 +266,58 @@ impl Drop for Placed {
     fn drop(&mut self) {
         // Nobody is left to tell.
         drop(self.settle());
+    }
+}
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+    use std::io::Write as _;
+
+    fn read(path: &Path) -> Option<String> {
+        std::fs::read_to_string(path).ok()
+    }
+
+    #[test]
+    fn a_refused_or_empty_output_takes_nothing_away() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.csv");
+        std::fs::write(&path, "mine").unwrap();
+        assert!(Overwrite::Refuse.open(&path).is_err());
+        assert!(Overwrite::Refuse.check(&path).is_err());
+        drop(Overwrite::Replace.open(&path).unwrap());
+        assert_eq!(read(&path).as_deref(), Some("mine"));
+        // What holds something is worth it, finished or not.
+        let (mut file, mut placed) = Overwrite::Replace.open(&path).unwrap();
+        file.write_all(b"new").unwrap();
+        placed.hold();
+        assert_eq!(read(&path).as_deref(), Some("mine"));
+        drop(placed);
+        assert_eq!(read(&path).as_deref(), Some("new"));
+        // A new name that nothing came for is free again.
+        let other = folder.path().join("other.csv");
+        drop(Overwrite::Refuse.open(&other).unwrap());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_has_one_writer_and_keeps_its_permissions() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.csv");
+        let held = Overwrite::Refuse.open(&path).unwrap();
+        let second = Overwrite::Replace.open(&path).unwrap_err();
+        assert!(second.reason.contains("another run"), "{second}");
+        assert!(path.exists());
+        drop(held);
+        std::fs::write(&path, "mine").unwrap();
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o640)).unwrap();
+        Overwrite::Replace.write(&path, b"new").unwrap();
+        assert_eq!(path.metadata().unwrap().permissions().mode() & 0o777, 0o640);
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o440)).unwrap();
+        assert!(Overwrite::Replace.write(&path, b"newer").is_err());
+        assert_eq!(read(&path).as_deref(), Some("new"));
     }
 }

@@ -312,7 +312,10 @@ pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
         leave("time steps", why);
     }
     match plan.symmetry {
-        Symmetry::MirrorY => leave("rows y < 0", "both surfaces are even in y: mirrored"),
+        Symmetry::MirrorY => leave(
+            "rows y < 0",
+            "both surfaces are symmetric in y, so half of the rows is enough",
+        ),
         Symmetry::Line => leave("flow and gap along y", "line contact: uniform along y"),
         Symmetry::General => {}
     }
@@ -335,7 +338,7 @@ pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
             if !surface.has_block() {
                 leave(
                     stage,
-                    "its height map stands once: no place on it comes back",
+                    "its height map occurs once only, so no place on it comes back",
                 );
             }
         }

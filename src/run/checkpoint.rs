@@ -49,7 +49,7 @@ pub enum CheckpointError {
         reason: String,
     },
     /// The scene that it was saved with cannot be read any more: another version, or a height map that changed.
-    #[error("the scene of the saved state is refused: {0}")]
+    #[error("the saved state's own scene: {0}")]
     SavedScene(String),
     /// It belongs to another scene.
     #[error("the saved state belongs to another scene: {0} differs")]

@@ -156,6 +156,11 @@ fn set_errors(fine: &mut Summary, coarse: &Summary, crest: Crest) {
     let ripple = (fine.p_max_pa - fine.p_hertz_pa).max(0.0);
     let missed = crest.hertz * fine.p_hertz_pa + crest.ripple * ripple;
     fine.error_p_max_pa = Some(EXTREMES * apart(fine.p_max_pa, coarse.p_max_pa) + missed);
+    fine.error_contact_ratio = Some(EXTREMES * apart(fine.contact_ratio, coarse.contact_ratio));
+    let loads = apart(fine.contact_load_ratio, coarse.contact_load_ratio);
+    fine.error_contact_load_ratio = Some(EXTREMES * loads);
+    let frictions = apart(fine.friction_coefficient, coarse.friction_coefficient);
+    fine.error_friction_coefficient = Some(EXTREMES * frictions);
     let lives = fine.life_relative.zip(coarse.life_relative);
     fine.error_ln_life = lives.map(|(one, two)| (one / two).ln().abs());
     fine.h_central_extrapolated_m = Some(limit(fine.h_central_m, coarse.h_central_m));

@@ -39,7 +39,8 @@ pub(super) struct Counting {
 /// Counted and equivalent cycles of a body by depth, on one basis.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 struct Profile {
-    known: Option<()>,
+    /// Whether a crossing has been counted.
+    is_known: bool,
     counted: Vec<f64>,
     equivalent: Vec<f64>,
 }
@@ -79,7 +80,7 @@ impl Counting {
             MaterialTracker::new(tracker)
         };
         let profile = Profile {
-            known: None,
+            is_known: false,
             counted: vec![1.0; spec.depths],
             equivalent: vec![1.0; spec.depths],
         };
@@ -142,7 +143,7 @@ impl Counting {
             tracker.restart(way);
         }
         for profile in self.profiles.iter_mut().flatten() {
-            profile.known = None;
+            profile.is_known = false;
         }
     }
 
@@ -179,8 +180,7 @@ impl Counting {
             for basis in [DamageBasis::Ranges, DamageBasis::Peaks] {
                 let profile = &mut self.profiles[i][basis_index(basis)];
                 let (counted, equivalent) = (&mut profile.counted, &mut profile.equivalent);
-                let known = self.trackers[i].cycles_by_depth(basis, counted, equivalent);
-                profile.known = known.then_some(());
+                profile.is_known = self.trackers[i].cycles_by_depth(basis, counted, equivalent);
             }
         }
         let shown = self.shown_body;
@@ -221,14 +221,15 @@ impl Counting {
             CycleBasis::Global | CycleBasis::Depth => return None,
         };
         let profile = &self.profiles[body.index()][basis_index(basis)];
-        profile.known?;
-        Some(CycleProfile::Counted(&profile.equivalent))
+        profile
+            .is_known
+            .then_some(CycleProfile::Counted(&profile.equivalent))
     }
 
     /// Counts of signed shear by depth; `None` until a crossing has been counted.
     pub(super) fn shear_counts(&self, body: BodyId) -> Option<&[f64]> {
         let profile = &self.profiles[body.index()][basis_index(DamageBasis::Ranges)];
-        profile.known.map(|()| &profile.counted[..])
+        profile.is_known.then_some(&profile.counted[..])
     }
 
     /// Damage map of a body, and the damage of the worst point of the smooth contact of `size` times the scene's.

@@ -11,6 +11,7 @@ use super::counting::Counting;
 use super::frame::{LifeDetail, LifeEstimate, Repeat};
 use super::reference::Calibration;
 use super::settling::Settling;
+use super::smooth::Conditions;
 use super::stress_stage::StressStage;
 use super::variant::{Shared, Variant, models};
 use crate::physics::cycles::BodyId;
@@ -31,6 +32,8 @@ pub(super) struct Now {
     pub(super) size: f64,
     /// Relative error of stress.
     pub(super) stress_error: f64,
+    /// Whether the reference is that of the load and speed that the knobs go to.
+    pub(super) has_reference: bool,
 }
 
 /// Life models under way.
@@ -51,6 +54,8 @@ pub(super) struct LifeStage {
     pub(super) sides: f64,
     /// Hertz half-width, over the scene's, for which the reference was computed.
     pub(super) reference_size: f64,
+    /// Load and speed for which it was.
+    pub(super) reference_at: Conditions,
     /// Cycles of the smooth contact of that size.
     pub(super) reference_cycles: Option<f64>,
     settling: Settling,
@@ -101,6 +106,7 @@ impl LifeStage {
                 ContactKind::Line => 1.0,
             },
             reference_size: 1.0,
+            reference_at: Conditions::default(),
             reference_cycles: None,
             settling: Settling::new(law, scene.numerics.tolerance),
         })
@@ -262,7 +268,7 @@ impl LifeStage {
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
-            settled: self.settling.has_settled(),
+            settled: now.has_reference && self.settling.has_settled(),
             detail: LifeDetail {
                 model: Some(self.asked.model),
                 body: body.index() as u8 + 1,

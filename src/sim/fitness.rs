@@ -6,6 +6,7 @@
 
 use super::setup::{COARSEST, grid_of};
 use super::simulation::{Phase, Simulation};
+use super::smooth::Conditions;
 use super::stress_stage::StressStage;
 use super::{Knob, SimError, State};
 use crate::plan::Plan;
@@ -45,6 +46,13 @@ impl Simulation {
             "its fields do not fill the grid",
         )?;
         demand(state.contact.is_sound(), "its pressures are below zero")?;
+        if let Some(smooth) = &state.smooth {
+            let known = climb(&self.plan).any(|n| n == smooth.nodes);
+            demand(
+                known && smooth.fits(grid(smooth.nodes).len(), unlike),
+                "its smooth contact does not fill a grid",
+            )?;
+        }
         let fine = grid(finest);
         demand(state.orbit.fits(fine.len()), "its orbit is spoiled")?;
         demand(
@@ -71,7 +79,7 @@ impl Simulation {
         let start_up = self.state.start_up_steps.1.max(1);
         let on_finest = state.nodes == self.plan.domain.nodes;
         let phase_fits = match state.phase {
-            Phase::Smooth { left } => left <= self.smooth_steps(state.nodes),
+            Phase::Smooth { left } => left <= self.smooth_steps(state.nodes, self.plan.has_flow()),
             Phase::Settle { coarse, fine } => {
                 on_finest && coarse.max(fine) <= LONGEST_SETTLING * start_up
             }
@@ -92,7 +100,17 @@ impl Simulation {
         if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {
             demand(own.same_waves(saved), "its life is of other waves")?;
         }
-        for drive in [&state.drive, &state.wanted] {
+        let smooth = state.smooth.as_ref();
+        demand(
+            smooth.is_none_or(|smooth| {
+                smooth.left <= self.smooth_steps(smooth.nodes, true) && self.can_be(smooth.at)
+            }),
+            "its smooth contact is none of this scene's",
+        )?;
+        for drive in [&state.drive, &state.wanted]
+            .into_iter()
+            .chain(smooth.map(|smooth| &smooth.drive))
+        {
             for knob in Knob::ALL {
                 let (own, saved) = (self.state.drive.get(knob), drive.get(knob));
                 let both = [saved.now, saved.target];
@@ -103,6 +121,11 @@ impl Simulation {
             }
         }
         Ok(())
+    }
+
+    fn can_be(&self, at: Conditions) -> bool {
+        self.can_stand_at(self.door.load_knob(), at.load)
+            && self.can_stand_at(Knob::EntrainmentMS, at.speed_m_s)
     }
 
     /// Whether a knob can stand there, on its way too.

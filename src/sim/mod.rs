@@ -22,6 +22,7 @@ mod regime;
 mod settling;
 mod setup;
 mod simulation;
+mod smooth;
 mod start_up;
 mod state;
 mod stats;

@@ -4,12 +4,13 @@
 //! I_ref(now)  = I_ref(where it was computed) r^g            r: ratio of Hertz half-widths, g: LifeModel::growth
 //! load_factor = [I_ref(base)/I_ref(now)]^{1/e}              both in the scene's units
 //! ```
-//! The start-up computes it for the load and speed that the scene begins with, the base. On the way to others it grows
-//! as Hertz contacts do.
+//! The start-up computes it for the load and speed that the scene begins with, the base, and [`super::smooth`] for
+//! others. On the way there it grows as Hertz contacts do.
 
 use serde::{Deserialize, Serialize};
 
 use super::fatigue_stage::LifeStage;
+use super::smooth::Conditions;
 use super::stress_stage::StressStage;
 use super::variant::Variant;
 use crate::physics::cycles::BodyId;
@@ -30,21 +31,22 @@ pub(super) struct Calibration {
 
 impl LifeStage {
     /// Takes the smooth contact as the reference, and as the base.
-    pub(super) fn set_reference(&mut self, stress: &mut StressStage) {
-        self.reference_size = 1.0;
+    pub(super) fn set_reference(&mut self, stress: &mut StressStage, at: Conditions) {
+        (self.reference_size, self.reference_at) = (1.0, at);
         self.measure_reference(stress);
     }
 
     /// Takes the smooth contact of `size` times the scene's as the reference of now; the base, and what has been
     /// sampled, stay.
-    pub(super) fn move_reference(&mut self, stress: &mut StressStage, size: f64) {
+    pub(super) fn move_reference(&mut self, stress: &mut StressStage, size: f64, at: Conditions) {
         let mut blank = self.clone();
         blank.reference_size = size;
         blank.measure_reference(stress);
         for (own, blank) in self.variants.iter_mut().zip(&blank.variants) {
             own.move_reference(blank);
         }
-        (self.reference_size, self.reference_cycles) = (size, blank.reference_cycles);
+        (self.reference_size, self.reference_at) = (size, at);
+        self.reference_cycles = blank.reference_cycles;
     }
 
     fn measure_reference(&mut self, stress: &mut StressStage) {
@@ -56,14 +58,14 @@ impl LifeStage {
         self.reference_cycles = self.calibrate(stress);
     }
 
-    /// Begins with the base of a stage that [`Self::fits`].
-    pub(super) fn take_base(&mut self, other: &Self) {
+    /// Begins with the base of a stage that [`Self::fits`], which is that of the conditions `at`.
+    pub(super) fn take_base(&mut self, other: &Self, at: Conditions) {
         for (own, other) in self.variants.iter_mut().zip(&other.variants) {
             own.take_base(other);
         }
         // Cycles at the base by the same law as they were carried on from there.
         let back = self.cycles_ratio(1.0 / other.reference_size);
-        self.reference_size = 1.0;
+        (self.reference_size, self.reference_at) = (1.0, at);
         self.reference_cycles = other.reference_cycles.map(|cycles| cycles * back);
     }
 
@@ -123,9 +125,15 @@ impl LifeStage {
         (body, form): (BodyId, VolumeIntegral),
         size: f64,
     ) -> f64 {
+        let (ln_base, ln_now) = (
+            variant.ln_base(body, form),
+            self.ln_reference(variant, (body, form), size),
+        );
+        if ln_base == ln_now && size == 1.0 {
+            // Below a fatigue limit both are −∞.
+            return 1.0;
+        }
         let width = variant.model.width(self.sides) * size.ln();
-        let ln_now = self.ln_reference(variant, (body, form), size) + width;
-        self.law
-            .integral_factor(variant.ln_base(body, form), ln_now)
+        self.law.integral_factor(ln_base, ln_now + width)
     }
 }

@@ -11,6 +11,7 @@ use super::door::Door;
 use super::drive::Drive;
 use super::knob::Knob;
 use super::motion::Motion;
+use super::smooth::Conditions;
 use crate::plan::{FilmPlan, Plan};
 use crate::solve::march::Flow;
 use crate::solve::newton::Tolerance;
@@ -49,9 +50,25 @@ impl Regime {
     /// The smooth film by formula at the knobs' present values; `None`: the scene has no oil.
     pub(super) fn film_now(&self, door: &Door, drive: &Drive) -> Option<FilmPlan> {
         let now = |knob| drive.get(knob).now;
-        let speed = now(Knob::EntrainmentMS) / self.speed_m_s;
-        let load = now(door.load_knob()) / self.force;
+        self.film_at(Conditions {
+            load: now(door.load_knob()),
+            speed_m_s: now(Knob::EntrainmentMS),
+        })
+    }
+
+    /// The same at a load and a speed.
+    pub(super) fn film_at(&self, at: Conditions) -> Option<FilmPlan> {
+        let base = self.base();
+        let (speed, load) = (at.speed_m_s / base.speed_m_s, at.load / base.load);
         self.film.map(|film| film.at(speed, load))
+    }
+
+    /// The scene's own load and speed.
+    pub(super) fn base(&self) -> Conditions {
+        Conditions {
+            load: self.force,
+            speed_m_s: self.speed_m_s,
+        }
     }
 
     /// Flow at the knobs' present values.

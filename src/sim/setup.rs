@@ -67,6 +67,7 @@ impl Simulation {
             watched: [0.0; 2],
             counting: stages.counting,
             life: stages.life,
+            smooth: None,
             phase: Phase::Smooth { left: 0 },
             metrics: Metrics::default(),
             stats: Stats::default(),
@@ -88,6 +89,7 @@ impl Simulation {
                 stress: stages.stress,
                 traction: vec![0.0; fine.len()],
                 row_sums: vec![RowSums::default(); fine.ny],
+                smooth: None,
             },
             cuts: cuts(scene),
             iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
@@ -107,7 +109,7 @@ impl Simulation {
         };
         this.make_room();
         this.state.phase = Phase::Smooth {
-            left: this.smooth_steps(first),
+            left: this.smooth_steps(first, this.plan.has_flow()),
         };
         this.state.start_up_steps.1 = this.all_start_up_steps();
         let measured = this.measure();

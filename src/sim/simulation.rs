@@ -112,6 +112,7 @@ impl Simulation {
                 self.passage_step()
             }
             Phase::Develop { left } => {
+                self.step_smooth()?;
                 self.advance()?;
                 self.state.phase = Phase::Develop { left: left - 1 };
                 self.state.start_up_steps.0 += 1;
@@ -149,6 +150,7 @@ impl Simulation {
     }
 
     fn passage_step(&mut self) -> Result<(), StepError> {
+        self.step_smooth()?;
         let before = self.state.way;
         let held =
             matches!(self.plan.march, Marching::Steady { .. }) && self.state.motion.is_flushed();
@@ -158,6 +160,10 @@ impl Simulation {
                     .motion
                     .dt_s(&self.work.solver.grid, &self.door, &self.state.drive);
             let held = Attempted::held(&self.state.metrics, self.state.motion.nodes);
+            // The contact rests, the bodies do not: material points cross it.
+            let s = self.state.drive.get(Knob::SlideRoll).now;
+            let grid = &self.work.solver.grid;
+            self.state.motion.travel(grid, held.nodes, s);
             self.watch(&held);
             self.state.way += held.nodes * self.work.solver.grid.dx;
         } else {
@@ -193,13 +199,8 @@ impl Simulation {
             }
             .advance(nodes)
         });
-        self.state.stats.newton_iterations += u64::from(attempted.newton);
-        self.state.stats.linear_iterations += u64::from(attempted.linear);
-        self.state.stats.ffts += self.work.solver.transforms() - transforms;
-        self.state.stats.retries += u64::from(attempted.retries);
-        self.state.stats.halved += u64::from(attempted.halvings > 0);
-        self.state.stats.safer += u64::from(attempted.safer);
-        self.state.stats.rejected += u64::from(attempted.rejected);
+        let made = self.work.solver.transforms() - transforms;
+        self.state.stats.add(&attempted, made);
         if let Some(error) = attempted.fatal(self.state.time_s) {
             return Err(error);
         }

@@ -17,7 +17,7 @@ impl Simulation {
             self.state.nodes = next;
             self.solve_on(next);
             self.state.phase = Phase::Smooth {
-                left: self.smooth_steps(next),
+                left: self.smooth_steps(next, self.plan.has_flow()),
             };
             return self.step_within();
         }
@@ -27,11 +27,12 @@ impl Simulation {
             h_min: (coarser.h_min / measured.h_min - 1.0).abs(),
             p_max: (coarser.p_max / measured.p_max - 1.0).abs() + self.stress_error,
         });
+        let base = self.regime.base();
         if let (Some(stress), Some(life)) = (&mut self.work.stress, &mut self.state.life) {
             let (p, q) = (&self.state.contact.pressure, &self.work.traction);
             self.pool.install(|| {
                 stress.slice(p, q, 0.0);
-                life.set_reference(stress);
+                life.set_reference(stress, base);
                 if let Some(counting) = &mut self.state.counting {
                     counting.set_reference(stress, 1.0);
                 }
@@ -68,9 +69,9 @@ impl Simulation {
     }
 
     /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, the
-    /// finer ones lose the error of interpolation. Without a film one solve is enough.
-    pub(super) fn smooth_steps(&self, nodes: usize) -> u64 {
-        if !self.plan.has_flow() {
+    /// finer ones lose the error of interpolation. Without flow one solve is enough.
+    pub(super) fn smooth_steps(&self, nodes: usize, flows: bool) -> u64 {
+        if !flows {
             return 2;
         }
         let length = self.plan.domain.x_max_a - self.plan.domain.x_min_a;
@@ -89,14 +90,14 @@ impl Simulation {
         climb(&self.plan)
             .map(|nodes| {
                 let dx = length / (nodes - 1) as f64;
-                self.smooth_steps(nodes) as f64 * self.state.motion.nodes * dx
+                self.smooth_steps(nodes, self.plan.has_flow()) as f64 * self.state.motion.nodes * dx
             })
             .sum()
     }
 
     pub(super) fn all_start_up_steps(&self) -> u64 {
         let smooth: u64 = climb(&self.plan)
-            .map(|nodes| self.smooth_steps(nodes))
+            .map(|nodes| self.smooth_steps(nodes, self.plan.has_flow()))
             .sum();
         let dx = self.plan.domain.dx_a();
         smooth + (DEVELOP / (self.state.motion.nodes * dx)).ceil() as u64

@@ -18,6 +18,7 @@ use super::orbit::Orbit;
 use super::pace::Pace;
 use super::setup::grid_of;
 use super::simulation::{Phase, Simulation};
+use super::smooth::{Smooth, SmoothWork};
 use super::stepping::place_surfaces;
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
@@ -39,6 +40,8 @@ pub struct State {
     pub(super) watched: [f64; 2],
     pub(super) counting: Option<Counting>,
     pub(super) life: Option<LifeStage>,
+    /// On its way to the reference of now; `None`: that is known.
+    pub(super) smooth: Option<Smooth>,
     pub(super) phase: Phase,
     pub(super) metrics: Metrics,
     pub(super) stats: Stats,
@@ -66,6 +69,7 @@ pub(super) struct Work {
     pub(super) stress: Option<StressStage>,
     pub(super) traction: Vec<f64>,
     pub(super) row_sums: Vec<RowSums>,
+    pub(super) smooth: Option<SmoothWork>,
 }
 
 impl State {
@@ -132,7 +136,7 @@ impl Simulation {
         state.nodes = neighbour.nodes;
         state.contact.clone_from(&neighbour.contact);
         if let (Some(own), Some(other)) = (&mut state.life, &neighbour.life) {
-            own.take_base(other);
+            own.take_base(other, self.regime.base());
         }
         if let (Some(own), Some(other)) = (&mut state.counting, &neighbour.counting) {
             own.take_reference(other);
@@ -151,6 +155,11 @@ impl Simulation {
             &self.state.motion,
             &self.door,
         );
+        self.slice_again();
+    }
+
+    /// The slices below the run's own contact.
+    pub(super) fn slice_again(&mut self) {
         let measured = self.measure();
         let on_fine = self.state.nodes == self.plan.domain.nodes;
         if on_fine && self.stage_has_stress() {

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::stepping::Attempted;
+
 /// How much work a run has done so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Stats {
@@ -32,6 +34,17 @@ pub struct Stats {
 }
 
 impl Stats {
+    /// Adds up the work of a step, for which so many transforms were made.
+    pub(super) fn add(&mut self, step: &Attempted, transforms: u64) {
+        self.newton_iterations += u64::from(step.newton);
+        self.linear_iterations += u64::from(step.linear);
+        self.ffts += transforms;
+        self.retries += u64::from(step.retries);
+        self.halved += u64::from(step.halvings > 0);
+        self.safer += u64::from(step.safer);
+        self.rejected += u64::from(step.rejected);
+    }
+
     /// Every counter.
     pub(super) fn all(&self) -> [u64; 9] {
         let Self {

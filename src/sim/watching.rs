@@ -196,6 +196,7 @@ impl Simulation {
             slide_roll: self.state.metrics.slide_roll,
             size: self.size_now(),
             stress_error: self.stress_error_now(),
+            has_reference: self.has_reference_of_now(),
         };
         self.state
             .life

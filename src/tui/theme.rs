@@ -337,7 +337,7 @@ fn basic_on_white(role: Role) -> Color {
         Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Blue,
         Role::Body2 | Role::Shear => Color::Magenta,
         Role::Pressure | Role::Peaks | Role::Bad => Color::Red,
-        Role::Film | Role::Formula => Color::Blue,
+        Role::Film | Role::Formula => Color::Cyan,
         Role::Traction | Role::Good => Color::Green,
     }
 }

@@ -176,22 +176,31 @@ impl Trace {
         } else {
             first.x_min_m + length
         };
-        let each = settled.period_s / settled.frames.len() as f64;
+        // At the frames' own times: a period is no whole number of steps, and a crossing that is a part of a step
+        // out of phase has teeth that nobody computed.
+        let frames = settled.frames.len() as i64;
+        let of_period = |n: i64| &settled.frames[n.rem_euclid(frames) as usize];
+        let time_of = |n: i64| {
+            let since = of_period(n).time_s - first.time_s;
+            settled.period_s * n.div_euclid(frames) as f64 + since
+        };
         let mut counter = Counter::new(0.05 * first.p_hertz_pa);
         let mut trace = Self {
             body: point.body,
             depth_m: depth_of(first, point),
             ..Self::default()
         };
-        let mut step = (entered_s / each).ceil();
+        let mut n = (entered_s / settled.period_s).floor() as i64 * frames;
+        while time_of(n) < entered_s {
+            n += 1;
+        }
         loop {
-            let t = step * each;
+            let t = time_of(n);
             let x_m = x_in + speed * (t - entered_s);
             if (x_m - x_in).abs() > length || trace.before.len() == CAPACITY {
                 break;
             }
-            let place = (step as i64).rem_euclid(settled.frames.len() as i64) as usize;
-            let mut sample = sample(&settled.frames[place], point, x_m);
+            let mut sample = sample(of_period(n), point, x_m);
             let tick = counter.push(&sample);
             sample.cycles = f64::from(counter.peaks.passed());
             trace.before.push(sample);
@@ -199,7 +208,7 @@ impl Trace {
                 trace.current.push(sample);
                 trace.ticks.extend(tick);
             }
-            step += 1.0;
+            n += 1;
         }
         trace.counted = Some(counter.finish());
         Some(trace)
@@ -315,16 +324,17 @@ mod tests {
         assert_eq!(trace.ticks(), []);
     }
 
-    /// A ripple that stands on body 2 under a dome, S = 0.5: body 1 is overtaken by its crests.
-    #[test]
-    fn a_replayed_crossing_counts_the_crests_of_the_mate() {
-        let (n, period_s) = (200_usize, 1.0 / 1.25);
-        let frame = |k: usize| {
-            let t = period_s * k as f64 / n as f64;
+    /// One period, in so many steps, of a ripple that stands on body 2 under a dome.
+    fn ripple(slide_roll: f64, steps: u32) -> Settled {
+        let speed = 1.0 + 0.5 * slide_roll;
+        let period_s = 1.0 / speed;
+        let step_s = period_s / (f64::from(steps) - 0.2);
+        let frame = |k: u32| {
+            let t = step_s * f64::from(k);
             let pressure = |i: usize| {
                 let x = -2.0 + 4.0 * i as f64 / 256.0;
                 let dome = (1.0 - x * x).max(0.0).sqrt();
-                let crest = 1.0 + (std::f64::consts::TAU * (x - 1.25 * t)).cos();
+                let crest = 1.0 + (std::f64::consts::TAU * (x - speed * t)).cos();
                 (1e9 * dome * crest) as f32
             };
             std::sync::Arc::new(Frame {
@@ -334,20 +344,43 @@ mod tests {
                 dx_m: 4.0 / 256.0,
                 a_m: 1.0,
                 p_hertz_pa: 1e9,
+                time_s: 3.0 + t,
                 pressure_pa: (0..257).map(pressure).collect(),
                 metrics: crate::sim::Metrics {
-                    slide_roll: 0.5,
+                    slide_roll,
                     entrainment_m_s: 1.0,
                     ..crate::sim::Metrics::default()
                 },
                 ..Frame::default()
             })
         };
-        let settled = Settled {
-            frames: (0..n).map(frame).collect(),
+        Settled {
+            frames: (0..steps).map(frame).collect(),
             period_s,
             state: None,
-        };
+        }
+    }
+
+    /// A period is no whole number of steps: a point that rolls with its crest still feels one hump.
+    #[test]
+    fn few_frames_a_period_add_no_teeth() {
+        let settled = ripple(0.0, 7);
+        for place_m in [0.0, 0.1, 0.2, 0.7] {
+            for at_s in [0.0, 0.4, 3.3] {
+                let point = Chosen {
+                    place_m,
+                    ..Chosen::default()
+                };
+                let trace = Trace::replayed(&settled, point, at_s).expect("a crossing");
+                assert!(trace.counted().is_some_and(|count| count <= 1.0));
+            }
+        }
+    }
+
+    /// S = 0.5: body 1 is overtaken by its crests.
+    #[test]
+    fn a_replayed_crossing_counts_the_crests_of_the_mate() {
+        let settled = ripple(0.5, 200);
         // f δ = 2 · 0.5/0.75 crests of body 2 in the zone for body 1; none of its own for body 2.
         let f_delta = 4.0 / 3.0;
         for place_m in [0.0, 0.3, 0.9] {

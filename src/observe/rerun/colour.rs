@@ -10,11 +10,11 @@ pub(super) use crate::observe::ramp::Ramp;
 pub(super) const ORANGE: [u8; 3] = [230, 159, 0];
 pub(super) const SKY: [u8; 3] = [86, 180, 233];
 pub(super) const GREEN: [u8; 3] = [0, 158, 115];
-
-pub(super) const PURPLE: [u8; 3] = [204, 121, 167];
 pub(super) const YELLOW: [u8; 3] = [240, 228, 66];
+pub(super) const PURPLE: [u8; 3] = [204, 121, 167];
 pub(super) const WHITE: [u8; 3] = [235, 235, 235];
 pub(super) const GREY: [u8; 3] = [150, 155, 165];
+
 /// A colour as text has it: the viewer puts a sheet under labels, black or white by its theme and half transparent, so
 /// that a light theme turns [`BACKGROUND`] to a middle grey, on which only bright text can be read.
 pub(super) fn for_text(colour: [u8; 3]) -> [u8; 3] {

@@ -5,7 +5,8 @@
 //! ([`Queue::spawn_live`](crate::observe::Queue::spawn_live)). A viewer that is closed is no failure of the
 //! run: nothing more is sent, and the report says so.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::io::{Read as _, Write as _};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
@@ -51,8 +52,13 @@ pub(super) fn url(address: impl std::fmt::Display) -> String {
 
 /// The connection, as far as it can be asked.
 pub(super) enum Link {
-    /// To a viewer, and whether it has answered.
-    Viewer(Arc<GrpcSink>, Cell<bool>),
+    /// To a viewer.
+    Viewer {
+        sink: Arc<GrpcSink>,
+        greeting: Greeting,
+        /// It had taken everything when it was closed.
+        took_all: Cell<bool>,
+    },
     /// Viewers come and go.
     Server,
 }
@@ -61,22 +67,64 @@ impl Link {
     /// Whether the viewer has been closed or has broken off.
     pub(super) fn is_gone(&self) -> bool {
         match self {
-            Self::Viewer(sink, _) => {
+            Self::Viewer { sink, .. } => {
                 matches!(sink.status(), GrpcSinkConnectionState::Disconnected(_))
             }
             Self::Server => false,
         }
     }
 
-    /// Whether the viewer has ever answered: something listens at many a port that is no viewer.
+    /// Whether the viewer has ever answered.
     pub(super) fn has_answered(&self) -> bool {
         match self {
-            Self::Viewer(sink, answered) => {
-                let now = matches!(sink.status(), GrpcSinkConnectionState::Connected);
-                answered.set(answered.get() || now);
-                answered.get()
-            }
+            Self::Viewer { greeting, .. } => greeting.is_answered(),
             Self::Server => true,
+        }
+    }
+
+    /// All has been sent; `took_all`: and taken.
+    pub(super) fn ended(&self, took: bool) {
+        if let Self::Viewer { took_all, .. } = self {
+            took_all.set(took);
+        }
+    }
+
+    /// Whether all that was sent was taken.
+    pub(super) fn took_all(&self) -> bool {
+        match self {
+            Self::Viewer { took_all, .. } => took_all.get(),
+            Self::Server => true,
+        }
+    }
+}
+
+/// A greeting of HTTP/2, on a connection of its own: something takes connections at many a port and is no viewer, and
+/// the library calls it connected as soon as it has been taken.
+pub(super) struct Greeting(RefCell<Option<TcpStream>>);
+
+impl Greeting {
+    /// Says hello on a connection that stands.
+    fn send(mut stream: TcpStream) -> Self {
+        /// The client's preface and its empty settings (RFC 9113, 3.4); a server answers with its own settings.
+        const HELLO: &[u8] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n\0\0\0\x04\0\0\0\0\0";
+        let sent = stream
+            .set_nonblocking(true)
+            .and_then(|()| stream.write_all(HELLO));
+        // Nobody to be heard of is nobody to be asked.
+        Self(RefCell::new(sent.ok().map(|()| stream)))
+    }
+
+    /// Whether an answer has come. Once it has the connection is closed.
+    fn is_answered(&self) -> bool {
+        let mut stream = self.0.borrow_mut();
+        let answer = stream.as_mut().map(|stream| stream.read(&mut [0; 9]));
+        match answer {
+            None => true,
+            Some(Ok(n)) if n > 0 => {
+                *stream = None;
+                true
+            }
+            _ => false,
         }
     }
 }
@@ -103,7 +151,7 @@ pub(super) fn open(
     match live {
         Live::Connect(address) => {
             // The library would return Ok, fill its buffers, and then block for ever.
-            TcpStream::connect_timeout(&address, PATIENCE).map_err(|error| {
+            let stream = TcpStream::connect_timeout(&address, PATIENCE).map_err(|error| {
                 failed(format!(
                     "no viewer listens there ({error}); start one with `rerun --port {}`, or let \
                      --spawn start it",
@@ -118,7 +166,12 @@ pub(super) fn open(
                 .buffered()
                 .map_err(|error| failed(error.to_string()))?;
             recording.set_sink(Box::new(ToViewer(Arc::clone(&sink))));
-            Ok((recording, Link::Viewer(sink, Cell::new(false))))
+            let link = Link::Viewer {
+                sink,
+                greeting: Greeting::send(stream),
+                took_all: Cell::new(false),
+            };
+            Ok((recording, link))
         }
         Live::Serve(port) => {
             // The library would return Ok on a busy port and lose everything.

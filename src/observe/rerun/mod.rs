@@ -15,6 +15,7 @@ mod centre_line;
 mod colour;
 mod damage;
 mod depths;
+mod destination;
 mod file;
 mod gathered;
 mod geometry;

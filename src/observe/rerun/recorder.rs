@@ -14,14 +14,10 @@ use super::moment::Moment;
 use super::stream::Stream;
 use super::{properties, text};
 use crate::observe::{
-    NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
-    RunEventKind,
+    ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent, RunEventKind,
 };
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
-
-/// What is sent to a viewer that has not answered yet, bytes: far less than the library lets wait before it blocks.
-const UNANSWERED: u64 = 8 * 1024 * 1024;
 
 /// Writes a recording.
 pub struct Recorder {
@@ -66,7 +62,7 @@ impl Recorder {
     /// The file that is written now: the recording's own, or beside it where it will replace another; `None`: a
     /// viewer's.
     pub fn path(&self) -> Option<PathBuf> {
-        self.stream.file().map(RecordingFile::path)
+        self.stream.to().file().map(RecordingFile::path)
     }
 
     fn on(stream: Stream, record: &Record) -> Self {
@@ -136,11 +132,11 @@ impl Recorder {
 impl Recorder {
     /// Whether enough was sent to a viewer that has not answered.
     fn is_unheard(&self) -> bool {
-        let sent = self.views.as_ref().map_or(0, |views| {
-            self.frames
-                .saturating_mul(views::frame_bytes(views.geometry))
-        });
-        !self.stream.has_answered() && sent > UNANSWERED
+        let frame = |views: &Views| views::frame_bytes(views.geometry);
+        let sent = self
+            .frames
+            .saturating_mul(self.views.as_ref().map_or(0, frame));
+        self.stream.to().is_deaf(sent)
     }
 
     /// Hands what waits on to the file or the viewer.
@@ -179,7 +175,7 @@ impl Observer for Recorder {
             self.send_on()?;
         }
         self.stream.check()?;
-        if let Some(file) = self.stream.file() {
+        if let Some(file) = self.stream.to().file() {
             file.hold();
         }
         self.frames += 1;
@@ -248,30 +244,25 @@ impl Observer for Recorder {
             }
         }
         self.stream.close()?;
-        let is_heard = self.stream.has_answered();
-        let mut notes = Vec::new();
-        match (self.stream.file(), is_heard) {
-            (Some(_), _) if self.frames == 0 => notes.push(NOTHING_CAME.to_owned()),
-            (None, false) => notes.push("the viewer never answered".to_owned()),
-            (None, true) if self.unsent > 0 => notes.push("the viewer was closed".to_owned()),
-            _ => {}
+        let (stream, frames) = (&self.stream, self.frames);
+        let mut report = stream.to().report(stream.output(), frames, self.unsent);
+        for note in [
+            (clipped > 0).then(|| format!("clipped: {clipped_words}")),
+            stream
+                .to()
+                .file()
+                .and_then(RecordingFile::unbound)
+                .map(|reason| format!("without a footer, so viewers read all of it: {reason}")),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            if !report.note.is_empty() {
+                report.note.push_str("; ");
+            }
+            report.note.push_str(&note);
         }
-        if clipped > 0 {
-            notes.push(format!("clipped: {clipped_words}"));
-        }
-        if let Some(reason) = self.stream.unbound() {
-            notes.push(format!(
-                "without a footer, so viewers read all of it: {reason}"
-            ));
-        }
-        Ok(ObserverReport {
-            output: self.stream.output(),
-            frames: if is_heard { self.frames } else { 0 },
-            skipped: self.unsent + if is_heard { 0 } else { self.frames },
-            bytes: self.stream.bytes(),
-            note: notes.join("; "),
-            queue: None,
-        })
+        Ok(report)
     }
 }
 

@@ -4,15 +4,16 @@ use std::cell::{Cell, RefCell};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use re_log_types::{LogMsg, StoreId};
+use re_log_types::LogMsg;
 use rerun::log::{Chunk, ChunkBatcherConfig, PendingRow};
 use rerun::sink::LogSink as _;
 use rerun::time::TimePoint;
 use rerun::{AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars};
 
+use super::destination::Destination;
 use super::file::RecordingFile;
 use super::gathered::{Pen, chunk_of};
-use super::live::{self, Link, Live};
+use super::live::{self, Live};
 use super::moment::Moment;
 use super::waiting::{ClassImage, Curves, LevelImage, Sheet, Waiting};
 use crate::observe::{ObserveError, Overwrite};
@@ -58,16 +59,6 @@ pub(super) struct Stream {
     now: Cell<Moment>,
     timepoint: RefCell<TimePoint>,
     waiting: RefCell<Waiting>,
-}
-
-enum Destination {
-    /// Chunks are encoded and written where they are made: the library would take them over two more threads,
-    /// to each of which they are cold. Only the layout goes its way.
-    File {
-        file: RecordingFile,
-        store: StoreId,
-    },
-    Live(Link),
 }
 
 impl Stream {
@@ -132,41 +123,19 @@ impl Stream {
         self.output.clone()
     }
 
-    /// The recording's file; `None`: it goes to a viewer.
-    pub(super) fn file(&self) -> Option<&RecordingFile> {
-        match &self.to {
-            Destination::File { file, .. } => Some(file),
-            Destination::Live(_) => None,
-        }
+    /// Where it goes.
+    pub(super) fn to(&self) -> &Destination {
+        &self.to
     }
 
     /// Whether a viewer has been closed: nobody reads any more.
     pub(super) fn is_gone(&self) -> bool {
-        match &self.to {
-            Destination::File { .. } => false,
-            Destination::Live(link) => link.is_gone(),
-        }
+        self.to.is_gone()
     }
 
     /// Whether it goes to viewers, while the run goes on.
     pub(super) fn is_live(&self) -> bool {
-        matches!(self.to, Destination::Live(_))
-    }
-
-    /// Why a closed file has no footer, if it has none.
-    pub(super) fn unbound(&self) -> Option<String> {
-        match &self.to {
-            Destination::File { file, .. } => file.unbound(),
-            Destination::Live(_) => None,
-        }
-    }
-
-    /// Whether anybody has taken something yet; a file always has.
-    pub(super) fn has_answered(&self) -> bool {
-        match &self.to {
-            Destination::File { .. } => true,
-            Destination::Live(link) => link.has_answered(),
-        }
+        self.to.file().is_none()
     }
 
     /// The library's stream, for the layout.
@@ -351,19 +320,13 @@ impl Stream {
 
     /// An error if the file has failed since.
     pub(super) fn check(&self) -> Result<(), ObserveError> {
-        let Destination::File { file, .. } = &self.to else {
-            return Ok(());
-        };
-        file.error()
-            .map_or(Ok(()), |reason| Err(self.failed(&reason)))
+        let error = self.to.file().and_then(RecordingFile::error);
+        error.map_or(Ok(()), |reason| Err(self.failed(&reason)))
     }
 
     /// Bytes in the file by now; a viewer has its own limit and forgets the oldest, so nothing is counted.
     pub(super) fn bytes(&self) -> u64 {
-        match &self.to {
-            Destination::File { file, .. } => file.bytes(),
-            Destination::Live(_) => 0,
-        }
+        self.to.file().map_or(0, RecordingFile::bytes)
     }
 
     /// Writes what waits and binds the file.
@@ -373,10 +336,14 @@ impl Stream {
         }
         self.closed = true;
         let sent = self.send_rows();
-        let Destination::File { file, .. } = &self.to else {
-            // What a viewer does not take in time it does not get: nobody waits for it.
-            drop(self.recording.flush_with_timeout(LIVE_CLOSE_TIMEOUT));
-            return Ok(());
+        let file = match &self.to {
+            Destination::File { file, .. } => file,
+            Destination::Live(link) => {
+                // What a viewer does not take in time it does not get: nobody waits for it.
+                let flushed = self.recording.flush_with_timeout(LIVE_CLOSE_TIMEOUT);
+                link.ended(flushed.is_ok());
+                return Ok(());
+            }
         };
         let flushed = self.recording.flush_with_timeout(CLOSE_TIMEOUT);
         file.finish().map_err(|reason| self.failed(&reason))?;

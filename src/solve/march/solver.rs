@@ -76,13 +76,18 @@ impl Solver {
 
     /// A Hertz contact with film `h_central`.
     pub fn hertz(&mut self, shape: &Shape, h_central: f64) -> State {
+        self.hertz_of_size(shape, (1.0, h_central))
+    }
+
+    /// The same where half-widths and pressure are `size` times the units.
+    pub fn hertz_of_size(&mut self, shape: &Shape, (size, h_central): (f64, f64)) -> State {
         let grid = &self.grid;
         let mut pressure = vec![0.0; grid.len()];
         for j in grid.interior_rows() {
             let y = grid.y(j) / shape.b_over_a;
             for i in 1..grid.nx - 1 {
                 let r2 = grid.x(i).powi(2) + y * y;
-                pressure[j * grid.nx + i] = (1.0 - r2).max(0.0).sqrt();
+                pressure[j * grid.nx + i] = (size * size - r2).max(0.0).sqrt();
             }
         }
         let mut film = vec![0.0; grid.len()];

@@ -99,7 +99,7 @@ pub struct Found {
     pub life: Option<[f64; 3]>,
     /// Friction coefficient.
     pub friction: f64,
-    /// Smooth film over the composite roughness; `None` for smooth surfaces.
+    /// λ: smooth central film by formula over the composite roughness; `None` for smooth surfaces.
     pub lambda: Option<f64>,
 }
 

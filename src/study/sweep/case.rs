@@ -47,7 +47,7 @@ pub struct CaseRecord {
     pub seconds: f64,
     /// Means over the last passage or period.
     pub summary: Summary,
-    /// Smooth central film over the composite roughness: simulated film where there was one.
+    /// λ: smooth central film by formula over the composite roughness.
     pub lambda_ratio: Option<f64>,
     /// Smooth central film by regression, m.
     pub h_regression_m: Option<f64>,

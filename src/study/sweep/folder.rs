@@ -58,7 +58,7 @@ impl Folder {
     pub fn create(root: &Path, sweep: &Sweep, existing: Existing) -> Result<Self, SweepError> {
         std::fs::create_dir_all(root).map_err(|e| SweepError::folder(root, e))?;
         let mark = Mark::new(sweep.digest());
-        let found = Mark::read(root);
+        let found = mark::seen(root)?;
         let is_same = found.as_ref() == Some(&mark);
         refuse(root, &mark, found.as_ref(), existing)?;
         if let Some(input) = mark::input_in_the_way(root, &sweep.inputs, is_same) {
@@ -74,9 +74,7 @@ impl Folder {
             mark,
             lock: Lock::none(),
         };
-        if company.is_alone() {
-            mark::take_away(root, |name| name.starts_with(TEMPORARY))?;
-        }
+        mark::tidy(root, company.is_alone());
         if existing == Existing::Replace {
             mark::clear(root)?;
         }
@@ -267,17 +265,9 @@ fn refuse(
     existing: Existing,
 ) -> Result<(), SweepError> {
     let refused = |reason: &str| Err(SweepError::folder(root, reason));
-    let Some(found) = found else {
-        return match mark::stranger(root) {
-            Some(name) => refused(&format!(
-                "holds {name}, and no sweep has marked the folder: what is in it is somebody else's; take another --out"
-            )),
-            None => Ok(()),
-        };
-    };
-    if existing == Existing::Replace {
+    let Some(found) = found.filter(|_| existing != Existing::Replace) else {
         return Ok(());
-    }
+    };
     if found.digest != mark.digest {
         return refused(
             "holds another sweep (an edited one, or one with another height map); take another --out, or --force replaces it",

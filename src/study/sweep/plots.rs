@@ -125,15 +125,19 @@ fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
     );
     add(
         "pressure",
-        ("greatest pressure, Pa", Linear),
-        &[("", "p_max_pa", Computed), ("Hertz", "p_hertz_pa", Formula)],
+        ("pressure, Pa", Linear),
+        &[
+            ("greatest", "p_max_greatest_pa", Computed),
+            ("mean of the steps' greatest", "p_max_pa", Computed),
+            ("Hertz", "p_hertz_pa", Formula),
+        ],
     );
     add(
         "film",
         ("film, m", Log),
         &[
             ("centre", "h_central_m", Computed),
-            ("least", "h_min_m", Computed),
+            ("mean of the steps' least", "h_min_m", Computed),
             ("smooth, by regression", "h_regression_m", Formula),
         ],
     );
@@ -254,7 +258,7 @@ fn stribeck(sweep: &Sweep, rows: &Rows) -> Option<Figure> {
     (points.len() > 1).then(|| Figure {
         title: format!("{}: Stribeck", title(sweep)),
         x: (
-            "lambda: smooth film over composite roughness".to_owned(),
+            "lambda: smooth film by formula over composite roughness".to_owned(),
             scale_of(&xs),
         ),
         y: ("friction coefficient".to_owned(), Scale::Linear),

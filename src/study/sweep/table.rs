@@ -17,7 +17,7 @@ use crate::files::fnv;
 use crate::observe::cells::Cells;
 
 /// Columns after those of the path and the axes, in the order of [`numbers`].
-pub const COLUMNS: [&str; 50] = [
+pub const COLUMNS: [&str; 54] = [
     "h_regression_m",
     "h_min_regression_m",
     "lambda_ratio",
@@ -26,8 +26,11 @@ pub const COLUMNS: [&str; 50] = [
     "load_n",
     "h_central_m",
     "h_min_m",
+    "h_min_least_m",
     "p_max_pa",
+    "p_max_greatest_pa",
     "contact_ratio",
+    "contact_load_ratio",
     "friction_coefficient",
     "n_body_1",
     "n_body_2",
@@ -39,6 +42,7 @@ pub const COLUMNS: [&str; 50] = [
     "stress_factor",
     "peak_factor",
     "traction_factor",
+    "load_factor",
     "life_relative",
     "life_relative_low",
     "life_relative_high",
@@ -85,8 +89,11 @@ pub fn numbers(record: &CaseRecord) -> [Option<f64>; COLUMNS.len()] {
         some(s.load_n),
         some(s.h_central_m),
         some(s.h_min_m),
+        some(s.h_min_least_m),
         some(s.p_max_pa),
+        some(s.p_max_greatest_pa),
         some(s.contact_ratio),
+        some(s.contact_load_ratio),
         some(s.friction_coefficient),
         s.n_body_1,
         s.n_body_2,
@@ -98,6 +105,7 @@ pub fn numbers(record: &CaseRecord) -> [Option<f64>; COLUMNS.len()] {
         s.stress_factor,
         s.peak_factor,
         s.traction_factor,
+        s.load_factor,
         s.life_relative,
         s.life_relative_low,
         s.life_relative_high,

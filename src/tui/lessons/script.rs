@@ -118,10 +118,10 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "S = 0.1: the mate's crests now overtake the point while it crosses. Each is a stress cycle of its own: n = 3, of which two or three are counted.",
+                caption: "S = 0.1: the mate's crests now overtake the point while it crosses. Each is a stress cycle of its own: n = 3, of which two are counted.",
                 sets: &[(S, To(0.1))],
                 passages: 2.5,
-                claims: &[claim(N1, 2.8, 3.2), claim(Counted1, 1.6, 3.1)],
+                claims: &[claim(N1, 2.8, 3.2), claim(Counted1, 1.6, 2.6)],
                 ..Beat::PLAIN
             },
             Beat {
@@ -275,7 +275,7 @@ pub const LESSONS: &[Lesson] = &[
             },
             Beat {
                 staging: Some(on("fzg_pitch_point", &[])),
-                caption: "Pitch point: one pair carries all the load, and rolls: S = 0, n = 1 for both.",
+                caption: "Pitch point: one pair carries all the load, and rolls: S = 0, n = 1 for both. Crests that enter and leave shift load between the others: 1.3 are counted.",
                 map: Some(Pressure),
                 passages: 1.5,
                 claims: &[

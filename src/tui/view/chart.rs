@@ -49,9 +49,8 @@ impl Pen {
     /// The pen for a role.
     pub(super) fn new(theme: Theme, role: Role, letter: char) -> Self {
         let dash = match role {
-            _ if !theme.is_mono() => Dash::Solid,
-            Role::Film | Role::Formula => Dash::Dashed,
-            Role::Border | Role::Hertz => Dash::Dotted,
+            Role::Film | Role::Formula if theme.is_mono() => Dash::Dashed,
+            Role::Border | Role::Hertz if theme.is_mono() => Dash::Dotted,
             _ => Dash::Solid,
         };
         Self {

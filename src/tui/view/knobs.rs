@@ -1,19 +1,19 @@
 //! Left: the knobs as sliders.
 
+mod speeds;
+
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Margin, Position, Rect};
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
-use crate::physics::estimate::speed_ratios;
-use crate::scene::ContactKind;
 use crate::sim::Knob;
 use crate::tui::action::Action;
 use crate::tui::app::App;
-use crate::tui::choice::Choice;
 use crate::tui::dial::{Dial, Life};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
+pub(super) use speeds::{SPECIFIC, SYMBOLS};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
@@ -37,7 +37,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             height: inner.height - used - 1,
             ..inner
         };
-        speeds(app, rest, buffer);
+        speeds::speeds(app, rest, buffer);
     }
 }
 
@@ -246,7 +246,12 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     let is_load = matches!(dial.knob, Knob::ForceN | Knob::ForceNPerM);
     let stands = standing(dial.target).filter(|_| dial.knob == Knob::SlideRoll);
     if let Some(body) = stands {
-        let text = format!("body {body} stands: not in life");
+        let more = if slot.width >= 28 {
+            ": not in the life"
+        } else {
+            ""
+        };
+        let text = format!("body {body} stands{more}");
         put(
             slot,
             2,
@@ -286,112 +291,3 @@ pub(super) fn standing(slide_roll: f64) -> Option<u8> {
     let body = if slide_roll > 0.0 { 1 } else { 2 };
     (slide_roll.abs() >= 2.0).then_some(body)
 }
-
-/// Where there is room: both bodies' speeds, the contact's size, and what the letters mean.
-fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let Some(frame) = app.frame() else { return };
-    let metrics = &frame.metrics;
-    let speed = app.units.speed();
-    let (u1, u2) = speed_ratios(metrics.slide_roll);
-    let sliding = (u2 - u1).abs();
-    let specific = |own: f64| {
-        let ratio = sliding / own.abs();
-        if ratio.is_finite() {
-            sig(ratio, 2)
-        } else {
-            theme.pick("∞", "inf").to_owned()
-        }
-    };
-    let length = app.units.length();
-    let mean = metrics.entrainment_m_s;
-    let lines = [
-        ("U₁ body 1", speed.show(mean * u1, 3), Role::Body1),
-        ("U₂ body 2", speed.show(mean * u2, 3), Role::Body2),
-        ("ζ₁ = |U₂−U₁|/U₁", specific(u1), Role::Body1),
-        ("ζ₂ = |U₂−U₁|/U₂", specific(u2), Role::Body2),
-        ("a half-width x", length.show(frame.a_m, 3), Role::Text),
-        match frame.kind {
-            ContactKind::Point => ("b half-width y", length.show(frame.b_m, 3), Role::Text),
-            ContactKind::Line => ("line: uniform along y", String::new(), Role::Dim),
-        },
-        (
-            "µ friction",
-            sig(metrics.friction_coefficient, 2),
-            Role::Text,
-        ),
-    ];
-    let area = area.inner(Margin::new(1, 0));
-    for (row, (name, value, role)) in lines.iter().enumerate() {
-        let row = row as u16;
-        let name = ascii_text(theme, name);
-        put(
-            area,
-            row,
-            &Line::styled(name, theme.style(Role::Dim)),
-            buffer,
-        );
-        let value = ascii_text(theme, value);
-        put_right(area, row, &Line::styled(value, theme.style(*role)), buffer);
-    }
-    let below = lines.len() as u16 + 1;
-    let below = below + fixed(app, area, below, buffer);
-    for (row, (name, meaning)) in SYMBOLS.iter().enumerate() {
-        let line = Line::from(vec![
-            Span::styled(
-                format!("{:<5}", ascii_text(theme, name)),
-                theme.style(Role::Strong),
-            ),
-            Span::styled(ascii_text(theme, meaning), theme.style(Role::Dim)),
-        ]);
-        put(area, below + row as u16, &line, buffer);
-    }
-}
-
-/// What only a new run changes (`e`); the rows used.
-fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
-    let theme = app.theme;
-    let scene = &app.setup.scene;
-    let shown = |choice: Choice| choice.of_scene(scene, app.units);
-    let lines = [
-        ("lay 1, W/a", lay(app, 0), Role::Body1),
-        ("lay 2, W/a", lay(app, 1), Role::Body2),
-        ("oil", shown(Choice::Viscosity), Role::Film),
-    ];
-    if area.height < from + lines.len() as u16 + SYMBOLS.len() as u16 {
-        return 0;
-    }
-    for (row, (name, value, role)) in (from..).zip(&lines) {
-        let name = Line::from(vec![
-            Span::styled("e ", theme.style(Role::Key)),
-            Span::styled(*name, theme.style(Role::Dim)),
-        ]);
-        put(area, row, &name, buffer);
-        let value = Line::styled(ascii_text(theme, value), theme.style(*role));
-        put_right(area, row, &value, buffer);
-    }
-    lines.len() as u16
-}
-
-/// `transverse 0.43`.
-fn lay(app: &App, body: usize) -> String {
-    let scene = &app.setup.scene;
-    let lay = Choice::Lay(body).of_scene(scene, app.units);
-    match Choice::wave_m(scene, body) {
-        Some(wave_m) => format!("{lay} {}", sig(wave_m / app.setup.half_width_m, 2)),
-        None => lay,
-    }
-}
-
-/// Specific sliding: in the panel its rows are the definition.
-pub(super) const SPECIFIC: (&str, &str) = ("ζ", "|U₂−U₁|/U₁ and |U₂−U₁|/U₂");
-
-/// What the letters on the screen mean; the help screen says it too.
-pub(super) const SYMBOLS: &[(&str, &str)] = &[
-    ("S", "(U₂−U₁)/U, U mean"),
-    ("p_h", "max. Hertz pressure"),
-    ("λ", "smooth film/rms"),
-    ("n", "1 + 2af|U₂−U₁|/|U|"),
-    ("", "f: mate's crests/m"),
-    ("life", "over smooth rolling"),
-];

@@ -63,7 +63,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             }
         }
     }
-    axes::draw(app, frame, &window, image, picture, buffer);
+    axes::draw(app, frame, &window, (image, inner), buffer);
     color_bar(theme, &look, app.map, bar, buffer);
     motion(app, frame, areas, inner, buffer);
     probe(app, frame, (picture, image), buffer);

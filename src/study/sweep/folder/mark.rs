@@ -3,6 +3,7 @@
 use std::fs::{File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::super::error::SweepError;
 use super::Existing;
@@ -59,9 +60,26 @@ impl Mark {
     }
 }
 
+/// The mark of a folder that a sweep may work in: its own, or none in a folder that is empty.
+pub(super) fn seen(root: &Path) -> Result<Option<Mark>, SweepError> {
+    let found = Mark::read(root);
+    let Some(name) = stranger(root).filter(|_| found.is_none()) else {
+        return Ok(found);
+    };
+    // Another shard may have begun here since: its mark comes before all else.
+    let since = Mark::read(root);
+    if since.is_none() {
+        let reason = format!(
+            "holds {name}, and no sweep has marked the folder: what is in it is somebody else's; take another --out"
+        );
+        return Err(SweepError::folder(root, reason));
+    }
+    Ok(since)
+}
+
 /// Something in a folder that no sweep put there; hidden files and what sweeps need before they mark a folder do not
 /// count.
-pub(super) fn stranger(root: &Path) -> Option<String> {
+fn stranger(root: &Path) -> Option<String> {
     let entries = std::fs::read_dir(root).into_iter().flatten().flatten();
     let mut names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
     names.find(|name| name != LOCK && !name.starts_with(TEMPORARY) && !name.starts_with('.'))
@@ -126,8 +144,22 @@ pub(super) fn clear(root: &Path) -> Result<(), SweepError> {
     take_away(root, is_result)
 }
 
+/// Takes away what processes that were killed left half-written: all of it where nobody else can be writing, else
+/// what nobody has touched for ten minutes.
+pub(super) fn tidy(root: &Path, is_alone: bool) {
+    const ABANDONED: Duration = Duration::from_mins(10);
+    let is_old = |name: &str| {
+        let about = std::fs::metadata(root.join(name)).and_then(|about| about.modified());
+        let age = about.ok().and_then(|time| time.elapsed().ok());
+        age.is_some_and(|age| age > ABANDONED)
+    };
+    let such = |name: &str| name.starts_with(TEMPORARY) && (is_alone || is_old(name));
+    // One that stays behind does no harm.
+    drop(take_away(root, such));
+}
+
 /// Takes away the files of a folder whose names are such.
-pub(super) fn take_away(folder: &Path, such: impl Fn(&str) -> bool) -> Result<(), SweepError> {
+fn take_away(folder: &Path, such: impl Fn(&str) -> bool) -> Result<(), SweepError> {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
         if such(&entry.file_name().to_string_lossy()) && path.is_file() {
@@ -185,9 +217,9 @@ impl Company {
         Lock(file.map(Arc::new))
     }
 
-    /// Whether nobody else is there.
+    /// Whether nobody else can be there.
     pub(super) fn is_alone(&self) -> bool {
-        matches!(self, Self::Alone(_))
+        matches!(self, Self::Alone(Some(_)))
     }
 }
 

@@ -26,52 +26,67 @@ pub(super) fn draw(
     app: &App,
     frame: &Frame,
     window: &Window,
-    image: Rect,
-    picture: Rect,
+    (image, inner): (Rect, Rect),
     buffer: &mut Buffer,
 ) {
-    let theme = app.theme;
-    let style = theme.style(Role::Dim);
-    let below = picture.bottom();
-    // The corner says what the columns at the left are.
-    let left = |row: u16, text: &str, buffer: &mut Buffer| {
+    let [left, below] = room(inner);
+    // Above the motion's row.
+    let foot = inner.bottom().saturating_sub(2);
+    if below > 0 {
+        along(app, window, image, foot, buffer);
+    }
+    if left > 0 {
         let cells = Rect {
-            x: picture.x.saturating_sub(LEFT),
-            y: row,
-            width: LEFT - 1,
-            height: 1,
+            width: left - 1,
+            ..inner
         };
-        put_right(
-            cells,
-            0,
-            &Line::styled(ascii_text(theme, text), style),
-            buffer,
-        );
-    };
-    if buffer.area.contains((picture.x, below).into()) {
-        let mut free_from = image.x;
-        for x in ticks(
-            window.x[0],
-            window.x[1],
-            usize::from(image.width / 8).max(2),
-        ) {
-            let text = if x == 0.0 {
-                "0".to_owned()
-            } else {
-                format!("{}a", tick(x))
-            };
-            let part = (x - window.x[0]) / (window.x[1] - window.x[0]);
-            let width = text.len() as u16;
-            let centre = image.x + (part * f64::from(image.width.saturating_sub(1))).round() as u16;
-            let first = centre.saturating_sub(width / 2).max(image.x);
-            let first = first.min((image.right()).saturating_sub(width));
-            if first < free_from {
-                continue;
-            }
-            buffer.set_line(first, below, &Line::styled(text, style), width);
+        downwards(app, frame, window, (image, cells), buffer);
+        if below > 0 {
+            // The corner says what the numbers above it are.
+            number(app, cells, foot, down(app, frame).name, buffer);
+        }
+    }
+}
+
+fn number(app: &App, cells: Rect, row: u16, text: &str, buffer: &mut Buffer) {
+    let line = Line::styled(ascii_text(app.theme, text), app.theme.style(Role::Dim));
+    put_right(cells, row - cells.y, &line, buffer);
+}
+
+/// x/a below the map.
+fn along(app: &App, window: &Window, image: Rect, row: u16, buffer: &mut Buffer) {
+    let style = app.theme.style(Role::Dim);
+    let mut free_from = image.x;
+    for x in ticks(
+        window.x[0],
+        window.x[1],
+        usize::from(image.width / 8).max(2),
+    ) {
+        let text = if x == 0.0 {
+            "0".to_owned()
+        } else {
+            format!("{}a", tick(x))
+        };
+        let part = (x - window.x[0]) / (window.x[1] - window.x[0]);
+        let width = text.len() as u16;
+        let centre = image.x + (part * f64::from(image.width.saturating_sub(1))).round() as u16;
+        let first = centre.saturating_sub(width / 2).max(image.x);
+        let first = first.min(image.right().saturating_sub(width));
+        if first >= free_from {
+            buffer.set_line(first, row, &Line::styled(text, style), width);
             free_from = first + width + 1;
         }
     }
+}
+
+/// y/b, depth or way at the left of the map.
+fn downwards(
+    app: &App,
+    frame: &Frame,
+    window: &Window,
+    (image, cells): (Rect, Rect),
+    buffer: &mut Buffer,
+) {
     let scale = down(app, frame);
     let ends = window.y.map(|y| y * scale.per_window);
     let about = usize::from(image.height / 3).clamp(1, 5);
@@ -80,11 +95,10 @@ pub(super) fn draw(
         let part = (value - ends[0]) / (ends[1] - ends[0]);
         let row = image.y + (part * f64::from(image.height.saturating_sub(1))).round() as u16;
         if row >= free_from {
-            left(row, &tick(value), buffer);
+            number(app, cells, row, &tick(value), buffer);
             free_from = row + 1;
         }
     }
-    left(below, scale.name, buffer);
 }
 
 /// What runs down a map.
