@@ -112,13 +112,20 @@ fn a_refused_or_scripted_target_is_taken_over_after_a_while() {
 fn loads_are_compared_on_the_scale_of_the_scene() {
     let mut app = running(plain());
     app.apply(Action::Pin);
+    let pinned = app.leading_factors().unwrap();
     assert!((app.against_pinned().unwrap() - 1.0).abs() < 1e-9);
     app.apply(Action::ChooseNext);
     app.apply(Action::TurnFar(1));
-    // N ∝ p_h^−(c + 3/e), p_h ∝ F^(1/3); a also adds crests to the count.
+    // N ∝ p_h^−(c + 3/e), p_h ∝ F^(1/3); a also adds crests to the count; the same crests stand out less from a
+    // greater pressure.
     let pressure = 1.05_f64.powi(5).cbrt();
     let count = |a: f64| 1.0 + 4.4 * a * 0.5 / 0.75;
-    let expected = pressure.powf(-(31.0 / 3.0 + 2.7)) * count(1.0) / count(pressure);
+    let load = pressure.powf(-(31.0 / 3.0 + 2.7));
+    let now = app.leading_factors().unwrap();
+    assert!((now.load / load - 1.0).abs() < 1e-9, "{now:?}");
+    let peaks = now.peak / pinned.peak;
+    assert!((1.0..2.0).contains(&peaks), "{peaks}");
+    let expected = load * peaks * count(1.0) / count(pressure);
     let ratio = app.against_pinned().unwrap();
     assert!((ratio / expected - 1.0).abs() < 1e-9, "{ratio} {expected}");
 }
@@ -151,7 +158,7 @@ fn errands_are_done_only_where_they_are_offered() {
     let mut app = running(plain());
     assert_eq!(app.apply(Action::Save), [Effect::Errand(ErrandKind::Save)]);
     assert_eq!(app.apply(Action::Write), []);
-    assert!(app.message().unwrap().contains("no files"));
+    assert!(app.message().unwrap().contains("nothing can be exported"));
     assert_eq!(app.apply(Action::View), []);
     assert!(app.message().unwrap().contains("asperity view"));
     assert_eq!(app.apply(Action::Quit), [Effect::Quit]);
@@ -377,4 +384,28 @@ fn the_mouse_moves_sliders_and_reads_the_map() {
         text(&app, 160, 48).contains("GPa  h "),
         "the probe reads the pressure"
     );
+}
+
+/// Where the number comes from, what it is against, and the weightiest caution are read on every screen.
+#[test]
+fn the_source_of_the_life_and_its_weightiest_caution_fit_small_screens() {
+    let new = App::new(setup_of(scene()));
+    let mut live = running(plain());
+    let first = live.cautions().first().unwrap().clone();
+    for (width, height) in [(80, 24), (100, 30), (160, 48)] {
+        let screen = text(&new, width, height);
+        assert!(screen.contains("formula"), "{screen}");
+        let screen = text(&live, width, height);
+        assert!(screen.contains("simulated"), "{screen}");
+        assert!(screen.contains("× smooth rolling"), "{screen}");
+        assert!(screen.contains("load"), "{screen}");
+        let more = format!(" +{} i", live.cautions().len() - 1);
+        assert!(screen.contains(&more), "{screen}");
+    }
+    live.apply(Action::Turn(1));
+    for (width, height) in [(80, 24), (160, 48)] {
+        assert!(text(&live, width, height).contains("scaled"));
+    }
+    live.apply(Action::Plan);
+    assert!(text(&live, 160, 48).contains(&first.text));
 }

@@ -29,7 +29,7 @@ fn basis_of(scene: &Scene) -> EstimateBasis {
     let plan = Plan::new(scene).unwrap();
     basis(&Setup {
         scene: Arc::new(scene.clone()),
-        name: "demonstration".to_owned(),
+        name: String::new(),
         load_n: plan.force_n,
         half_width_m: plan.hertz.a_m,
         p_hertz_pa: plan.hertz.p_max_pa,

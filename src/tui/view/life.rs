@@ -47,7 +47,10 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     }
     number::figure(app, &mut rows, buffer);
     validity::line(app, rows.take(1), buffer);
-    scale::scale(app, &mut rows, buffer);
+    // Where rows are few the factors and counts say more than a scale.
+    if inner.height >= 13 {
+        scale::scale(app, &mut rows, buffer);
+    }
     if roomy {
         number::model(app, rows.take(1), buffer);
     }
@@ -69,6 +72,7 @@ fn without_life(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
     for text in words {
         put(rows.take(1), 0, &Line::styled(text, dim), buffer);
     }
+    validity::line(app, rows.take(1), buffer);
     rows.skip();
     counts::counts(app, rows, buffer);
     curve::render(app, rows.rest(), buffer);

@@ -32,9 +32,7 @@ pub(super) fn figure(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
     let text = short(app.leading_life());
     let area = rows.take(digits::ROWS);
     if app.leading_life().is_none() {
-        let why = if app.setup.scene.life.is_none() {
-            "no life in this scene"
-        } else if app.estimate.formula.cycle.is_none() {
+        let why = if app.estimate.formula.cycle.is_none() {
             "a body stands: no life"
         } else {
             "no estimate"
