@@ -51,7 +51,7 @@ fn a_long_message_is_whole_on_every_screen() {
             assert!(shown.contains(word), "{word} at {width}:\n{shown}");
         }
     }
-    app.tick(Duration::from_secs(60));
+    app.tick(Duration::from_mins(1));
     assert!(!text(&app, 80, 24).contains("cargo install"));
 }
 

@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
+use asperity::scene::{Override, Scene, Surface};
 use asperity::sim::{Knob, LifeEstimate, Simulation, Stage, State};
 
 fn scene(name: &str, sets: &[&str]) -> Scene {
@@ -122,7 +122,7 @@ fn turn(base: &Scene, from: &State, knob: Knob, value: f64) -> Turn {
 
 fn turns(base: &Scene, load: Knob) -> Vec<(Knob, f64)> {
     let (force, u) = (base.force_n(), base.motion.entrainment_m_s);
-    let [a1, a2] = base.surfaces().map(|surface| surface.amplitude_m());
+    let [a1, a2] = base.surfaces().map(Surface::amplitude_m);
     let mut list = Vec::new();
     for s in [0.0, 0.25, 0.55, 1.0] {
         list.push((Knob::SlideRoll, s));

@@ -1,5 +1,4 @@
-//! Every key of a scene in one table: unit, range and meaning. The strict check, the errors, the printed
-//! scenes and the help all read it, so that none of them can drift from the others.
+//! Every key of a scene in one table: unit, range, meaning. Check, errors, printed scenes and help all read it.
 
 /// What a key takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
