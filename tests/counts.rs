@@ -358,7 +358,7 @@ fn report() {
     table("Presets", &presets, &[]);
     table(
         "As they were: flanks as ground, crests that no steel carries",
-        &AS_GROUND,
+        AS_GROUND,
         &[],
     );
     table("What moves them", VARIED, &["stress=none", "life=none"]);

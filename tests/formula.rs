@@ -11,7 +11,7 @@ use std::sync::Arc;
 use asperity::math::number::sig;
 use asperity::physics::estimate::{EstimateBasis, Factors, OperatingPoint};
 use asperity::plan::Plan;
-use asperity::scene::{ContactKind, Override, Scene};
+use asperity::scene::{ContactKind, Override, Scene, Surface};
 use asperity::sim::{LifeEstimate, Simulation, Stage};
 use asperity::tui::app::Setup;
 use asperity::tui::estimate::basis;
@@ -44,7 +44,7 @@ fn basis_of(scene: &Scene) -> EstimateBasis {
 }
 
 fn point_of(scene: &Scene) -> OperatingPoint {
-    let [one, two] = scene.surfaces().map(|surface| surface.amplitude_m());
+    let [one, two] = scene.surfaces().map(Surface::amplitude_m);
     OperatingPoint {
         slide_roll: scene.motion.slide_roll,
         load_n: scene.force_n(),

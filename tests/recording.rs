@@ -859,7 +859,12 @@ fn damage_that_is_not_counted_yet_is_covered_and_told() {
     };
     // One column of four, three depths each.
     assert_eq!((counted(early), counted(late)), (3, 12));
-    let covered = |cover: &Vec<u8>| cover.iter().filter(|&&class| class == 1).count();
+    let covered = |cover: &Vec<u8>| {
+        cover
+            .iter()
+            .map(|&covered| usize::from(covered))
+            .sum::<usize>()
+    };
     assert_eq!(covers.values().map(covered).collect::<Vec<_>>(), [9, 0]);
     let labels = contents.labels(&format!("{entity}/worst_point"));
     assert!(labels[0].contains("25 % of it has crossed"), "{labels:?}");
