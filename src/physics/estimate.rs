@@ -25,13 +25,13 @@
 //!
 //! [`contacts`]: EstimateBasis::contacts
 
+mod oil;
+
+pub use oil::{FilmBasis, OilBasis};
+
 use crate::physics::cycles::{BodyId, Kinematics};
 use crate::physics::fatigue::LifeLaw;
-use crate::physics::film_regression::nijenbanning_central_m;
-use crate::physics::fluid::Viscosity;
-use crate::physics::groups;
 use crate::physics::hertz::HertzShape;
-use crate::physics::line::LinePoint;
 use crate::physics::ripple::{PressureWave, amplitude_ratio, ln_peaks, sliding_integral};
 
 /// An operating point. SI.
@@ -56,30 +56,6 @@ pub struct SurfaceWave {
     pub wavenumber_per_m: [f64; 2],
     /// Its amplitude over the body's.
     pub share: f64,
-}
-
-/// The oil's part: what the film regressions need, at any load and speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FilmBasis {
-    /// Of a point contact.
-    Point(groups::OperatingPoint),
-    /// Of a line.
-    Line(LinePoint),
-}
-
-/// Oil and its shear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OilBasis {
-    /// For film, M and L.
-    pub film: FilmBasis,
-    /// Whether viscosity follows Roelands; else Barus.
-    pub roelands: bool,
-    /// Eyring stress, Pa; `None`: Newtonian.
-    pub eyring_pa: Option<f64>,
-    /// Limiting shear stress over pressure.
-    pub limit: f64,
-    /// Film at or below which a spot is in contact, m.
-    pub contact_film_m: f64,
 }
 
 /// What does not change while knobs are turned.
@@ -246,26 +222,11 @@ impl Loaded {
         if slide_roll == 0.0 {
             return 0.0;
         }
-        let Some(oil) = basis.oil.filter(|oil| self.film_m > oil.contact_film_m) else {
-            return basis.boundary;
-        };
-        let mean = match basis.shape {
-            HertzShape::Point => 2.0 / 3.0,
-            HertzShape::Line => std::f64::consts::FRAC_PI_4,
-        };
-        let (viscosity_pa_s, alpha_per_pa) = oil.film.viscosity();
-        let law = if oil.roelands {
-            Viscosity::roelands(viscosity_pa_s, alpha_per_pa, self.p_hertz_pa)
-        } else {
-            Viscosity::barus(alpha_per_pa, self.p_hertz_pa)
-        };
         let sliding_m_s = (slide_roll * self.at.entrainment_m_s).abs();
-        let newtonian = viscosity_pa_s * law.ln_eta(mean).0.exp() * sliding_m_s / self.film_m;
-        let shear = match oil.eyring_pa {
-            Some(tau) => tau * (newtonian / tau).asinh(),
-            None => newtonian,
-        };
-        (shear / (mean * self.p_hertz_pa)).min(oil.limit)
+        let film = basis.oil.filter(|oil| self.film_m > oil.contact_film_m);
+        film.map_or(basis.boundary, |oil| {
+            oil.friction(basis.shape, (self.p_hertz_pa, self.film_m), sliding_m_s)
+        })
     }
 }
 
@@ -308,32 +269,6 @@ pub fn load_factor(
 ) -> f64 {
     let volume = f64::from(shape.order());
     pressure_ratio.powf(-(stress_exponent + volume / weibull_slope))
-}
-
-impl FilmBasis {
-    /// η0, Pa s, and α, 1/Pa.
-    fn viscosity(&self) -> (f64, f64) {
-        match self {
-            Self::Point(point) => (point.viscosity_pa_s, point.alpha_per_pa),
-            Self::Line(line) => (line.viscosity_pa_s, line.alpha_per_pa),
-        }
-    }
-
-    /// Central film, m, M and L at a load and a speed.
-    fn at(self, load_n: f64, speed_m_s: f64) -> (f64, f64, f64) {
-        match self {
-            Self::Point(mut point) => {
-                (point.force_n, point.entrainment_m_s) = (load_n, speed_m_s);
-                let groups = point.groups();
-                (nijenbanning_central_m(&point), groups.m, groups.l)
-            }
-            Self::Line(mut line) => {
-                (line.load_n_per_m, line.entrainment_m_s) = (load_n, speed_m_s);
-                let groups = line.groups();
-                (line.moes_central_m(), groups.m, groups.l)
-            }
-        }
-    }
 }
 
 /// ln J(µ)/J(0) of a section at [`FRICTIONS`].
@@ -437,6 +372,7 @@ fn crests(per_m: f64, amplitude_m: f64) -> f64 {
 mod tests {
     #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::physics::groups;
     use approx::assert_relative_eq;
 
     /// f L = 20 on both bodies.
