@@ -46,7 +46,8 @@ fn violations(path: &str, text: &str) -> Vec<String> {
     }
     let body = code.split("#[cfg(test)]").next().unwrap_or("");
     for printing in ["println!", "print!", "dbg!"] {
-        if body.contains(printing) {
+        // The build script talks to Cargo by printing.
+        if body.contains(printing) && path != "src/build.rs" {
             found.push(format!("{path} prints with {printing}"));
         }
     }

@@ -214,7 +214,7 @@ fn check_life(screen: &[String], bench: &Bench, at: &Closed) {
         sig(life.life_relative_low, 2),
         sig(life.life_relative_high, 2)
     );
-    assert_eq!(word(screen, "band "), band);
+    assert_eq!(word(screen, "num. error "), band);
 }
 
 /// The marker on the curve of life against S stands at the knob's S and the leading life.

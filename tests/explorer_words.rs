@@ -7,7 +7,7 @@ mod tui_fixture;
 use std::sync::Arc;
 use std::time::Duration;
 
-use asperity::sim::{Frame, Metrics, Repeat, Rhythm, Stage};
+use asperity::sim::{Frame, LubricationRegime, Metrics, Repeat, Rhythm, Stage};
 use asperity::tui::action::Action;
 use asperity::tui::app::App;
 use asperity::tui::theme::{ColorDepth, Contrast, Glyphs, Theme};
@@ -78,10 +78,11 @@ fn a_scene_without_life_or_oil_says_so() {
     bare.lubricant = None;
     let mut app = App::new(setup_of(bare));
     let started = text(&app, 80, 24);
-    assert!(started.contains("starting: dry Hertz") && !started.contains("film"));
+    assert!(started.contains("starting: dry Hertz") && !started.contains("then film"));
     take(&mut app, 1, |metrics| {
         metrics.life = None;
         metrics.lambda_ratio = None;
+        metrics.regime = LubricationRegime::Dry;
     });
     for (width, height) in [(80, 24), (160, 48)] {
         let shown = text(&app, width, height);

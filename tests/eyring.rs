@@ -12,8 +12,8 @@ use rustfft::num_complex::Complex;
 
 /// Ripple, m: so low against films of 140 nm and more that what is left is linear in it.
 const AMPLITUDE_M: f64 = 4e-9;
-/// Where the ripple is read, in a: the flat of the contact, where the film is one.
-const WINDOW: std::ops::RangeInclusive<f64> = -0.7..=0.5;
+/// Where the ripple is read, in a: the flat of the contact, the same on both sides of its centre.
+const WINDOW: std::ops::RangeInclusive<f64> = -0.6..=0.6;
 /// Periods of the ripple that are read.
 const PERIODS: f64 = 4.0;
 
@@ -87,7 +87,7 @@ tolerance = 1e-6
     }
 }
 
-/// What moves with one frequency at the nodes of the window, and what there is on average at the centre.
+/// What moves with one frequency at the nodes of the window, and the means over them.
 struct Read {
     x_m: Vec<f64>,
     film: Vec<Complex<f64>>,
@@ -126,9 +126,6 @@ fn read(scene: &Scene, omega: f64) -> Read {
     let inside: Vec<usize> = (0..frame.nx)
         .filter(|&i| WINDOW.contains(&(x(i) / a_m)))
         .collect();
-    let centre = (0..frame.nx)
-        .min_by(|&i, &k| x(i).abs().total_cmp(&x(k).abs()))
-        .unwrap();
     let window = |n: usize| 1.0 - (TAU * (n as f64 + 0.5) / samples as f64).cos();
     let mean = |rows: &[Vec<f64>], i: usize| {
         (0..samples).map(|n| window(n) * rows[n][i]).sum::<f64>() / samples as f64
@@ -142,56 +139,86 @@ fn read(scene: &Scene, omega: f64) -> Read {
             })
             .sum()
     };
+    let over_window = |rows: &[Vec<f64>]| {
+        let sum: f64 = inside.iter().map(|&i| mean(rows, i)).sum();
+        sum / inside.len() as f64
+    };
     let steps = (sim.stats().steps - before.steps) as f64;
     Read {
         x_m: inside.iter().map(|&i| x(i)).collect(),
         film: inside.iter().map(|&i| harmonic(&films, i)).collect(),
         pressure: inside.iter().map(|&i| harmonic(&pressures, i)).collect(),
-        film_m: mean(&films, centre),
-        pressure_pa: mean(&pressures, centre),
+        film_m: over_window(&films),
+        pressure_pa: over_window(&pressures),
         newton_a_step: (sim.stats().newton_iterations - before.newton_iterations) as f64 / steps,
         krylov_a_step: (sim.stats().linear_iterations - before.linear_iterations) as f64 / steps,
     }
 }
 
-/// `z = α e^{ikx} + β e^{ik'x}`: α, β and Σ|rest|², by least squares.
+/// Waves of the fit: the bound one, x times it, the other one.
+const WAVES: usize = 3;
+
+/// `z = (α + α' x) e^{ikx} + β e^{ik'x}`: α and Σ|rest|², by least squares. The mean pressure's slope makes what is bound
+/// grow along the contact by a term that is odd in x, and zero at the centre, where the closed form holds.
 fn two_waves(
     x: &[f64],
     z: &[Complex<f64>],
     k: Complex<f64>,
     other: Complex<f64>,
-) -> (Complex<f64>, Complex<f64>, f64) {
+) -> (Complex<f64>, f64) {
     let i = Complex::new(0.0, 1.0);
     let zero = Complex::new(0.0, 0.0);
-    let (mut aa, mut ab, mut bb, mut az, mut bz) = (zero, zero, zero, zero, zero);
-    for (&x, z) in x.iter().zip(z) {
-        let (a, b) = ((i * k * x).exp(), (i * other * x).exp());
-        aa += a.conj() * a;
-        ab += a.conj() * b;
-        bb += b.conj() * b;
-        az += a.conj() * z;
-        bz += b.conj() * z;
+    let length = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let waves = |x: f64| {
+        let bound = (i * k * x).exp();
+        [bound, bound * (x / length), (i * other * x).exp()]
+    };
+    let mut rows = [[zero; WAVES + 1]; WAVES];
+    for (&x, &z) in x.iter().zip(z) {
+        let waves = waves(x);
+        for (row, wave) in rows.iter_mut().zip(waves) {
+            for (sum, value) in row.iter_mut().zip(waves.into_iter().chain([z])) {
+                *sum += wave.conj() * value;
+            }
+        }
     }
-    let det = aa * bb - ab * ab.conj();
-    let (alpha, beta) = ((az * bb - bz * ab) / det, (bz * aa - az * ab.conj()) / det);
-    let rest = x
-        .iter()
-        .zip(z)
-        .map(|(&x, z)| (z - alpha * (i * k * x).exp() - beta * (i * other * x).exp()).norm_sqr())
-        .sum();
-    (alpha, beta, rest)
+    // Gauss without a choice of pivots: the normal equations of three independent waves are positive definite.
+    for n in 0..WAVES {
+        let (above, below) = rows.split_at_mut(n + 1);
+        let pivot = above[n];
+        for row in below {
+            let factor = row[n] / pivot[n];
+            for (value, pivot) in row.iter_mut().zip(pivot) {
+                *value -= factor * pivot;
+            }
+        }
+    }
+    let mut found = [zero; WAVES];
+    for n in (0..WAVES).rev() {
+        let known: Complex<f64> = (n + 1..WAVES).map(|m| rows[n][m] * found[m]).sum();
+        found[n] = (rows[n][WAVES] - known) / rows[n][n];
+    }
+    let rest = |x: f64, z: Complex<f64>| {
+        let sum: Complex<f64> = waves(x)
+            .into_iter()
+            .zip(found)
+            .map(|(wave, a)| wave * a)
+            .sum();
+        (z - sum).norm_sqr()
+    };
+    (found[0], x.iter().zip(z).map(|(&x, &z)| rest(x, z)).sum())
 }
 
 /// The complex wavenumber of the other wave that leaves the least rest, from a first guess.
 fn other_wave(x: &[f64], z: &[Complex<f64>], k: Complex<f64>, guess: Complex<f64>) -> Complex<f64> {
     let mut best = guess;
-    let mut least = two_waves(x, z, k, best).2;
+    let mut least = two_waves(x, z, k, best).1;
     let mut step = 0.2 * guess.norm();
     while step > 1e-5 * guess.norm() {
         let ways = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
         let better = ways.iter().find_map(|&(re, im)| {
             let tried = best + Complex::new(re, im) * step;
-            let rest = two_waves(x, z, k, tried).2;
+            let rest = two_waves(x, z, k, tried).1;
             (rest < least).then_some((tried, rest))
         });
         match better {
@@ -247,8 +274,8 @@ fn compare(gear: &Gear, wave_m: f64, (flow, law): Form) -> (Ripple, Ripple) {
     };
     let bound = Complex::new(k, 0.0);
     let other = other_wave(&read.x_m, &read.film, bound, convected);
-    let (film, ..) = two_waves(&read.x_m, &read.film, bound, other);
-    let (pressure, ..) = two_waves(&read.x_m, &read.pressure, bound, other);
+    let (film, _) = two_waves(&read.x_m, &read.film, bound, other);
+    let (pressure, _) = two_waves(&read.x_m, &read.pressure, bound, other);
     let solver = Ripple {
         left: film.norm() / AMPLITUDE_M,
         pressure: pressure.norm() / (0.25 * scene.e_prime_pa() * k * AMPLITUDE_M),
@@ -276,16 +303,31 @@ fn compare(gear: &Gear, wave_m: f64, (flow, law): Form) -> (Ripple, Ripple) {
 #[test]
 fn what_is_left_of_a_ripple_is_what_the_closed_form_says() {
     println!(
-        "| point | W, um | eyring_flow | film, nm | tau_m/tau0 | left: closed | solver | pressure: closed | solver | decay, 1/a: k/Q | closed | solver | Newton a step | Krylov |"
+        "| point | W, um | eyring_flow | film, nm | tau_m/tau0 | left: closed | solver | pressure: closed | solver | decay, 1/a: first order | closed | solver | Newton a step | Krylov |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for form in [ALONG, SECANT] {
-        for (gear, wave_m) in [(&B, 30e-6), (&B, 60e-6), (&A, 30e-6)] {
+        for (gear, wave_m, published) in [(&B, 30e-6, 0.92), (&B, 60e-6, 0.52), (&A, 30e-6, 0.82)] {
             let (closed, solver) = compare(gear, wave_m, form);
-            assert!(
-                (solver.left / closed.left - 1.0).abs() < 0.03,
-                "{closed:?} {solver:?}"
-            );
+            let within = |tolerance: f64, ours: f64, theirs: f64| {
+                assert!(
+                    (ours / theirs - 1.0).abs() < tolerance,
+                    "{closed:?} {solver:?}"
+                );
+            };
+            if form.0 == ALONG.0 {
+                // Two digits.
+                within(0.015, closed.left, published);
+                within(0.03, solver.left, closed.left);
+                within(0.03, solver.pressure, closed.pressure);
+                // A decay beside a bound wave that itself grows along x: from window to window it differs by a tenth.
+                // In FZG B at 30 um the wave is gone before the window begins, by a factor of ten.
+                within(0.15, solver.decay, closed.decay);
+            } else {
+                // The stress, and with it the secant viscosity, falls by a tenth from the centre to the window's ends.
+                within(0.1, solver.left, closed.left);
+                within(0.03, solver.pressure, closed.pressure);
+            }
         }
     }
 }
@@ -329,9 +371,13 @@ fn without_sliding_the_flow_has_no_direction() {
 #[test]
 fn the_mirrored_half_is_the_whole() {
     // Half of the rows by symmetry, and all of them because a phase shift along y has taken the symmetry away.
-    let flow = "lubricant.eyring_flow=along_across";
-    let (half, _) = run(&[flow], 8);
-    let (whole, _) = run(&[flow, "body_2.surface.angle_deg=180.00000001"], 8);
+    let sets = [
+        "lubricant.eyring_flow=along_across",
+        "numerics.tolerance=1e-6",
+    ];
+    let (half, _) = run(&sets, 4);
+    let turned = "body_2.surface.angle_deg=180.00000001";
+    let (whole, _) = run(&[sets[0], sets[1], turned], 4);
     let worst = half
         .film_m
         .iter()
@@ -339,5 +385,48 @@ fn the_mirrored_half_is_the_whole() {
         .map(|(a, b)| (a - b).abs() / (a + 1e-9))
         .fold(0.0_f32, f32::max);
     println!("films of both differ by {worst:.1e} at most");
-    assert!(worst < 2e-3, "{worst}");
+    assert!(worst < 1e-4, "{worst}");
+}
+
+/// `cargo test --release --test eyring -- --ignored --nocapture`
+#[test]
+#[ignore = "timing: on a quiet machine"]
+fn cost_of_a_step_with_either_form() {
+    println!(
+        "| scene, nodes | eyring_flow | ms a step | Newton a step | Krylov a step | h_c, nm | h_min, nm | friction |"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
+    for (preset, nodes, steps) in [("demonstration", 129, 48), ("fzg_point_b", 513, 200)] {
+        let mut taken = [0.0; 2];
+        for (flow, taken) in ["secant", "along_across"].into_iter().zip(&mut taken) {
+            let sets = [
+                format!("grid.nodes={nodes}"),
+                format!("lubricant.eyring_flow={flow}"),
+                "stress=none".to_owned(),
+                "life=none".to_owned(),
+                "record=none".to_owned(),
+            ];
+            let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
+            let scene = Scene::load_with(preset, &sets).unwrap();
+            let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
+            while sim.passage_steps() == 0 {
+                sim.step().unwrap();
+            }
+            let (before, clock) = (*sim.stats(), std::time::Instant::now());
+            for _ in 0..steps {
+                sim.step().unwrap();
+            }
+            *taken = 1e3 * clock.elapsed().as_secs_f64() / f64::from(steps);
+            let (work, metrics) = (sim.stats(), sim.metrics());
+            println!(
+                "| {preset}, {nodes} | {flow} | {taken:.1} | {:.2} | {:.1} | {:.1} | {:.1} | {:.4} |",
+                (work.newton_iterations - before.newton_iterations) as f64 / f64::from(steps),
+                (work.linear_iterations - before.linear_iterations) as f64 / f64::from(steps),
+                1e9 * metrics.h_central_m,
+                1e9 * metrics.h_min_m,
+                metrics.friction_coefficient,
+            );
+        }
+        println!("ratio {:.2}", taken[1] / taken[0]);
+    }
 }

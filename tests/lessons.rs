@@ -142,39 +142,3 @@ fn figures_are_read_from_the_frame() {
     assert!(n_2 > 3.0, "{n_2}");
     assert_eq!(Figure::N1.of(&run.frame), Some(1.0), "body 2 is smooth");
 }
-
-#[test]
-#[ignore = "temporary"]
-fn all_figures() {
-    for lesson in LESSONS {
-        let mut run = None;
-        for beat in lesson.beats {
-            if let Some(scene) = staged(beat) {
-                run = Some(Run::new(scene));
-            }
-            let run = run.as_mut().unwrap();
-            run.play(beat);
-            println!("{}", beat.caption);
-            for figure in [
-                Figure::N1,
-                Figure::Counted1,
-                Figure::N2,
-                Figure::Counted2,
-                Figure::Lambda,
-                Figure::ContactPercent,
-                Figure::PeakPressure,
-                Figure::PeakDepth,
-                Figure::LeftPercent,
-                Figure::Life,
-            ] {
-                print!("  {} {:.4?}", figure.name(), figure.of(&run.frame));
-            }
-            println!();
-            for claim in beat.claims {
-                if !claim.holds(&run.frame) {
-                    println!("   FAILS {claim:?}");
-                }
-            }
-        }
-    }
-}

@@ -18,9 +18,10 @@ const ROUGH: [&str; 7] = [
     "body_2.surface.wavelength_y_m=4e-4",
     "time.passages=6",
 ];
+/// Depths enough for models that look at the worst of them: of 12, τ0^c of a turned load errs by 4 %.
 const SMOOTH: [&str; 4] = [
     "grid.nodes=65",
-    "stress.depths=12",
+    "stress.depths=48",
     "body_1.surface.kind=smooth",
     "body_2.surface.kind=smooth",
 ];
@@ -118,7 +119,9 @@ impl Pair {
         assert!(apart(one.i_ref, two.i_ref) < reference, "reference");
         assert!(apart(one.peak_factor, two.peak_factor) < life, "peaks");
         assert!(apart(one.life_relative, two.life_relative) < life, "life");
-        assert!(apart(one.lambda_ratio, two.lambda_ratio) < 1e-9, "lambda");
+        let lambdas = one.lambda_ratio.zip(two.lambda_ratio);
+        assert_eq!(one.lambda_ratio.is_some(), two.lambda_ratio.is_some());
+        assert!(lambdas.is_none_or(|(one, two)| (one / two - 1.0).abs() < 1e-9));
         assert!(apart(Some(one.p_hertz_pa), Some(two.p_hertz_pa)) < 1e-9);
         assert!(apart(Some(one.a_m), Some(two.a_m)) < 1e-9);
         // A run that begins there is its own base.

@@ -290,37 +290,43 @@ fn crafted_states_are_refused_in_words() {
     }
 }
 
-/// A step that fails leaves the state as it was but for the work that is counted, its first parts too.
+/// A step that fails leaves the state as it was but for the work that is counted: here after a past whose oil no film of
+/// one iteration can take in.
 #[test]
 fn a_step_that_fails_leaves_the_state_as_it_was() {
     let scene = scene(&[
-        "grid.nodes=33",
+        "grid.nodes=65",
         "record=none",
         "stress=none",
         "life=none",
-        "motion.entrainment_m_s=1e-3",
-        "motion.slide_roll=2",
-        "body_1.surface.amplitude_m=1.5e-6",
-        "body_1.surface.wavelength_x_m=6e-4",
-        "body_2.surface.amplitude_m=1.5e-6",
-        "body_2.surface.wavelength_x_m=6e-4",
-        "body_2.surface.wavelength_y_m=6e-4",
-        "numerics.max_iterations=2",
-        "numerics.tolerance=1e-9",
+        "numerics.max_iterations=1",
     ]);
-    let state = |sim: &Simulation| {
+    let mut sim = simulation(&scene);
+    while sim.passage_steps() < 2 {
+        sim.step().unwrap();
+    }
+    let mut state = serde_json::to_value(sim.save()).unwrap();
+    for field in ["mass_1", "mass_2"] {
+        let list = state["contact"]["history"][field].as_array_mut().unwrap();
+        for (n, mass) in list.iter_mut().enumerate() {
+            let spoiled = mass.as_f64().unwrap() * if n % 3 == 0 { 1e4 } else { 1e-4 };
+            *mass = spoiled.into();
+        }
+    }
+    sim.restore(serde_json::from_value(state).unwrap()).unwrap();
+    let but_for_work = |sim: &Simulation| {
         let mut state = serde_json::to_value(sim.save()).unwrap();
         state["stats"].take();
         state
     };
-    let mut sim = simulation(&scene);
-    let error = (0..200).find_map(|_| {
-        let before = state(&sim);
-        let error = sim.step().err()?;
-        assert!(before == state(&sim), "{error}");
-        Some(error)
-    });
-    println!("{}", error.expect("a step that fails"));
+    let mut frames = [Frame::default(), Frame::default()];
+    let before = but_for_work(&sim);
+    sim.fill(&mut frames[0]);
+    println!("{}", sim.step().expect_err("a step that fails"));
+    sim.fill(&mut frames[1]);
+    assert!(before == but_for_work(&sim));
+    assert!(bits(&frames[0]) == bits(&frames[1]));
+    assert!(sim.stats().safer > 0);
 }
 
 /// What is no state at all is refused by the program at once, whatever it is.

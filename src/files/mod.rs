@@ -11,7 +11,7 @@ pub(crate) use write::{folder_of, part_of, publish, sync_file, sync_folder};
 pub use write::{identity, write_whole};
 
 /// Identity of the engine that a program was built with: FNV-1a of its sources, dependencies, compiler and target
-/// (`build.rs`). Two programs of the same one give the same numbers on the same kind of CPU.
+/// (`src/build.rs`). Two programs of the same one give the same numbers on the same kind of CPU.
 pub const BUILD: &str = env!("ASPERITY_BUILD");
 /// Version and build.
 pub const VERSION: &str = concat!(

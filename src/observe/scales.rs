@@ -23,8 +23,8 @@ pub(crate) struct ToCome {
     film: f64,
     /// Amplitudes of body 1 and 2, m.
     pub(crate) amplitude_m: [f64; 2],
-    /// Pressure of crests that are pressed flat, Pa; 0 where the first frame tells, because a film separates them and
-    /// they grow no more.
+    /// Pressure of crests that are pressed flat, Pa. Where a film separates them and they grow no more, at most twice
+    /// the ripple of the first frame: those of both bodies may meet there or not.
     crest_pa: f64,
     /// Greatest traction over pressure: limiting shear of the oil or boundary friction; 0: not known.
     friction: f64,
@@ -67,7 +67,7 @@ impl ToCome {
             .zip(now_m)
             .any(|(&most, now)| most > 1.001 * now);
         let touch = m.contact_load_ratio > 0.0;
-        let crest_pa = scene.filter(|_| grows || touch).map_or(0.0, |scene| {
+        let flat_pa = scene.map_or(0.0, |scene| {
             let surfaces = scene.surfaces().into_iter().zip(amplitude_m);
             let slope = surfaces.map(|(surface, amplitude_m)| {
                 let [k_x, k_y] = surface.wavenumbers_per_m();
@@ -75,6 +75,11 @@ impl ToCome {
             });
             crest_pressure_pa(size * first.p_hertz_pa, scene.e_prime_pa(), slope.sum())
         });
+        let crest_pa = if grows || touch {
+            flat_pa
+        } else {
+            flat_pa.min(size * (2.0 * m.p_max_pa - first.p_hertz_pa))
+        };
         Self {
             size,
             film: speed_ratio.powf(FILM_BY_SPEED),

@@ -178,7 +178,7 @@ impl Plan {
             }
             _ => format!("dry contact ({rows})"),
         }];
-        let film = self.film.filter(|film| film.flows());
+        let film = self.film.filter(super::FilmPlan::flows);
         if let Some(flow) = film.and_then(|film| film.eyring_flow) {
             lines.push(flow_text(flow).to_owned());
         }

@@ -213,7 +213,8 @@ fn standing(m: &Metrics, grounds: &Grounds) -> Option<String> {
         _ => return None,
     };
     Some(format!(
-        "body {body} stands (S = {}): its loading cycle never ends, so it is left out, and the life is body {other}'s; it          rises again here for no other reason",
+        "body {body} stands (S = {}): its loading cycle never ends, so it is left out, and the life is body {other}'s, which is \
+         why it rises again here",
         sig(m.slide_roll, 3)
     ))
 }
@@ -350,7 +351,7 @@ mod tests {
                 });
             }),
             (NoLife, "no life", |m, g| {
-                (m.life, g.has_life) = (None, false)
+                (m.life, g.has_life) = (None, false);
             }),
             (StrengthUnknown, "body 2", |_, g| g.strength[1] = None),
         ];

@@ -66,6 +66,7 @@ impl State {
     }
 
     /// The same contact on `fine`, a grid with twice the intervals of `coarse`.
+    #[must_use]
     pub fn refined(&self, coarse: &Grid, fine: &Grid) -> Self {
         let on_fine = |from: &[f64]| prolong(coarse, from, fine);
         let pressure = on_fine(&self.pressure);

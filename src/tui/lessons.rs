@@ -319,7 +319,7 @@ mod tests {
         for lesson in LESSONS {
             let last = lesson.beats.last().map(|beat| beat.caption);
             assert!(
-                last.is_some_and(|words| words.contains("Left out:")),
+                last.is_some_and(|words| words.contains("Not modelled:")),
                 "{}",
                 lesson.title
             );

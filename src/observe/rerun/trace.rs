@@ -226,12 +226,10 @@ fn counts(point: &MaterialPoint, frame: &Frame) -> String {
         1 => frame.metrics.n_body_1,
         _ => frame.metrics.n_body_2,
     };
-    let mut text = format!("body {}: {} peaks so far", point.body, point.cycles_counted);
-    if let Some(closed) = point.cycles_before {
-        text.push_str(&format!(", {closed} cycles in the crossing before"));
-    }
-    if let Some(n) = expected {
-        text.push_str(&format!(", {} expected on average", sig(n, 3)));
-    }
-    text
+    let counted = point.cycles_counted;
+    let mut parts = vec![format!("body {}: {counted} peaks so far", point.body)];
+    let before = point.cycles_before;
+    parts.extend(before.map(|closed| format!("{closed} cycles in the crossing before")));
+    parts.extend(expected.map(|n| format!("{} expected on average", sig(n, 3))));
+    parts.join(", ")
 }

@@ -26,11 +26,10 @@ use crate::tui::kymograph::{Kymograph, Span};
 use crate::tui::lessons::{Staging, TourState};
 use crate::tui::pixels::Pixels;
 use crate::tui::replay::Replay;
-use crate::tui::tables;
 use crate::tui::theme::Theme;
 use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
-use crate::tui::wiring::{Health, RunStatus, Shown};
+use crate::tui::wiring::{Health, RunStatus};
 use curve::MeanFriction;
 pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Setup, Trouble, Unconverged};
 pub use held::PointNow;
@@ -273,51 +272,9 @@ impl App {
         }
     }
 
-    /// What is on the screen, for files; `None` before the passage.
-    pub fn shown(&self) -> Option<Shown> {
-        let frame = self.frame().filter(|frame| frame.stage == Stage::Passage)?;
-        Some(Shown {
-            frame: Arc::clone(frame),
-            scene_toml: self.scene_toml(),
-            tables: tables::of(self, frame),
-        })
-    }
-
     /// Whether the program offers an errand.
     pub fn offers(&self, errand: ErrandKind) -> bool {
         self.setup.errands.contains(&errand)
-    }
-
-    /// The scene with the knobs where they are going, as TOML.
-    pub fn scene_toml(&self) -> String {
-        self.scene_now().to_toml()
-    }
-
-    /// The scene with the knobs where they are going.
-    fn scene_now(&self) -> Scene {
-        let mut scene = (*self.setup.scene).clone();
-        // A knob where the scene has it leaves the scene's own words (a load given as a Hertz pressure).
-        for dial in self.dials.iter().filter(|dial| dial.target != dial.home) {
-            put(&mut scene, dial);
-        }
-        scene
-    }
-}
-
-fn put(scene: &mut Scene, dial: &Dial) {
-    match dial.knob {
-        Knob::SlideRoll => scene.motion.slide_roll = dial.target,
-        Knob::ForceN => {
-            scene.load.force_n = Some(dial.target);
-            scene.load.hertz_pressure_pa = None;
-        }
-        Knob::ForceNPerM => {
-            scene.load.force_n_per_m = Some(dial.target);
-            scene.load.hertz_pressure_pa = None;
-        }
-        Knob::Amplitude1M => scene.body_1.surface.set_amplitude_m(dial.target),
-        Knob::Amplitude2M => scene.body_2.surface.set_amplitude_m(dial.target),
-        Knob::EntrainmentMS => scene.motion.entrainment_m_s = dial.target,
     }
 }
 

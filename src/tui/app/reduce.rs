@@ -171,6 +171,7 @@ impl App {
             Pace::Running => Pace::Paused,
             Pace::Paused => Pace::Running,
         };
+        self.rate.clear();
         self.back = 0;
         vec![Effect::Send(Command::Pause)]
     }
@@ -202,6 +203,7 @@ impl App {
             Pace::Paused => Vec::new(),
             Pace::Running => {
                 self.pace = Pace::Paused;
+                self.rate.clear();
                 vec![Effect::Send(Command::Pause)]
             }
         }

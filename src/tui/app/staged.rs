@@ -1,10 +1,17 @@
-//! Another scene behind the same screen: the user's choices, and the stages of the lessons.
+//! The scene behind the screen: as it now is, another of the user's choice, and the stages of the lessons.
+
+use std::sync::Arc;
 
 use crate::run::Command;
+use crate::scene::Scene;
+use crate::sim::{Knob, Stage};
 use crate::tui::action::Action;
 use crate::tui::app::{App, Effect, ErrandKind, Overlay, Setup};
 use crate::tui::choice::Draft;
+use crate::tui::dial::Dial;
 use crate::tui::lessons::TourState;
+use crate::tui::tables;
+use crate::tui::wiring::Shown;
 
 impl App {
     /// The screen of a new run, which keeps how things are shown, the tour and the pinned life where it can
@@ -157,5 +164,47 @@ impl App {
             }
         }
         effects
+    }
+
+    /// What is on the screen, for files; `None` before the passage.
+    pub fn shown(&self) -> Option<Shown> {
+        let frame = self.frame().filter(|frame| frame.stage == Stage::Passage)?;
+        Some(Shown {
+            frame: Arc::clone(frame),
+            scene_toml: self.scene_toml(),
+            tables: tables::of(self, frame),
+        })
+    }
+
+    /// The scene with the knobs where they are going, as TOML.
+    pub fn scene_toml(&self) -> String {
+        self.scene_now().to_toml()
+    }
+
+    /// The scene with the knobs where they are going.
+    pub(super) fn scene_now(&self) -> Scene {
+        let mut scene = (*self.setup.scene).clone();
+        // A knob where the scene has it leaves the scene's own words (a load given as a Hertz pressure).
+        for dial in self.dials.iter().filter(|dial| dial.target != dial.home) {
+            put(&mut scene, dial);
+        }
+        scene
+    }
+}
+
+fn put(scene: &mut Scene, dial: &Dial) {
+    match dial.knob {
+        Knob::SlideRoll => scene.motion.slide_roll = dial.target,
+        Knob::ForceN => {
+            scene.load.force_n = Some(dial.target);
+            scene.load.hertz_pressure_pa = None;
+        }
+        Knob::ForceNPerM => {
+            scene.load.force_n_per_m = Some(dial.target);
+            scene.load.hertz_pressure_pa = None;
+        }
+        Knob::Amplitude1M => scene.body_1.surface.set_amplitude_m(dial.target),
+        Knob::Amplitude2M => scene.body_2.surface.set_amplitude_m(dial.target),
+        Knob::EntrainmentMS => scene.motion.entrainment_m_s = dial.target,
     }
 }

@@ -98,7 +98,7 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "Its ridges cross with it: pressure peaks stand on them, but they stay the same peaks. Left out: heat, yield, wear; the bodies are elastic.",
+                caption: "Its ridges cross with it: pressure peaks stand on them, but they stay the same peaks. Not modelled: heat, yield, wear; the bodies are elastic.",
                 map: Some(Pressure),
                 passages: 2.0,
                 claims: &[claim(Counted1, 0.8, 1.2), claim(PeakPressure, 1.1, 3.0)],
@@ -136,7 +136,7 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "n is an upper bound on damage: it counts a small ripple like a full cycle. Left out: wear, which can reverse the trend with S.",
+                caption: "n is an upper bound on damage: it counts a small ripple like a full cycle. Not modelled: wear, which can reverse the trend with S.",
                 passages: 1.0,
                 claims: &[
                     claim(N1, 13.5, 14.5),
@@ -149,27 +149,27 @@ pub const LESSONS: &[Lesson] = &[
         ],
     },
     Lesson {
-        title: "Thin film: from λ = 4 to dry",
+        title: "Thin film: from λ = 5 to dry",
         beats: &[
             Beat {
                 staging: Some(FAST),
-                caption: "Fast: the film is four times as thick as the roughness, λ = 4. Nothing touches; the film's horseshoe shows.",
+                caption: "Fast: the film is five times as thick as the roughness, λ = 5. Nothing touches; the film's horseshoe shows.",
                 map: Some(Film),
                 passages: 1.5,
-                claims: &[claim(Lambda, 3.5, 4.8), claim(ContactPercent, 0.0, 0.01)],
+                claims: &[claim(Lambda, 4.5, 5.5), claim(ContactPercent, 0.0, 0.01)],
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "An eighth of the speed: λ = 1, ripples and film are alike, pressure peaks grow.",
+                caption: "An eighth of the speed: λ = 1.2, ripples and film are alike, pressure peaks grow.",
                 sets: &[(SPEED, TimesHome(0.125))],
                 map: Some(Film),
                 passages: 2.0,
-                claims: &[claim(Lambda, 0.9, 1.2), claim(PeakPressure, 1.2, 3.0)],
+                claims: &[claim(Lambda, 1.0, 1.4), claim(PeakPressure, 1.2, 3.0)],
                 ..Beat::PLAIN
             },
             Beat {
                 staging: Some(NEARLY_DRY),
-                caption: "A tenth of that: nearly dry. Half of the contact touches and rubs there with the boundary friction. Left out: heat, which would thin the oil further.",
+                caption: "A tenth of that: nearly dry. Half of the contact touches and rubs there with the boundary friction. Not modelled: heat, which would thin the oil further.",
                 map: Some(Contact),
                 passages: 1.0,
                 claims: &[claim(Lambda, 0.1, 0.3), claim(ContactPercent, 40.0, 85.0)],
@@ -197,7 +197,7 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "Now they slide, S = 1: oil drawn over the slow ridges presses them flatter still, a tenth is left. Left out: heat and yield.",
+                caption: "Now they slide, S = 1: oil drawn over the slow ridges presses them flatter still, a tenth is left. Not modelled: heat and yield.",
                 sets: &[(S, To(1.0))],
                 map: Some(Film),
                 passages: 2.0,
@@ -248,7 +248,7 @@ pub const LESSONS: &[Lesson] = &[
             },
             Beat {
                 staging: Some(on(ROLLERS, &["body_1.surface.kind=smooth"])),
-                caption: "Isotropic: bumps both ways. As many crests as across, half the ground between them. Left out: real lay is never one wave.",
+                caption: "Isotropic: bumps both ways. As many crests as across, half the ground between them. Not modelled: real lay, which is never one wave.",
                 map: Some(Pressure),
                 passages: 2.5,
                 claims: &[claim(N1, 3.8, 4.5), claim(Counted1, 2.8, 4.5)],
@@ -275,7 +275,7 @@ pub const LESSONS: &[Lesson] = &[
             },
             Beat {
                 staging: Some(on("fzg_pitch_point", &[])),
-                caption: "Pitch point: one pair carries all the load, and rolls: S = 0, n = 1 for both. Crests that enter and leave shift load between the others: 1.3 are counted.",
+                caption: "Pitch point: one pair carries all the load, and rolls: S = 0, n = 1 for both. 1.3 are counted: the oil adds small cycles of its own (dry: 1.0).",
                 map: Some(Pressure),
                 passages: 1.5,
                 claims: &[
@@ -288,7 +288,7 @@ pub const LESSONS: &[Lesson] = &[
             },
             Beat {
                 staging: Some(on("fzg_point_e", &[])),
-                caption: "Pinion's tip: S = −1.04, now the wheel is the slower: n₂ 6, n₁ 2.5. Left out: a tooth passes through all this in a millisecond; each point here stands.",
+                caption: "Pinion's tip: S = −1.04, now the wheel is the slower: n₂ 6, n₁ 2.5. Not modelled: a tooth passes through all this in a millisecond; each point here stands.",
                 map: Some(Pressure),
                 passages: 2.5,
                 claims: &[
@@ -322,14 +322,14 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "And sliding: friction pulls it up further, and cycles multiply. Left out: residual stress, shakedown of the asperities, inclusions.",
+                caption: "And sliding: friction pulls it up further, and cycles multiply. Not modelled: residual stress, shakedown of the asperities, inclusions.",
                 sets: &[(S, To(1.0))],
                 map: Some(Stress),
                 passages: 2.0,
                 claims: &[
                     claim(PeakDepth, 0.0, 0.3),
-                    claim(Counted2, 1.0, 12.0),
-                    claim(N2, 3.0, 6.0),
+                    claim(Counted2, 2.3, 4.4),
+                    claim(N2, 3.8, 4.5),
                 ],
                 ..Beat::PLAIN
             },

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::physics::estimate::speed_ratios;
-use crate::sim::Stage;
+use crate::sim::{LubricationRegime, Stage};
 use crate::tui::app::{App, Pace};
 use crate::tui::dial::Dial;
 use crate::tui::theme::Role;
@@ -117,7 +117,7 @@ fn numbers(app: &App, columns: u16) -> Line<'static> {
         (Some(first), Some(second)) => sig(first.max(second), 3),
         _ => theme.pick("∞", "inf").to_owned(),
     };
-    let lambda = if app.setup.scene.lubricant.is_none() {
+    let lambda = if metrics.regime == LubricationRegime::Dry {
         "dry".to_owned()
     } else {
         sig_or_dash(metrics.lambda_ratio, 2)

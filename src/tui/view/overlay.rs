@@ -264,28 +264,42 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
 pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let wide = 100.min(screen.width);
-    let each = wide.saturating_sub(4).max(1);
-    let rows: u16 = text
-        .lines()
-        // Lines break at words, which leaves some columns empty.
-        .map(|line| (line.chars().count() as u16 + 8).div_ceil(each).max(1))
-        .sum();
+    let text = text.lines().map(|line| ascii_text(theme, line));
+    let columns = usize::from(wide.saturating_sub(4)).max(1);
+    let lines: Vec<String> = text.flat_map(|line| wrapped(&line, columns)).collect();
+    let tall = (lines.len() as u16 + 2).min(screen.height);
     let foot = Rect {
-        y: screen.bottom().saturating_sub(rows + 3),
-        height: (rows + 2).min(screen.height),
+        y: screen.bottom() - tall,
+        height: tall,
         ..screen
     };
-    let size = (wide, rows + 2);
-    let inner = boxed(app, foot, size, "", Role::Warn, buffer);
-    Paragraph::new(ascii_lines(app, text))
-        .style(theme.style(Role::Warn))
-        .wrap(Wrap { trim: true })
-        .render(inner, buffer);
+    let inner = boxed(app, foot, (wide, tall), "", Role::Warn, buffer);
+    for (row, line) in (0..).zip(lines) {
+        put(
+            inner,
+            row,
+            &Line::styled(line, theme.style(Role::Warn)),
+            buffer,
+        );
+    }
 }
 
-fn ascii_lines(app: &App, text: &str) -> String {
-    let lines = text.lines().map(|line| ascii_text(app.theme, line));
-    lines.collect::<Vec<_>>().join("\n")
+/// A line in rows of so many columns, broken between words.
+fn wrapped(line: &str, columns: usize) -> Vec<String> {
+    let mut rows = vec![String::new()];
+    for word in line.split_whitespace() {
+        let last = rows.last().map_or(0, |row| row.chars().count());
+        if last > 0 && last + 1 + word.chars().count() > columns {
+            rows.push(String::new());
+        }
+        if let Some(row) = rows.last_mut() {
+            if !row.is_empty() {
+                row.push(' ');
+            }
+            row.push_str(word);
+        }
+    }
+    rows
 }
 
 /// An engine that failed.

@@ -134,7 +134,7 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
             let (low, high) = (life.life_relative_low, life.life_relative_high);
             let band = format!("{}–{}", sig(low, 2), sig(high, 2));
             match beside {
-                Beside::Source => add(format!("band {band}"), Role::Text),
+                Beside::Source => add(format!("num. error {band}"), Role::Text),
                 Beside::Nothing if word.len() + 1 + band.chars().count() <= usize::from(width) => {
                     add(format!("{word} "), role);
                     add(band, Role::Text);
