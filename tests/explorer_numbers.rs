@@ -321,7 +321,7 @@ fn every_knob_moves_every_number_as_the_engine_has_it() {
 }
 
 /// A pinned life and the present one are compared in one unit, whatever their loads: against the loading cycles of two
-/// cold runs, which a calibration point makes absolute.
+/// cold runs, which a calibration point makes absolute. Each run has its own mesh, so they agree within both bands.
 #[test]
 fn a_pinned_comparison_is_the_ratio_of_two_cold_lives() {
     let mut own = scene();
@@ -343,12 +343,20 @@ fn a_pinned_comparison_is_the_ratio_of_two_cold_lives() {
         (scene.load.force_n, scene.load.hertz_pressure_pa) = (Some(force_n), None);
         let mut bench = Bench::new(&scene);
         bench.settle();
-        bench.frame.metrics.life.unwrap().detail.cycles.unwrap()
+        let life = bench.frame.metrics.life.unwrap();
+        let band = (life.life_relative_high / life.life_relative_low).ln() / 2.0;
+        (life.detail.cycles.unwrap(), band)
     };
-    let expected = cold(force_n) / cold(own.force_n());
+    let (now, then) = (cold(force_n), cold(own.force_n()));
+    let expected = now.0 / then.0;
     println!(
         "{force_n:.0} N against 800 N: {shown:.3e} on the screen, {expected:.3e} by two cold runs"
     );
     assert!(force_n > 2.0 * own.force_n() && expected < 0.05);
-    assert!((shown / expected).ln().abs() < 0.1, "{shown} {expected}");
+    let band = now.1 + then.1;
+    assert!(
+        (shown / expected).ln().abs() < band,
+        "{shown} {expected} {band}"
+    );
+    assert!(band < 0.2, "{band}");
 }

@@ -131,7 +131,7 @@ fn turns(base: &Scene, load: Knob) -> Vec<(Knob, f64)> {
         list.push((Knob::Amplitude1M, factor * a1));
         list.push((Knob::Amplitude2M, factor * a2));
     }
-    for factor in [0.5, 0.9, 2.0] {
+    for factor in [0.5, 0.9, 1.5] {
         list.push((load, factor * force));
         list.push((Knob::EntrainmentMS, factor * u));
     }
@@ -171,7 +171,7 @@ fn no_step_of_a_ramp_is_in_a_mean() {
     let a_m = sim.summary().a_m;
     sim.set(Knob::ForceN, 0.6 * base.force_n()).unwrap();
     let (mut way, mut walked) = (0.0, None);
-    while !sim.metrics().life.is_some_and(|life| life.settled) {
+    loop {
         let before = sim.time_s();
         sim.step().unwrap();
         let m = sim.metrics();

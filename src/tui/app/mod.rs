@@ -6,6 +6,7 @@ mod data;
 mod held;
 mod ingest;
 mod kinds;
+mod lives;
 mod reduce;
 mod staged;
 
@@ -13,10 +14,10 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, Factors, Loaded, OperatingPoint};
+use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, Loaded, OperatingPoint};
 use crate::run::Settled;
 use crate::scene::Scene;
-use crate::sim::{Caution, Frame, Knob, LifeEstimate, Stage};
+use crate::sim::{Frame, Knob, LifeEstimate, Stage};
 use crate::study::sweep::{Along, Found};
 use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
@@ -260,54 +261,6 @@ impl App {
         self.frame().and_then(|frame| frame.metrics.life)
     }
 
-    /// What to know before trusting the frame's numbers, the weightiest first.
-    pub fn cautions(&self) -> Vec<Caution> {
-        self.frame()
-            .filter(|frame| frame.stage == Stage::Passage)
-            .map_or_else(Vec::new, |frame| frame.cautions())
-    }
-
-    /// Which number leads: what was simulated, where that holds for where the knobs are.
-    pub fn leading(&self) -> Leading {
-        let settled = self.life().is_some_and(|life| life.settled);
-        if settled && !self.dials.iter().any(Dial::is_moving) {
-            Leading::Simulated
-        } else if self.anchor.is_some() {
-            Leading::Scaled
-        } else {
-            Leading::Formula
-        }
-    }
-
-    /// The factors of the life that leads; `None`: the scene computes no life.
-    pub fn leading_factors(&self) -> Option<Factors> {
-        self.setup.scene.life.as_ref()?;
-        match (self.leading(), self.life()) {
-            (Leading::Simulated, Some(life)) => Some(simulated(&life)),
-            _ => Some(self.estimate.best()),
-        }
-    }
-
-    /// The relative life that leads.
-    pub fn leading_life(&self) -> Option<f64> {
-        match (self.leading(), self.life()) {
-            (Leading::Simulated, Some(life)) => Some(life.life_relative),
-            _ => self.leading_factors()?.life(),
-        }
-    }
-
-    /// Life now over life pinned, what the load costs included.
-    pub fn against_pinned(&self) -> Option<f64> {
-        let pinned = self.pinned?;
-        let now = self.leading_life()? * self.leading_factors()?.load;
-        Some(now / (pinned.life_relative * pinned.load_factor))
-    }
-
-    /// Life at another S by formula, all else as the knobs are.
-    pub fn formula_at(&self, slide_roll: f64) -> Option<f64> {
-        self.loaded.factors(&self.basis, slide_roll).life()
-    }
-
     /// The centre line over the way that led to the frame on the screen.
     pub(crate) fn waves(&self) -> Option<Span<'_>> {
         match &self.replay {
@@ -322,38 +275,6 @@ impl App {
     /// Whether the program offers an errand.
     pub fn offers(&self, errand: ErrandKind) -> bool {
         self.setup.errands.contains(&errand)
-    }
-
-    fn refresh_estimate(&mut self) {
-        let point = point_of(&self.dials);
-        if !self.loaded.holds_at(&point) {
-            self.loaded = self.basis.loaded(&point);
-        }
-        self.estimate = self
-            .basis
-            .estimate(&self.loaded, self.anchor.as_ref(), &point);
-    }
-
-    /// Lives are scaled from this one from now on.
-    fn drop_anchor(&mut self, at: &OperatingPoint, life: &LifeEstimate) {
-        let known = [Some(self.loaded), self.anchor.map(|anchor| anchor.loaded)];
-        let known = known.into_iter().flatten().find(|one| one.holds_at(at));
-        let loaded = known.unwrap_or_else(|| self.basis.loaded(at));
-        self.anchor = Some(Anchor::new(
-            &self.basis,
-            loaded,
-            at.slide_roll,
-            simulated(life),
-        ));
-    }
-}
-
-fn simulated(life: &LifeEstimate) -> Factors {
-    Factors {
-        cycle: Some(life.cycle_factor),
-        peak: life.peak_factor,
-        traction: life.traction_factor,
-        load: life.load_factor,
     }
 }
 
