@@ -17,7 +17,7 @@ use std::time::Duration;
 use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, Loaded, OperatingPoint};
 use crate::run::Settled;
 use crate::scene::Scene;
-use crate::sim::{Frame, Knob, LifeEstimate, Stage};
+use crate::sim::{Frame, Knob, LifeEstimate};
 use crate::study::sweep::{Along, Found};
 use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
