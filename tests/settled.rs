@@ -195,6 +195,9 @@ fn no_step_of_a_ramp_is_in_a_mean() {
                 "{since} {load}"
             );
         }
+        if m.life.is_some_and(|life| life.settled) {
+            break;
+        }
     }
     assert!(way - walked.unwrap() > 4.0);
 }
