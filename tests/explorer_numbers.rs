@@ -358,5 +358,6 @@ fn a_pinned_comparison_is_the_ratio_of_two_cold_lives() {
         (shown / expected).ln().abs() < band,
         "{shown} {expected} {band}"
     );
-    assert!(band < 0.2, "{band}");
+    // 65 nodes: a seventh of the life for each of the two. The fault that this looks for was a factor of a hundred.
+    assert!(band < 0.3, "{band}");
 }

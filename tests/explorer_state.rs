@@ -368,11 +368,11 @@ fn the_mouse_moves_sliders_and_reads_the_map() {
     let drag = MouseEventKind::Drag(MouseButton::Left);
     let action = view::pointed(&app, screen, &mouse(drag, 16, y + 3)).unwrap();
     assert!(matches!(action, Action::Slide(0, part) if part > 0.3));
-    // The middle of the map is the middle of the contact.
+    // The middle of the map, right of and above its scales, is the middle of the contact.
     let areas = view::Areas::of(screen, view::Banner::None).unwrap();
     let (column, row) = (
-        areas.map.x + (areas.map.width - 8) / 2,
-        areas.map.y + areas.map.height / 2,
+        areas.map.x + (areas.map.width - 8) / 2 + 2,
+        areas.map.y + areas.map.height / 2 - 1,
     );
     let action = view::pointed(&app, screen, &mouse(down, column, row)).unwrap();
     let Action::Probe(x, y) = action else {

@@ -203,7 +203,14 @@ fn models_and_calibrated_cycles_follow_the_load() {
         // Cycles fall by what the load costs.
         let base = run(&own).life_cycles;
         let factor = Some(cycles[0].unwrap() / base.unwrap());
-        assert!(apart(one.load_factor, factor) < 0.02, "{model}: {factor:?}");
+        // The calibration goes by the model's power law, the load factor by its integrals. A critical plane takes the one
+        // worst depth of 48, which lie where the scene's load has them: 0.3 % of stress, to the power of c.
+        let room = if matches!(model, "dang_van" | "findley") {
+            0.04
+        } else {
+            0.02
+        };
+        assert!(apart(one.load_factor, factor) < room, "{model}: {factor:?}");
     }
 }
 

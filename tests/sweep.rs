@@ -121,7 +121,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     // Without being told to, nobody goes on in a folder with cases, nor in that of another sweep.
     let refused = Folder::create(&place, &sweep, Existing::Refuse).unwrap_err();
     assert!(
-        refused.to_string().contains("--resume goes on"),
+        refused.to_string().contains("--resume continues"),
         "{refused}"
     );
     let other = self::sweep(&text.replace("0.6", "0.5"));
@@ -636,7 +636,7 @@ fn in_a_marked_folder_a_sweep_takes_away_its_own_files_only() {
     }
     // What a kill left: nobody else is there, so it goes at once.
     std::fs::write(place.join("out/temporary-elsewhere-1-0.csv"), "half").unwrap();
-    refused(&asperity(place, &args(&[])), 4, &["--resume goes on"]);
+    refused(&asperity(place, &args(&[])), 4, &["--resume continues"]);
     assert_eq!(asperity(place, &args(&["--force"])).status.code(), Some(0));
     let mut all = own.clone();
     // A picture of a sweep's name is a sweep's; this one makes none.
@@ -802,6 +802,6 @@ fn a_stopped_sweep_says_so() {
     refused(
         &output,
         5,
-        &["stopped with", "of 8 cases", "--resume goes on"],
+        &["stopped with", "of 8 cases", "--resume continues"],
     );
 }

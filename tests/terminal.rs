@@ -43,7 +43,7 @@ fn it_starts_hears_keys_fits_every_size_and_quits() {
             terminal.wait("refusal", |screen| screen.contents().contains("too"));
         } else {
             terminal.wait("right edge", |screen| {
-                screen.size() == (rows, cols) && screen.contents().contains("relative life")
+                screen.size() == (rows, cols) && screen.contents().contains("smooth rolling")
             });
         }
     }
@@ -79,7 +79,7 @@ fn control_z_hands_the_terminal_over_and_fg_brings_it_back() {
     terminal.see("AT THE SHELL");
     terminal.press("fg\n");
     terminal.wait("explorer again", |screen| {
-        screen.alternate_screen() && screen.contents().contains("relative life")
+        screen.alternate_screen() && screen.contents().contains("smooth rolling")
     });
     terminal.press("q");
     terminal.is_given_back("READY>");

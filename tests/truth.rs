@@ -387,8 +387,11 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
     };
     let rows = [
         mean("h_central_m", w.said("film", "central ", 1e9)),
-        mean("h_min_m", w.said("film", "least ", 1e9)),
-        mean("p_max_pa", None),
+        mean("h_min_m", w.said("film", "mean of the steps' least ", 1e9)),
+        mean(
+            "p_max_pa",
+            w.said("pressure", "mean of the steps' greatest ", 1e-9),
+        ),
         mean("contact_ratio", None),
         mean(
             "friction_coefficient",
@@ -400,6 +403,7 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
             &[
                 ("summary", w.summary("p_max_greatest_pa")),
                 ("table's greatest", w.extreme("p_max_pa", f64::max)),
+                ("report", w.said("pressure", "greatest ", 1e-9)),
             ],
         ),
         row(
@@ -407,6 +411,7 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
             &[
                 ("summary", w.summary("h_min_least_m")),
                 ("table's least", w.extreme("h_min_m", f64::min)),
+                ("report", w.said("film", ", least ", 1e9)),
             ],
         ),
         row(
@@ -417,17 +422,17 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
                 ("report", w.said("stress", "effective ", 1e-9)),
             ],
         ),
-        last("n_body_1", None),
-        last("n_body_2", None),
-        last("n_counted_body_1", None),
+        last("n_body_1", w.said("cycles", "body 1: ", 1.0)),
+        last("n_body_2", w.said("cycles", "body 2: ", 1.0)),
+        last("n_counted_body_1", w.said("cycles", "counted ", 1.0)),
         last("n_counted_body_2", None),
         last(
             "life_relative",
             w.said("relative life", "relative life", 1.0),
         ),
         last("cycle_factor", w.said("relative life", "cycles ", 1.0)),
-        last("peak_factor", None),
-        last("traction_factor", None),
+        last("peak_factor", w.said("relative life", "peaks ", 1.0)),
+        last("traction_factor", w.said("relative life", "traction ", 1.0)),
         last("load_factor", None),
         last("i_ref", None),
     ];

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use asperity::math::number::{seconds, sig, sig_or_dash};
 use asperity::run::{End, Outcome};
 use asperity::scene::{ContactKind, Scene};
-use asperity::sim::{Rhythm, Summary};
+use asperity::sim::{LubricationRegime, Rhythm, Summary};
 
 /// The outcome as text. `errors`: the discretisation error in words.
 pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> String {
@@ -86,7 +86,7 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
         ContactKind::Line => "Hertz width",
     };
     let contact = format!(
-        "a {} um, Hertz pressure {} GPa, load {}",
+        "a {} µm, Hertz pressure {} GPa, load {}",
         sig(s.a_m * 1e6, 4),
         sig(s.p_hertz_pa * 1e-9, 4),
         load(scene, s.load_n)
@@ -99,12 +99,16 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
         sig(s.p_max_pa * 1e-9, 4)
     );
     line(text, "pressure", &pressure);
-    let film = format!(
-        "central {} nm, least {} nm; mean of the steps' least {} nm",
-        nm(s.h_central_m),
-        nm(s.h_min_least_m),
-        nm(s.h_min_m)
-    );
+    let film = match s.regime {
+        // What its solver leaves between dry bodies is rounding, of either sign.
+        LubricationRegime::Dry => "none: the contact is dry".to_owned(),
+        _ => format!(
+            "central {} nm, least {} nm; mean of the steps' least {} nm",
+            nm(s.h_central_m),
+            nm(s.h_min_least_m),
+            nm(s.h_min_m)
+        ),
+    };
     line(text, "film", &film);
     line(text, "regime", &regime(s, zone));
     line(
@@ -126,7 +130,7 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
         s.sigma_eff_max_x_m,
     ) {
         let stress = format!(
-            "greatest effective {} GPa, {} um deep at x = {} um",
+            "greatest effective {} GPa, {} µm deep at x = {} µm",
             sig(stress * 1e-9, 4),
             sig(depth * 1e6, 3),
             sig(x * 1e6, 3)
@@ -161,7 +165,7 @@ fn load(scene: &Scene, value: f64) -> String {
 fn regime(s: &Summary, zone: &str) -> String {
     let lambda = s.lambda_ratio.map_or_else(String::new, |lambda| {
         let lambda = sig(lambda, 3);
-        format!(", lambda {lambda} (smooth central film by formula over composite roughness)")
+        format!(", λ {lambda} (smooth central film by formula over composite roughness)")
     });
     format!(
         "{}{lambda}; {} % of the {zone} touches and carries {} % of the load",
@@ -262,10 +266,10 @@ fn push_life_beside(text: &mut String, s: &Summary) {
     for (body, (pit, depth)) in [s.pit_body_1, s.pit_body_2].iter().zip(depths).enumerate() {
         let Some(pit) = pit else { continue };
         let single = depth
-            .map(|depth| format!("; one cycle a passage below {} um", sig(depth * 1e6, 3)))
+            .map(|depth| format!("; one cycle a passage below {} µm", sig(depth * 1e6, 3)))
             .unwrap_or_default();
         let what = format!(
-            "body {}: {} um deep, {} um from a crest, damage {} of smooth{single}",
+            "body {}: {} µm deep, {} µm from a crest, damage {} of smooth{single}",
             body + 1,
             sig(pit.depth_m * 1e6, 3),
             sig(pit.place_m * 1e6, 3),
@@ -286,6 +290,7 @@ fn four(life: f64) -> String {
 
 /// The discretisation error of a run, from a companion on `nodes` that took `wall_s`.
 pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
+    let is_dry = s.regime == LubricationRegime::Dry;
     let share = |error: Option<f64>, value: f64| {
         error.map_or_else(
             || "unknown".to_owned(),
@@ -296,12 +301,24 @@ pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
         format!(", life a factor of {}", sig(error.exp(), 3))
     });
     let limit = match (s.h_central_extrapolated_m, s.life_extrapolated) {
+        (_, Some(life)) if is_dry => format!("; extrapolated: life {}", four(life)),
         (Some(film), Some(life)) => {
             let (film, life) = (nm(film), four(life));
             format!("; extrapolated: central film {film} nm, life {life}")
         }
-        (Some(film), None) => format!("; extrapolated: central film {} nm", nm(film)),
+        (Some(film), None) if !is_dry => {
+            format!("; extrapolated: central film {} nm", nm(film))
+        }
         _ => String::new(),
+    };
+    let films = if is_dry {
+        String::new()
+    } else {
+        format!(
+            "central film {}, least film {}, ",
+            share(s.error_h_central_m, s.h_central_m),
+            share(s.error_h_min_m, s.h_min_m)
+        )
     };
     let contact = s.error_contact_ratio.map_or_else(String::new, |error| {
         format!(
@@ -313,9 +330,7 @@ pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
         )
     });
     format!(
-        "central film {}, least film {}, greatest pressure {}, friction {}{contact}{life}; from {nodes} nodes in {wall_s:.1} s{limit}",
-        share(s.error_h_central_m, s.h_central_m),
-        share(s.error_h_min_m, s.h_min_m),
+        "{films}greatest pressure {}, friction {}{contact}{life}; from {nodes} nodes in {wall_s:.1} s{limit}",
         share(s.error_p_max_pa, s.p_max_pa),
         share(s.error_friction_coefficient, s.friction_coefficient),
     )

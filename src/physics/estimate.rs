@@ -18,8 +18,8 @@
 //! Subscript 0 is the *anchor*: a state that was simulated and has settled. `f_j` is the number of crests of the
 //! mating surface per metre along x, `c` and `e` the stress exponent and Weibull slope of the Zaretsky life, of which
 //! the load's line follows with `I ∝ p_h^(c e) a^k` and `N ∝ I^(−1/e)`. Scaling in the exponent meets the smooth
-//! contact without sliding (every factor 1) and the anchor; where the two have nothing in common (one rises life, the
-//! other lowers it, or they differ beyond [`ALIKE`]) factors are scaled in proportion.
+//! contact without sliding (every factor 1) and the anchor; beyond the anchor, where the two have nothing in common (one
+//! raises life, the other lowers it, or they differ beyond [`ALIKE`]), factors are scaled in proportion.
 //!
 //! The formula never sees a simulation. How far it is off: `assets/reports/formula.md`. `n_i` is [`contacts`]'s.
 //!
@@ -164,11 +164,17 @@ fn brought(own: f64, then: f64, now: f64) -> f64 {
     if then == now {
         return own;
     }
-    let power = own.ln() / then.ln();
-    if (1.0 / ALIKE..=ALIKE).contains(&power) {
-        now.powf(power)
-    } else {
+    if then == 1.0 {
+        return own * now;
+    }
+    let way = now.ln() / then.ln();
+    if (0.0..=1.0).contains(&way) || (1.0 / ALIKE..=ALIKE).contains(&(own.ln() / then.ln())) {
+        // Between there and the smooth contact, which has a factor of 1, nothing else ends at both.
+        own.powf(way)
+    } else if way > 1.0 {
         own * now / then
+    } else {
+        now
     }
 }
 
@@ -508,8 +514,8 @@ mod tests {
         for (name, life) in [
             ("S", turned(|at| at.slide_roll = 0.3)),
             ("load", turned(|at| at.load_n = 400.0)),
-            ("A1", turned(|at| at.amplitude_1_m = 3e-8)),
-            ("A2", turned(|at| at.amplitude_2_m = 1e-8)),
+            ("A1", turned(|at| at.amplitude_1_m = 1e-7)),
+            ("A2", turned(|at| at.amplitude_2_m = 1e-7)),
             ("U", turned(|at| at.entrainment_m_s = 4.0)),
         ] {
             println!("{name}: {:.3} of {home:.4}", life / home);

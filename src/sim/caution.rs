@@ -198,7 +198,7 @@ fn mesh_film(grounds: &Grounds) -> Option<String> {
             sig(100.0 * error, 2)
         )
     } else {
-        "the mesh is too coarse for the film at these settings, which may vanish; grid.nodes"
+        "at these settings the mesh is too coarse for the film, which may vanish; more grid.nodes help"
             .to_owned()
     })
 }

@@ -108,7 +108,7 @@ impl Terminal {
     pub(crate) fn explore(&mut self, how: &str) {
         self.press(&format!("clear; {how}\n"));
         self.wait("explorer", |screen| {
-            screen.alternate_screen() && screen.contents().contains("relative life")
+            screen.alternate_screen() && screen.contents().contains("smooth rolling")
         });
     }
 
