@@ -1,11 +1,15 @@
 //! The summary for people: what came out, with units, and what to mistrust.
 
+mod complaints;
+
 use std::fmt::Write as _;
 
 use asperity::math::number::{seconds, sig, sig_or_dash};
 use asperity::run::{End, Outcome};
 use asperity::scene::{ContactKind, Scene};
 use asperity::sim::{LubricationRegime, Rhythm, Summary};
+
+pub(crate) use self::complaints::complaints;
 
 /// The outcome as text. `errors`: the discretisation error in words.
 pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> String {
@@ -367,40 +371,4 @@ fn cycles(formula: Option<f64>, counted: Option<f64>) -> String {
 fn line(text: &mut String, name: &str, what: &str) {
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{name:<14} {what}");
-}
-
-/// What went wrong, for stderr; empty when nothing did.
-pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {
-    const NAMED: usize = 5;
-    let mut list = Vec::new();
-    match &outcome.end {
-        End::Stalled(error) => list.push(format!("stalled: {error}")),
-        End::NotStarted(error) => list.push(error.to_string()),
-        End::Stopped | End::Done | End::OutputFailed => {}
-    }
-    if outcome.summary.is_none() {
-        list.push("it ended before the passage began, so there are no results".to_owned());
-    }
-    for step in outcome.unconverged.iter().take(NAMED) {
-        list.push(format!(
-            "step {} at t = {:.4e} s did not converge: {}{}",
-            step.step,
-            step.time_s,
-            step.unsolved,
-            match 1e9 * step.overlap_m {
-                nm if nm > 0.0 => format!(", surfaces overlap by {nm:.2} nm"),
-                _ => String::new(),
-            }
-        ));
-    }
-    if outcome.n_unconverged > NAMED as u64 {
-        list.push(format!(
-            "and {} more steps did not converge",
-            outcome.n_unconverged - NAMED as u64
-        ));
-    }
-    for error in &outcome.output_errors {
-        list.push(format!("output failed: {error}"));
-    }
-    list
 }

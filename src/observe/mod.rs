@@ -11,6 +11,7 @@
 pub(crate) mod cells;
 pub(crate) mod chart;
 mod export;
+#[cfg(any(feature = "rerun", feature = "tui"))]
 pub(crate) mod interferogram;
 mod latest;
 mod placed;

@@ -281,7 +281,9 @@ fn refuse(
     }
     let cases = std::fs::read_dir(root.join("cases"));
     if existing == Existing::Refuse && cases.is_ok_and(|mut cases| cases.next().is_some()) {
-        return refused("holds cases of this sweep already; --resume goes on, --force starts anew");
+        return refused(
+            "holds cases of this sweep already; --resume continues, --force starts anew",
+        );
     }
     Ok(())
 }
