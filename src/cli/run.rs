@@ -33,6 +33,9 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         .map(|path| repeat::read(path, args))
         .transpose()?;
     let is_plain = repetition.as_ref().is_none_or(Repetition::is_plain);
+    let broken_off = repetition
+        .as_ref()
+        .is_some_and(|repeated| repeated.broken_off);
     let (prepared, turns, last_step) = match repetition {
         None => (scenes::prepare(args)?, Vec::new(), 0),
         Some(repeated) => (repeated.prepared, repeated.turns, repeated.last_step),
@@ -82,6 +85,9 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     }?;
     wait(&session, estimate_s, &interrupt, "");
     let mut outcome = session.join()?;
+    if broken_off {
+        outcome.cut_short();
+    }
     let errors = if is_plain {
         let (scene, threads) = (&prepared.scene, args.threads());
         estimate_errors(scene, &plan, threads, &mut outcome, &interrupt)

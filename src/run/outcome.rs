@@ -80,6 +80,14 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// The run that it repeats went on: what there was of it has been done, and that is not all.
+    pub fn cut_short(&mut self) {
+        self.stopped = true;
+        if let Some(summary) = &mut self.summary {
+            summary.stopped = true;
+        }
+    }
+
     /// Most unconverged steps that are listed one by one.
     pub const UNCONVERGED_KEPT: usize = 100;
 

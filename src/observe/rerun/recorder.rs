@@ -30,6 +30,10 @@ pub struct Recorder {
     early: Vec<RunEvent>,
     program: String,
     last: Option<properties::Last>,
+    /// Knobs turned so far.
+    turns: u64,
+    /// What the file was told last of how far it goes: steps and turns.
+    told: (u64, u64),
     frames: u64,
     /// Where the last frame was: events come between frames.
     passages: f64,
@@ -75,6 +79,8 @@ impl Recorder {
             early: Vec::new(),
             program: String::new(),
             last: None,
+            turns: 0,
+            told: (0, 0),
             frames: 0,
             passages: 0.0,
             unsent: 0,
@@ -123,9 +129,25 @@ impl Recorder {
         let first = format!("recorded by {}; {}", self.program, text::CAUTION);
         text::log_line(&self.stream, &first, TextLogLevel::INFO)?;
         for event in std::mem::take(&mut self.early) {
-            text::log_event(&self.stream, &event)?;
+            self.log_event(&event)?;
         }
         Ok(())
+    }
+
+    fn log_event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        text::log_event(&self.stream, event, self.turns)?;
+        self.turns += u64::from(matches!(event.kind, RunEventKind::Set { .. }));
+        Ok(())
+    }
+
+    /// Tells how far it goes, after what it goes through.
+    fn log_reach(&mut self, ended: bool) -> Result<(), ObserveError> {
+        let now = (self.last.as_ref().map_or(0, |last| last.step), self.turns);
+        if self.stream.is_live() || (now == self.told && !ended) {
+            return Ok(());
+        }
+        self.told = now;
+        text::log_reach(&self.stream, now.0, now.1, ended)
     }
 }
 
@@ -144,7 +166,8 @@ impl Recorder {
         if let Some(views) = &mut self.views {
             views.series.send(&self.stream)?;
         }
-        self.stream.send_on()
+        self.stream.send_on()?;
+        self.log_reach(false)
     }
 }
 
@@ -207,7 +230,7 @@ impl Observer for Recorder {
         }
         let now = Moment::new(event.step, event.time_s, self.passages);
         self.stream.set_time(now);
-        text::log_event(&self.stream, event)
+        self.log_event(event)
     }
 
     /// A run that pauses keeps nothing back.
@@ -229,8 +252,8 @@ impl Observer for Recorder {
         if let Some(views) = &mut self.views
             && !self.stream.is_gone()
         {
-            if let Some(last) = self.last.take() {
-                properties::log_result(&self.stream, &last, clipped)?;
+            if let Some(last) = &self.last {
+                properties::log_result(&self.stream, last, clipped)?;
             }
             for kymograph in &mut views.kymographs {
                 kymograph.log(&self.stream)?;
@@ -242,6 +265,9 @@ impl Observer for Recorder {
                 let told = format!("values that could not be stored as they are: {clipped_words}");
                 text::log_line(&self.stream, &told, TextLogLevel::WARN)?;
             }
+        }
+        if !self.stream.is_gone() {
+            self.log_reach(true)?;
         }
         self.stream.close()?;
         let (stream, frames) = (&self.stream, self.frames);
@@ -274,6 +300,7 @@ impl Drop for Recorder {
         {
             // Nobody is left to tell; `finish` was the place to see errors.
             drop(views.series.send(&self.stream));
+            drop(self.log_reach(false));
         }
     }
 }
