@@ -51,11 +51,10 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     let saved = headless
         .from_state
         .as_deref()
-        .map(Checkpoint::read)
+        .map(|path| Checkpoint::read_for(path, &prepared.scene))
         .transpose()?;
     if let Some(saved) = &saved {
-        saved.fits(&prepared.scene)?;
-        warn_of_another_build(&saved.program);
+        tell_of_the_past(saved);
     }
     let names = Names::of(args, &prepared.scene, &path);
     names.with_states(headless).check()?;
@@ -133,12 +132,20 @@ fn save_state(outcome: &Outcome, path: &Path, overwrite: Overwrite) -> Result<()
     })
 }
 
-/// A state fits whatever program wrote it; the numbers after it are those of one run only if it was this one.
-fn warn_of_another_build(program: &str) {
-    if program != asperity::files::PROGRAM {
-        let now = asperity::files::PROGRAM;
+/// A state fits whatever program wrote it; the numbers after it are those of one run only if it was this one, and of
+/// the scene's run only if nobody turned a knob.
+fn tell_of_the_past(saved: &Checkpoint) {
+    let (program, now) = (&saved.program, asperity::files::PROGRAM);
+    if program != now {
         let note = format!("saved by {program}; this is {now}, so numbers may differ");
         tell(&note);
+    }
+    if saved.n_turned_by_hand > 0 {
+        let n = saved.n_turned_by_hand;
+        tell(&format!(
+            "{n} knobs had been turned by hand before it was saved; it goes on from where they stand, which is not the \
+             scene's own run"
+        ));
     }
 }
 
