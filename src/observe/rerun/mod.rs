@@ -40,6 +40,7 @@ mod stream;
 mod text;
 mod trace;
 mod waiting;
+mod weight;
 
 pub use live::Live;
 pub use properties::note_summary;

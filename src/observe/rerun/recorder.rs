@@ -19,6 +19,9 @@ use crate::observe::{
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
 
+/// Steps that did not converge that are listed one by one.
+const MOST_UNCONVERGED: u64 = 200;
+
 /// Writes a recording.
 pub struct Recorder {
     stream: Stream,
@@ -32,6 +35,8 @@ pub struct Recorder {
     last: Option<properties::Last>,
     /// Knobs turned so far.
     turns: u64,
+    /// Steps that did not converge so far.
+    unconverged: u64,
     /// What the file was told last of how far it goes: steps and turns.
     told: (u64, u64),
     frames: u64,
@@ -80,6 +85,7 @@ impl Recorder {
             program: String::new(),
             last: None,
             turns: 0,
+            unconverged: 0,
             told: (0, 0),
             frames: 0,
             passages: 0.0,
@@ -117,9 +123,15 @@ impl Recorder {
             views.series.follow(frame);
         }
         views.follow(frame);
+        let before = stream.weight();
         if due.fields {
             views.log(stream, frame)?;
             text::log_now(stream, frame, &self.caption, &views.beyond())?;
+            views.cadence.took(stream.weight() - before);
+        }
+        let weight = stream.weight() + views.series.weight();
+        if let Some(note) = views.cadence.watch(frame.step, weight) {
+            text::log_line(stream, &note, TextLogLevel::WARN)?;
         }
         Ok(())
     }
@@ -135,8 +147,19 @@ impl Recorder {
     }
 
     fn log_event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        if let RunEventKind::NotConverged { .. } = event.kind {
+            self.unconverged += 1;
+            if self.unconverged > MOST_UNCONVERGED {
+                return Ok(());
+            }
+        }
         text::log_event(&self.stream, event, self.turns)?;
         self.turns += u64::from(matches!(event.kind, RunEventKind::Set { .. }));
+        if self.unconverged == MOST_UNCONVERGED {
+            let rest = "further steps that do not converge are in the series and not in this log";
+            self.unconverged += 1;
+            return text::log_line(&self.stream, rest, TextLogLevel::WARN);
+        }
         Ok(())
     }
 
@@ -202,14 +225,6 @@ impl Observer for Recorder {
             file.hold();
         }
         self.frames += 1;
-        let on_disk = self.stream.bytes();
-        let thinned = self
-            .views
-            .as_mut()
-            .and_then(|views| views.cadence.watch(frame.step, on_disk));
-        if let Some(note) = thinned {
-            text::log_line(&self.stream, &note, TextLogLevel::WARN)?;
-        }
         Ok(())
     }
 
