@@ -7,12 +7,9 @@ use std::process::Command;
 
 use asperity::scene::presets;
 
-/// The same on a machine of any number of cores; what a companion finds is no row.
-const ALL: [&str; 3] = [
-    "--threads=2",
-    "--set=numerics.error_estimate=none",
-    "--force",
-];
+const ALL: [&str; 2] = ["--threads=2", "--force"];
+/// What a companion finds is no row.
+const ALONE: &str = "--set=numerics.error_estimate=none";
 /// A coarse contact with waves that it resolves.
 const SMALL: [&str; 4] = [
     "--set=grid.nodes=33",
@@ -42,7 +39,7 @@ fn rows(folder: &Path, name: &str, after: usize) -> Vec<String> {
 fn in_all_ways(scene: &[&str], passages: [&str; 2]) -> usize {
     let folder = tempfile::tempdir().unwrap();
     let place = folder.path();
-    let with = |more: &[&str]| run(place, &[scene, more].concat());
+    let with = |more: &[&str]| run(place, &[scene, &[ALONE], more].concat());
     let [half, whole] = passages.map(|passages| format!("--passages={passages}"));
     with(&[&whole, "--table=whole.csv", "--out=run.rrd"]);
     with(&[

@@ -144,6 +144,9 @@ impl Overwrite {
             Ok(_) => match std::fs::metadata(path) {
                 Err(_) => refuse("a link to a file that is not there; take the link away"),
                 Ok(there) if there.is_dir() => refuse("a folder has this name"),
+                Ok(there) if is_pipe(&there) && !path.starts_with("/dev") => refuse(
+                    "a pipe, which waits until somebody reads it; /dev/stdout is one that does not",
+                ),
                 Ok(there) if !there.is_file() => Ok(There::Device),
                 Ok(there) if there.permissions().readonly() => {
                     Err(refused(path, &ErrorKind::PermissionDenied.into()))
@@ -155,6 +158,17 @@ impl Overwrite {
             },
         }
     }
+}
+
+#[cfg(unix)]
+fn is_pipe(there: &std::fs::Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    there.file_type().is_fifo()
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_there: &std::fs::Metadata) -> bool {
+    false
 }
 
 /// Whether nothing has a name, and no run is writing a file that will have it.
