@@ -81,6 +81,7 @@ use Need::{Defaulted, Optional, Required};
 const BODY: &[Key] = &[
     key("young_pa", "Pa", Number(1e6, 1e13), Defaulted, "Young's modulus"),
     key("poisson", "", Number(0.0, 0.5), Defaulted, "Poisson's ratio"),
+    key("hardness_pa", "Pa", NumberOrInf(1e6, 1e12), Optional("it stays elastic"), "greatest pressure that its surface carries: what would exceed it flows for good; inf: elastic"),
 ];
 
 #[rustfmt::skip]

@@ -57,6 +57,8 @@ pub struct Simulation {
     pub(super) iso_load_ratio: Option<f64>,
     pub(super) stress_error: f64,
     pub(super) composite: [f64; 2],
+    /// Hardness of the softer body over p_h; infinite: both are elastic.
+    pub(super) hardness: f64,
     /// Steps that the summary may have to average over.
     pub(super) most_steps: usize,
     pub(super) pool: Arc<ThreadPool>,
@@ -152,8 +154,10 @@ impl Simulation {
     fn passage_step(&mut self) -> Result<(), StepError> {
         self.step_smooth()?;
         let before = self.state.way;
-        let held =
-            matches!(self.plan.march, Marching::Steady { .. }) && self.state.motion.is_flushed();
+        // Where a body yields at rest, what enters is flattened anew.
+        let held = matches!(self.plan.march, Marching::Steady { .. })
+            && self.state.motion.is_flushed()
+            && self.door.p_from_pa(self.state.metrics.p_max_pa) < self.hardness;
         if held {
             let speed = self.state.drive.get(Knob::EntrainmentMS).now;
             self.state.time_s +=
@@ -184,6 +188,9 @@ impl Simulation {
             self.state.motion.is_flushed(),
         );
         let transforms = self.work.solver.transforms();
+        // The smooth contact that all lives are compared with is elastic.
+        let is_smooth = matches!(self.state.phase, Phase::Smooth { .. });
+        let yielded = self.state.yielded.as_mut().filter(|_| !is_smooth);
         let attempted = self.pool.install(|| {
             Mover {
                 state: &mut self.state.contact,
@@ -195,6 +202,7 @@ impl Simulation {
                 law: &self.law,
                 regime: self.regime,
                 stepping,
+                yielding: yielded.map(|yielded| (self.hardness, yielded)),
             }
             .advance(nodes)
         });

@@ -165,6 +165,7 @@ impl Simulation {
                 law: &self.law,
                 regime: self.regime,
                 stepping: Stepping::Fixed(usual),
+                yielding: None,
             }
             .advance(usual)
         });

@@ -21,6 +21,9 @@ struct Entry {
     values: [f64; 9],
     /// Greatest effective stress: value, depth, x.
     stress: Option<[f64; 3]>,
+    /// What both bodies have yielded up to its end, m³.
+    #[serde(default)]
+    yielded_m3: f64,
 }
 
 /// What the summary averages over the last passage or period, each step by its length.
@@ -76,6 +79,7 @@ impl Totals {
                 m.contact_load_ratio,
             ],
             stress,
+            yielded_m3: m.yielded_m3.map_or(0.0, |[one, two]| one + two),
         });
         self.not_converged += u64::from(!m.converged);
     }
@@ -98,7 +102,17 @@ impl Totals {
     pub(super) fn ground(&self, grounds: &mut Grounds) {
         grounds.steps_not_converged = self.not_converged;
         grounds.p_max_greatest_pa = self.greatest(2);
+        grounds.yielded_last_share = grounds.hardness_pa.map(|_| self.yielded_last_share());
         grounds.sigma_eff_greatest_pa = self.greatest_stress().map(|stress| stress[0]);
+    }
+
+    /// Part of all that has flowed that did so after the first of these steps.
+    fn yielded_last_share(&self) -> f64 {
+        let ends = self.recent.front().zip(self.recent.back());
+        ends.map_or(0.0, |(first, last)| {
+            let all = last.yielded_m3.max(f64::MIN_POSITIVE);
+            (last.yielded_m3 - first.yielded_m3) / all
+        })
     }
 
     fn least(&self, k: usize) -> f64 {
@@ -142,6 +156,9 @@ pub(super) fn summary(
         load_error: totals.greatest(5),
         mass_error: totals.greatest(6),
         friction_coefficient: totals.mean(4),
+        yielded_body_1_m3: m.yielded_m3.map(|both| both[0]),
+        yielded_body_2_m3: m.yielded_m3.map(|both| both[1]),
+        yielded_last_share: m.yielded_m3.map(|_| totals.yielded_last_share()),
         n_body_1: m.n_body_1,
         n_body_2: m.n_body_2,
         n_counted_body_1: m.n_counted_body_1,

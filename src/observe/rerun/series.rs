@@ -264,7 +264,7 @@ fn regime(regime: LubricationRegime) -> f64 {
 fn line(code: CautionCode) -> Option<usize> {
     match code {
         CautionCode::NotConverged => Some(0),
-        CautionCode::BeyondYield => Some(1),
+        CautionCode::BeyondYield | CautionCode::StillYielding => Some(1),
         CautionCode::Dry => Some(2),
         CautionCode::FilmBelowMolecule => Some(3),
         CautionCode::MeshFilm => Some(4),
