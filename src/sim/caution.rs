@@ -10,7 +10,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Frame, LifeEstimate, Metrics};
+use super::{Frame, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::sig;
 use crate::physics::strength::Strength;
 use crate::plan::MOLECULE_M;
@@ -262,10 +262,13 @@ fn model_range(life: Option<&LifeEstimate>) -> Option<String> {
 
 fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
     let settled = m.life.is_some_and(|life| life.settled);
-    (grounds.has_life && !settled).then(|| {
+    let never_repeats = m.repeat.is_some_and(|r| r.rhythm == Rhythm::Statistics);
+    let why = if never_repeats {
+        "both bodies' waves have no common period, and the average does not cover three passages of 4a yet: it still moves"
+    } else {
         "the average does not cover a whole period of these conditions yet: it still moves"
-            .to_owned()
-    })
+    };
+    (grounds.has_life && !settled).then(|| why.to_owned())
 }
 
 fn no_life(grounds: &Grounds) -> Option<String> {
