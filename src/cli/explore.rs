@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use asperity::observe::Overwrite;
+use asperity::observe::{Overwrite, is_free};
 use asperity::run::{Activity, Command, Ending, Request, RunError, Session, Status};
 use asperity::study::sweep::{Background, Ground};
 use asperity::tui::{
@@ -199,7 +199,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     let scene = prepared.scene.clone();
     let status = session.status_reader();
     let recorded = recording.clone();
-    let shown = recording.as_ref().map(|recording| recording.path.clone());
+    let shown = recording.clone();
     let name = prepared.name.clone();
     Wiring {
         scene: prepared.scene.clone(),
@@ -237,7 +237,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
                 })
             }) as _
         }),
-        open_viewer: shown.map(|path| Box::new(move || open_viewer(&path)) as _),
+        open_viewer: shown.map(|shown| Box::new(move || open_viewer(&shown)) as _),
         save_scene: Some(Box::new(move |toml| save(&name, toml))),
         write_shown: Some(shown::writer(prepared)),
         rebuild: None,
@@ -275,7 +275,14 @@ fn run_status(status: &Status, recorded: Option<&Recording>) -> RunStatus {
     }
 }
 
-fn open_viewer(path: &Path) -> Result<String, String> {
+fn open_viewer(recording: &Recording) -> Result<String, String> {
+    // Once there is a step it has its own name.
+    let own = Path::new(&recording.name);
+    let path = if recording.path.exists() {
+        &recording.path
+    } else {
+        own
+    };
     let mut command = view::command(path).map_err(|failure| failure.to_string())?;
     command
         .spawn()
@@ -311,5 +318,5 @@ pub(crate) fn numbered(folder: &Path, name: &str, extension: &str) -> Option<Pat
     let dot = if extension.is_empty() { "" } else { "." };
     (1..100_000)
         .map(|number| folder.join(format!("{name}-{number:03}{dot}{extension}")))
-        .find(|path| !path.exists())
+        .find(|path| is_free(path))
 }

@@ -193,7 +193,7 @@ impl Cadence {
     /// Thins the fields of the scene's own run when it would pass its limit at its present rate. The first frame has
     /// more in it than those after it.
     fn keep_to_limit(&mut self, now: f64) {
-        if self.recorded < 2 {
+        if self.recorded < 2 || self.fields.next as f64 >= self.expected {
             return;
         }
         let steps = self.expected - now;
@@ -202,7 +202,8 @@ impl Cadence {
         if steps * self.frame() / self.fields.steps as f64 > fields {
             // Twice as far apart at least: not every frame is worth a word.
             let needed = steps * self.frame() / fields.max(1e-3 * self.budget);
-            self.fields.thin(needed.max(2.0 * self.fields.steps as f64));
+            let needed = needed.max(2.0 * self.fields.steps as f64);
+            self.fields.thin(needed.min(self.expected));
             self.fields.next = (now as u64).saturating_add(self.fields.steps);
         }
     }

@@ -220,10 +220,10 @@ impl Observer for Recorder {
         if self.stream.is_due() || self.views.as_ref().is_some_and(full) {
             self.send_on()?;
         }
-        self.stream.check()?;
         if let Some(file) = self.stream.to().file() {
             file.hold();
         }
+        self.stream.check()?;
         self.frames += 1;
         Ok(())
     }
