@@ -179,7 +179,7 @@ fn coarse_meshes_are_warned_of() {
         forced
             .warnings
             .iter()
-            .any(|warning| matches!(warning, Warning::ShortInlet { .. }))
+            .any(|warning| matches!(warning, Warning::ShortDomain { .. }))
     );
 }
 
