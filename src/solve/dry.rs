@@ -150,7 +150,12 @@ impl Dry {
             report.iterations += u32::from(fresh_search);
             since += 1;
             self.turn(grid, fresh_search);
-            let tau = self.line(elastic, grid);
+            let mut tau = self.line(elastic, grid);
+            if !tau.is_finite() {
+                // As many directions as the contact set has freedoms leave nothing to turn to.
+                self.turn(grid, true);
+                tau = self.line(elastic, grid);
+            }
             fresh_search = self.walk(problem, iterate, tau);
             if fresh_search {
                 self.refresh(elastic, iterate.p, &mut report);

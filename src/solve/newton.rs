@@ -197,7 +197,7 @@ impl Newton {
         let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) else {
             return false;
         };
-        shear.follow(sheared.law, iterate.p, iterate.h);
+        shear.follow(&sheared, iterate.p, iterate.h);
         self.balance(problem, iterate);
         true
     }

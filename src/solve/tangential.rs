@@ -86,6 +86,8 @@ pub struct Sheared<'a> {
     pub law: &'a TractionLaw,
     /// u^s of the last step.
     pub deflection: &'a [f64],
+    /// Its film.
+    pub film: &'a [f64],
 }
 
 impl Shear {
@@ -132,9 +134,10 @@ impl Shear {
     }
 
     /// u^s of the traction that pressure and film make; the film takes the difference.
-    pub(super) fn follow(&mut self, law: &TractionLaw, p: &[f64], h: &mut [f64]) {
+    pub(super) fn follow(&mut self, sheared: &Sheared, p: &[f64], h: &mut [f64]) {
+        let law = sheared.law;
         for (n, q) in self.traction.iter_mut().enumerate() {
-            *q = law.traction(p[n], h[n]);
+            *q = law.traction_of(p[n], h[n], sheared.film[n] <= law.contact_film);
         }
         for (h, &u) in h.iter_mut().zip(&self.deflection) {
             *h -= u;
