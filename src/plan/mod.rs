@@ -238,8 +238,8 @@ impl Plan {
     /// Decides what a validated scene needs.
     ///
     /// # Errors
-    /// [`PlanError::Unresolved`] when a wavelength has fewer than 4 nodes, [`PlanError::Beyond`] when the equations do not
-    /// hold for the bodies or the film.
+    /// [`PlanError::Refused`] when a wavelength has fewer than 4 nodes, or when the equations do not hold for the bodies or
+    /// the film.
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);

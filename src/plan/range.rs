@@ -57,7 +57,7 @@ fn too_large(scene: &Scene, slope: f64) -> PlanError {
             "N/m",
         ),
     };
-    PlanError::Beyond {
+    PlanError::Refused {
         key: key.to_owned(),
         value: format!("{value:.4e} {unit}"),
         allowed: format!(
@@ -80,7 +80,7 @@ fn too_thick(scene: &Scene, film: &FilmPlan) -> PlanError {
             low = middle;
         }
     }
-    PlanError::Beyond {
+    PlanError::Refused {
         key: "motion.entrainment_m_s".to_owned(),
         value: format!("{speed_m_s:.4e} m/s"),
         allowed: format!(

@@ -121,19 +121,9 @@ pub enum Warning {
 /// A scene that cannot be computed as asked.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
-    /// The equations do not hold for it.
+    /// A wavelength is not resolved by the grid, or the equations do not hold for the bodies or the film.
     #[error("{key} = {value} is refused; allowed: {allowed}")]
-    Beyond {
-        /// Key in full.
-        key: String,
-        /// The value.
-        value: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A wavelength is not resolved by the grid.
-    #[error("{key} = {value} is refused; allowed: {allowed}")]
-    Unresolved {
+    Refused {
         /// Key in full.
         key: String,
         /// The value.
