@@ -5,6 +5,15 @@ use super::setup::{COARSEST, grid_of};
 use super::simulation::{DEVELOP, Phase, Simulation};
 use super::{Knob, MeshErrors, StepError};
 
+/// What a coarser grid's value is off a finer one's; all of it, where that is nothing: bodies that touch.
+fn off(coarser: f64, finer: f64) -> f64 {
+    if finer > 0.0 {
+        (coarser / finer - 1.0).abs()
+    } else {
+        1.0
+    }
+}
+
 impl Simulation {
     /// The next finer grid, or the reference and the development.
     pub(super) fn refine_or_develop(&mut self) -> Result<(), StepError> {
@@ -23,9 +32,9 @@ impl Simulation {
         }
         let measured = self.measure();
         self.state.mesh_errors = self.state.coarser.map(|coarser| MeshErrors {
-            h_central: (coarser.h_central / measured.h_central - 1.0).abs(),
-            h_min: (coarser.h_min / measured.h_min - 1.0).abs(),
-            p_max: (coarser.p_max / measured.p_max - 1.0).abs() + self.stress_error,
+            h_central: off(coarser.h_central, measured.h_central),
+            h_min: off(coarser.h_min, measured.h_min),
+            p_max: off(coarser.p_max, measured.p_max) + self.stress_error,
         });
         let base = self.regime.base();
         if let (Some(stress), Some(life)) = (&mut self.work.stress, &mut self.state.life) {

@@ -271,7 +271,11 @@ fn line(code: CautionCode) -> Option<usize> {
         CautionCode::StandingBody => Some(5),
         CautionCode::ModelRange => Some(6),
         CautionCode::NotSettled => Some(7),
-        CautionCode::NoLife | CautionCode::StrengthUnknown | CautionCode::ElasticOnly => None,
+        // The list of cautions has it; the group of lines stays as viewers know it.
+        CautionCode::ShortDomain
+        | CautionCode::NoLife
+        | CautionCode::StrengthUnknown
+        | CautionCode::ElasticOnly => None,
     }
 }
 
