@@ -29,11 +29,18 @@ const PA_PER_HV: f64 = 9.806_65e6;
 /// Young's moduli of steels, Pa.
 const STEEL_PA: std::ops::RangeInclusive<f64> = 180e9..=230e9;
 
+impl Strength {
+    /// Of a body of that hardness.
+    pub const fn of(hardness_pa: f64) -> Self {
+        Self {
+            hardness_pa,
+            yield_pa: hardness_pa / 3.0,
+        }
+    }
+}
+
 /// Steel of 60 HRC.
-pub const HARDENED_STEEL: Strength = Strength {
-    hardness_pa: 697.0 * PA_PER_HV,
-    yield_pa: 697.0 * PA_PER_HV / 3.0,
-};
+pub const HARDENED_STEEL: Strength = Strength::of(697.0 * PA_PER_HV);
 
 /// Strength of a body by its Young's modulus: that of hardened steel where it is a steel's. `None`: not steel, and a
 /// modulus alone tells no strength (glass and aluminium have the same).

@@ -18,6 +18,13 @@ impl Scene {
         )
     }
 
+    /// Hardness of the softer body, Pa; `None`: both stay elastic.
+    pub fn hardness_pa(&self) -> Option<f64> {
+        let given = [&self.body_1, &self.body_2].map(|body| body.hardness_pa);
+        let finite = given.into_iter().flatten().filter(|pa| pa.is_finite());
+        finite.reduce(f64::min)
+    }
+
     /// Whether the contact is a point or a line.
     pub fn kind(&self) -> ContactKind {
         self.contact.kind

@@ -2,17 +2,19 @@
 //!
 //! ```text
 //! beyond_yield   p_max > H or σ_eff > Y of the body that carries less, as far as it is known        greatest of the last passage
+//! still_yielding  more than 1 % of all flow of surfaces in the last passage
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
+//! short_domain   the same by the edges of the domain > 1 %                      likewise
 //! model_range    greatest over least life of the choices > 2
 //! ```
 //! One list for the screen, the summary and the report text. It is made only when asked for.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Frame, LifeEstimate, Metrics};
+use super::{Frame, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::sig;
 use crate::physics::strength::Strength;
-use crate::plan::MOLECULE_M;
+use crate::plan::{EDGES_WORTH_A_WORD, MOLECULE_M};
 use crate::scene::StressMeasure;
 
 /// Kind of caution, as scripts read it.
@@ -23,12 +25,16 @@ pub enum CautionCode {
     NotConverged,
     /// Pressure or stress beyond what the material carries elastically.
     BeyondYield,
+    /// Surfaces still flow at their hardness.
+    StillYielding,
     /// No oil flows.
     Dry,
     /// The film is thinner than a layer of oil molecules.
     FilmBelowMolecule,
     /// The mesh costs a good part of the film.
     MeshFilm,
+    /// The edges of the domain starve the film.
+    ShortDomain,
     /// A body stands (|S| = 2) and is left out of the life.
     StandingBody,
     /// Models and cycle bases differ by a large factor.
@@ -73,12 +79,20 @@ pub struct Grounds {
     pub flows: bool,
     /// Relative error of the smooth central film by the mesh at those values; `None`: no flow.
     pub mesh_film: Option<f64>,
+    /// The same by the edges of the domain.
+    pub short_domain: Option<f64>,
     /// Whether the scene computes a life.
     pub has_life: bool,
+    /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.
+    pub hardness_pa: Option<f64>,
+    /// Part of all that has flowed that did so in the last passage (or period); `None`: elastic.
+    pub yielded_last_share: Option<f64>,
 }
 
 /// Error of the film by the mesh that is worth a word.
 const MESH_WORTH_A_WORD: f64 = 0.05;
+/// Share of all flow in one passage that is.
+const RUN_IN: f64 = 0.01;
 /// Factor between models that is.
 const RANGE_WORTH_A_WORD: f64 = 2.0;
 
@@ -98,9 +112,11 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::NotConverged, not_converged(m, grounds));
     say(CautionCode::BeyondYield, pressure_beyond(grounds));
     say(CautionCode::BeyondYield, stress_beyond(grounds));
+    say(CautionCode::StillYielding, still_yielding(grounds));
     say(CautionCode::Dry, dry(grounds));
     say(CautionCode::FilmBelowMolecule, below_molecule(grounds));
     say(CautionCode::MeshFilm, mesh_film(grounds));
+    say(CautionCode::ShortDomain, short_domain(grounds));
     say(CautionCode::StandingBody, standing(m, grounds));
     say(CautionCode::ModelRange, model_range(m.life.as_ref()));
     say(CautionCode::NotSettled, not_settled(m, grounds));
@@ -139,7 +155,8 @@ fn weaker(grounds: &Grounds, of: impl Fn(Strength) -> f64) -> Option<f64> {
 fn pressure_beyond(grounds: &Grounds) -> Option<String> {
     let hardness = weaker(grounds, |strength| strength.hardness_pa)?;
     let p = grounds.p_max_greatest_pa;
-    (p > hardness).then(|| {
+    // Where surfaces flow at their hardness, this is it.
+    (p > hardness && grounds.hardness_pa.is_none()).then(|| {
         format!(
             "greatest pressure {} is beyond what hardened steel carries (about {}, its hardness): asperities would flow",
             gpa(p),
@@ -158,11 +175,27 @@ fn stress_beyond(grounds: &Grounds) -> Option<String> {
     };
     let limit = share * weaker(grounds, |strength| strength.yield_pa)?;
     (stress > limit).then(|| {
+        let left_out = match grounds.hardness_pa {
+            Some(_) => "what flows below the surface, and the stress that it leaves behind, is not modelled",
+            None => "the material would flow there",
+        };
         format!(
-            "greatest {} stress {} is beyond yield of hardened steel (about {}): the material would flow there",
+            "greatest {} stress {} is beyond yield of hardened steel (about {}): {left_out}",
             measure.name(),
             gpa(stress),
             gpa(limit)
+        )
+    })
+}
+
+/// Bodies that come back to the contact flow less with every round; where they do not stop, that is a ratchet.
+fn still_yielding(grounds: &Grounds) -> Option<String> {
+    let (share, hardness_pa) = grounds.yielded_last_share.zip(grounds.hardness_pa)?;
+    (share > RUN_IN).then(|| {
+        format!(
+            "the surfaces still flow at {}: {} % of what has flowed so far did so in the last passage, so they are not run in",
+            gpa(hardness_pa),
+            sig(100.0 * share, 2)
         )
     })
 }
@@ -203,6 +236,16 @@ fn mesh_film(grounds: &Grounds) -> Option<String> {
     })
 }
 
+fn short_domain(grounds: &Grounds) -> Option<String> {
+    let error = grounds
+        .short_domain
+        .filter(|error| *error > EDGES_WORTH_A_WORD)?;
+    Some(format!(
+        "the edges of the domain starve the smooth central film by about {} % at these settings; a wider grid (grid.x_min_a, grid.y_half_a) with more grid.nodes makes it less",
+        sig(100.0 * error, 2)
+    ))
+}
+
 fn standing(m: &Metrics, grounds: &Grounds) -> Option<String> {
     if !grounds.has_life || m.entrainment_m_s == 0.0 {
         return None;
@@ -235,10 +278,13 @@ fn model_range(life: Option<&LifeEstimate>) -> Option<String> {
 
 fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
     let settled = m.life.is_some_and(|life| life.settled);
-    (grounds.has_life && !settled).then(|| {
+    let never_repeats = m.repeat.is_some_and(|r| r.rhythm == Rhythm::Statistics);
+    let why = if never_repeats {
+        "both bodies' waves have no common period, and the average does not cover three passages of 4a yet: it still moves"
+    } else {
         "the average does not cover a whole period of these conditions yet: it still moves"
-            .to_owned()
-    })
+    };
+    (grounds.has_life && !settled).then(|| why.to_owned())
 }
 
 fn no_life(grounds: &Grounds) -> Option<String> {
@@ -263,7 +309,11 @@ fn elastic_only(grounds: &Grounds) -> String {
     } else {
         ""
     };
-    format!("no wear, isothermal, elastic{initiation}")
+    let elastic = match grounds.hardness_pa {
+        Some(_) => "elastic below surfaces that flow at their hardness",
+        None => "elastic",
+    };
+    format!("no wear, isothermal, {elastic}{initiation}")
 }
 
 #[cfg(test)]
@@ -314,10 +364,10 @@ mod tests {
     fn each_ground_has_its_caution_with_its_number() {
         use CautionCode::{
             BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife, NotConverged,
-            NotSettled, StandingBody, StrengthUnknown,
+            NotSettled, ShortDomain, StandingBody, StillYielding, StrengthUnknown,
         };
         type Spoil = fn(&mut Metrics, &mut Grounds);
-        let table: [(CautionCode, &str, Spoil); 12] = [
+        let table: [(CautionCode, &str, Spoil); 15] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
             (BeyondYield, "7.5 GPa", |_, g| {
@@ -327,11 +377,22 @@ mod tests {
                 g.measure = Some(StressMeasure::MaxShear);
                 g.sigma_eff_greatest_pa = Some(1.3e9);
             }),
+            (BeyondYield, "leaves behind", |_, g| {
+                g.hardness_pa = Some(6.8e9);
+                g.sigma_eff_greatest_pa = Some(7.5e9);
+            }),
+            (StillYielding, "12 %", |_, g| {
+                g.hardness_pa = Some(6.8e9);
+                // At the hardness, which is not beyond it.
+                g.p_max_greatest_pa = 6.9e9;
+                g.yielded_last_share = Some(0.12);
+            }),
             (Dry, "no lubricant", |_, g| {
                 (g.film_m, g.flows, g.mesh_film) = (None, false, None);
             }),
             (FilmBelowMolecule, "0.20 nm", |_, g| g.film_m = Some(2e-10)),
             (MeshFilm, "9.8 %", |_, g| g.mesh_film = Some(0.098)),
+            (ShortDomain, "2.0 %", |_, g| g.short_domain = Some(0.02)),
             (StandingBody, "body 1 stands (S = 2.00)", |m, _| {
                 (m.n_body_1, m.slide_roll) = (None, 2.0);
             }),

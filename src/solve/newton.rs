@@ -24,6 +24,7 @@ use super::precondition::Preconditioner;
 use super::reynolds::{Linearisation, Medium, Reynolds};
 use super::tangential::Shear;
 pub use super::tangential::Sheared;
+use super::yielding::Yielding;
 use crate::math::grid::Grid;
 
 /// Most halvings of the line search.
@@ -69,6 +70,8 @@ pub struct Newton {
     pub precondition: Preconditioner,
     /// Deflection by traction; `None`: the bodies are alike.
     pub shear: Option<Shear>,
+    /// What the softer body yields; `None`: both are elastic.
+    pub yielding: Option<Yielding>,
     jacobian: Jacobian,
     krylov: Krylov,
     active: Vec<bool>,
@@ -106,6 +109,7 @@ impl Newton {
             reynolds: Reynolds::new(grid),
             precondition,
             shear: None,
+            yielding: None,
             jacobian: Jacobian::new(grid),
             krylov: Krylov::new(grid),
             active: vec![false; n],
@@ -133,7 +137,11 @@ impl Newton {
         if let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) {
             shear.begin(sheared.deflection);
         }
+        if let Some(yielding) = &mut self.yielding {
+            yielding.begin(iterate.p);
+        }
         self.evaluate(problem, iterate, &mut report);
+        self.follow_traction(problem, iterate);
         let mut now = self.judge_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
         loop {
@@ -185,9 +193,28 @@ impl Newton {
             .zip(self.deflection.par_chunks(nx))
             .with_min_len(8)
             .for_each(|((h, gap), u)| film_row(h0, gap, u, h));
-        if let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) {
-            shear.add_to(sheared.law, iterate.p, iterate.h);
+        if let Some(shear) = &self.shear {
+            shear.add_to(iterate.h);
         }
+        if let Some(yielding) = &mut self.yielding {
+            yielding.add_to(iterate.p, iterate.h);
+        }
+        self.balance(problem, iterate);
+    }
+
+    /// Takes the deflection by the traction of the iterate into the film; whether there is any.
+    fn follow_traction(&mut self, problem: &Problem, iterate: &mut Iterate) -> bool {
+        let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) else {
+            return false;
+        };
+        shear.follow(&sheared, iterate.p, iterate.h);
+        self.balance(problem, iterate);
+        true
+    }
+
+    /// Properties, F and D of pressure and film.
+    fn balance(&mut self, problem: &Problem, iterate: &Iterate) {
+        let grid = problem.grid;
         self.reynolds
             .properties(grid, problem.medium, iterate.p, iterate.h);
         self.reynolds.residual(
@@ -279,6 +306,10 @@ impl Newton {
             (0..p.len()).for_each(|n| self.active[n] = p[n] > 0.0);
             self.fixed.fill(0.0);
         }
+        if let Some(yielding) = &mut self.yielding {
+            let k00 = self.elastic.k00;
+            yielding.split((p, f, d), k00, &self.active, &mut self.fixed);
+        }
         self.fixed.iter().any(|&v| v != 0.0)
     }
 
@@ -309,10 +340,14 @@ impl Newton {
             &self.active,
             &mut self.rhs,
         );
+        let held = self.yielding.as_ref().and_then(Yielding::held);
         let mut missing = problem.load - load;
         if any_fixed {
             self.elastic
                 .deflect_single(&self.fixed, &mut self.fixed_deflection);
+            if let Some(held) = held {
+                clear(held, &mut self.fixed_deflection);
+            }
             self.jacobian.apply(
                 grid,
                 &self.fixed,
@@ -325,16 +360,23 @@ impl Newton {
             }
             missing -= grid.integrate(|n| f64::from(self.fixed[n]));
         }
+        if let Some(held) = held {
+            self.jacobian.exchange(grid, held, self.elastic.k00);
+        }
+        let pressed = self
+            .yielding
+            .as_ref()
+            .map_or(&self.active[..], Yielding::pressed);
         self.precondition.prepare(
             grid,
             &self.jacobian,
             &self.reynolds.row_scale,
             &self.reynolds.conductance,
-            &self.active,
+            (pressed, held),
             self.elastic.k00,
         );
         self.krylov
-            .prepare(grid, &self.jacobian, &mut self.precondition);
+            .prepare(grid, &self.jacobian, &mut self.precondition, held);
         let linear = self.krylov.solve(
             grid,
             &mut self.elastic,
@@ -347,6 +389,9 @@ impl Newton {
             &mut self.v,
         );
         report.linear_iterations += linear.iterations as u32;
+        if let Some(held) = held {
+            clear(held, &mut self.fixed);
+        }
         for (v, &fixed) in self.v.iter_mut().zip(&self.fixed) {
             *v += fixed;
         }
@@ -362,14 +407,19 @@ impl Newton {
         report: &mut NewtonReport,
     ) -> Evaluation {
         self.old_p.copy_from_slice(iterate.p);
-        if let Some(shear) = &mut self.shear {
-            shear.accept();
+        if let Some(yielding) = &mut self.yielding {
+            yielding.accept(iterate.h);
         }
         let base = self.judge_anew(problem, iterate).merit;
         let old_h0 = *iterate.h0;
         let mut t = 1.0;
         for halving in 0..=MAX_HALVINGS {
-            let (moved, total) = move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
+            let (mut moved, mut total) =
+                move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
+            if let Some(yielding) = &mut self.yielding {
+                let films = (&self.v[..], self.elastic.k00);
+                (moved, total) = yielding.bound(&self.old_p, films, t, iterate.p);
+            }
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
             self.evaluate(problem, iterate, report);
@@ -377,10 +427,22 @@ impl Newton {
             new.reduction = new.merit / base;
             report.left = left_of(report.change, new.reduction);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
+                if new.finite && self.follow_traction(problem, iterate) {
+                    new = self.judge(problem, iterate);
+                    new.reduction = new.merit / base;
+                    report.left = left_of(report.change, new.reduction);
+                }
                 return new;
             }
             t *= 0.5;
         }
         unreachable!("the last halving returns")
+    }
+}
+
+/// Zero at the nodes that are held.
+fn clear(held: &[bool], values: &mut [f32]) {
+    for (value, &held) in values.iter_mut().zip(held) {
+        *value = if held { 0.0 } else { *value };
     }
 }

@@ -264,14 +264,18 @@ fn regime(regime: LubricationRegime) -> f64 {
 fn line(code: CautionCode) -> Option<usize> {
     match code {
         CautionCode::NotConverged => Some(0),
-        CautionCode::BeyondYield => Some(1),
+        CautionCode::BeyondYield | CautionCode::StillYielding => Some(1),
         CautionCode::Dry => Some(2),
         CautionCode::FilmBelowMolecule => Some(3),
         CautionCode::MeshFilm => Some(4),
         CautionCode::StandingBody => Some(5),
         CautionCode::ModelRange => Some(6),
         CautionCode::NotSettled => Some(7),
-        CautionCode::NoLife | CautionCode::StrengthUnknown | CautionCode::ElasticOnly => None,
+        // The list of cautions has it; the group of lines stays as viewers know it.
+        CautionCode::ShortDomain
+        | CautionCode::NoLife
+        | CautionCode::StrengthUnknown
+        | CautionCode::ElasticOnly => None,
     }
 }
 

@@ -5,6 +5,7 @@ use super::super::film::macroscopic_gap;
 use super::super::history::History;
 use super::super::newton::{CARRIED, Iterate, Newton, NewtonReport, OVERLAP, Problem, Sheared};
 use super::super::tangential::{Shear, Tangential};
+use super::super::yielding::Yielding;
 use super::{Conditions, Flow, Guess, Shape, State};
 use crate::math::grid::Grid;
 
@@ -115,6 +116,22 @@ impl Solver {
         self.newton.shear.is_some()
     }
 
+    /// No pressure above `hardness` (P_H, over p_h) from now on; infinite: the bodies are elastic.
+    pub fn yield_at(&mut self, hardness: f64) {
+        let (len, yielding) = (self.grid.len(), &mut self.newton.yielding);
+        if hardness.is_finite() {
+            let yielding = yielding.get_or_insert_with(|| Yielding::new(len, hardness));
+            yielding.hardness = hardness;
+        } else {
+            *yielding = None;
+        }
+    }
+
+    /// Depth by which the softer body has given way for good in the last attempt, film units; `None`: elastic.
+    pub fn yielded(&self) -> Option<&[f64]> {
+        self.newton.yielding.as_ref().map(Yielding::depth)
+    }
+
     /// Transforms made so far by all filters of this solver.
     pub fn transforms(&self) -> u64 {
         self.newton.transforms() + self.dry.transforms()
@@ -175,6 +192,7 @@ impl Solver {
             sheared: conditions.law.map(|law| Sheared {
                 law,
                 deflection: &state.sheared,
+                film: &state.film,
             }),
             gap: &self.gap,
             c_star: &self.c_star,

@@ -44,9 +44,11 @@ fn name(caution: &Caution) -> &'static str {
     match caution.code {
         CautionCode::NotConverged => "not converged",
         CautionCode::BeyondYield => "beyond yield",
+        CautionCode::StillYielding => "still yields",
         CautionCode::Dry => "dry",
         CautionCode::FilmBelowMolecule => "film < molecule",
         CautionCode::MeshFilm => "coarse mesh",
+        CautionCode::ShortDomain => "short domain",
         CautionCode::StandingBody => "a body stands",
         CautionCode::ModelRange => "models differ",
         CautionCode::NotSettled => "not settled",
