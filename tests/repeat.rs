@@ -93,6 +93,9 @@ fn a_session_with_turned_knobs_repeats_bit_for_bit() {
     session.send(Command::Stop);
     let outcome = session.join().unwrap();
     assert!(outcome.output_errors.is_empty());
+    // Whoever goes on from its state is told that it is not the scene's own run.
+    let saved = outcome.checkpoint.as_ref().unwrap();
+    assert_eq!(saved.n_turned_by_hand, 4);
 
     let recorded = Recorded::read(&path).unwrap();
     assert_eq!(recorded.last_step, outcome.steps);
