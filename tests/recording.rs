@@ -490,8 +490,9 @@ fn a_budget_is_a_budget_and_knows_no_clock() {
             quick.len()
         );
         assert!(bytes as f64 <= 1e6 * budget_mb, "{bytes} of {budget_mb} MB");
+        // Weights are upper estimates: what is made up here is compressed better than a run's numbers.
         assert!(
-            bytes as f64 > 0.6e6 * budget_mb,
+            bytes as f64 > 0.4e6 * budget_mb,
             "{bytes} of {budget_mb} MB"
         );
         assert!(quick.len() > 1 && scalars > 100);

@@ -245,8 +245,8 @@ pub const SECTIONS: &[Section] = &[
         need: Optional("no recording"),
         doc: "The recording (.rrd).",
         keys: &[
-            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "fields every so many time steps, scalars every step; the plan spaces them out to keep to the budget"),
-            key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "largest size of the recording"),
+            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "fields every so many time steps, scalars every step; both are spaced out to keep to the budget"),
+            key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "largest size of the recording, of which layout and first frame take about 1 MB"),
         ],
     },
 ];

@@ -13,9 +13,9 @@ const SMALL: [&str; 8] = [
     "run",
     "demonstration",
     "--set=grid.nodes=33",
-    "--set=body_1.surface.kind=smooth",
-    "--set=body_2.surface.kind=smooth",
-    "--set=stress.depths=8",
+    "--set=body_1.surface.wavelength_x_m=4e-4",
+    "--set=body_2.surface.wavelength_x_m=4e-4",
+    "--set=body_2.surface.wavelength_y_m=4e-4",
     "--set=numerics.error_estimate=none",
     "--threads=1",
 ];
@@ -325,7 +325,7 @@ pub(crate) fn all() -> Vec<Tally> {
             &[0, 2, 4],
         );
     }
-    for n in [3, 5, 8, 12, 20] {
+    for n in [6, 8, 12, 16, 20] {
         faults.deprived(
             "few descriptors",
             &format!("ulimit -n {n}"),

@@ -9,7 +9,10 @@ use rerun::external::arrow::array::Array as _;
 use rerun::log::{Chunk, ChunkBatcherConfig, PendingRow};
 use rerun::sink::LogSink as _;
 use rerun::time::TimePoint;
-use rerun::{AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars};
+use rerun::{
+    AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars,
+    SerializedComponentBatch,
+};
 
 use super::destination::Destination;
 use super::file::RecordingFile;
@@ -282,6 +285,16 @@ impl Stream {
             .sum();
         self.always
             .update(|always| always + MESSAGE + TEXT * bytes as f64);
+        self.log_for_now(entity, batches)
+    }
+
+    /// Logs what holds for the whole recording until it is logged again: the finished file has the last of them alone,
+    /// which weighs nothing.
+    pub(super) fn log_for_now(
+        &self,
+        entity: impl Into<EntityPath>,
+        batches: Vec<SerializedComponentBatch>,
+    ) -> Result<(), ObserveError> {
         let row = PendingRow::from_iter(TimePoint::default(), batches);
         let chunk = row.into_chunk(entity.into());
         self.send(chunk.map_err(|error| self.failed(&error.to_string()))?)

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use rerun::components::MediaType;
-use rerun::{TextDocument, TextLog, TextLogLevel};
+use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
 
 use super::note::Note;
 use super::raster::{Beyond, Scale};
@@ -247,7 +247,8 @@ pub(super) fn log_reach(
         turns,
         ended,
     };
-    stream.log_static(REACH, &TextDocument::new(reach.to_text()))
+    let reach = TextDocument::new(reach.to_text());
+    stream.log_for_now(REACH, reach.as_serialized_batches())
 }
 
 /// Something that happened, after so many knobs had been turned.
