@@ -38,7 +38,7 @@ impl Block {
     /// Presses it with `mean`, from what was there; asserts the conditions.
     fn press(&mut self, mean: f64, hardness: f64) -> NewtonReport {
         let mut dry = Dry::new(&self.grid, &self.elastic);
-        dry.hardness = hardness;
+        dry.yield_at(hardness);
         let report = dry.solve(
             &mut self.elastic,
             &DryProblem {

@@ -31,6 +31,17 @@ struct Carried {
 }
 
 impl Dry {
+    /// No pressure above `hardness` from now on; infinite: elastic.
+    pub fn yield_at(&mut self, hardness: f64) {
+        self.hardness = hardness;
+        if hardness.is_finite() {
+            let n = self.deflection.len();
+            self.before
+                .iter_mut()
+                .for_each(|field| field.resize(n, 0.0));
+        }
+    }
+
     /// Brings a pressure back between its bounds and to its load; of elastic bodies it is there already.
     pub(super) fn bring_back(&self, problem: &DryProblem, p: &mut [f64]) {
         if self.hardness.is_infinite() {
@@ -117,8 +128,6 @@ impl Dry {
 
     fn keep(&mut self, p: &[f64]) {
         let [old, deflection] = &mut self.before;
-        old.resize(p.len(), 0.0);
-        deflection.resize(p.len(), 0.0);
         old.copy_from_slice(p);
         deflection.copy_from_slice(&self.deflection);
     }
