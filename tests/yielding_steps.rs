@@ -320,10 +320,12 @@ fn report() {
     let mut out = String::from(
         "`cargo test --release --test yielding_steps -- --ignored report`\n\n\
          # Gear flanks that yield\n\n\
-         The presets as they are stay below their hardness and live as before. With flanks as ground (2 waves of 30 µm, \
-         amplitudes 0.72 and 0.57 µm, 513 nodes) elastic crests carry what no steel does. Hardness 6.84 GPa (60 HRC) on both \
-         bodies; means and greatest values of the last of so many passages; flow: depth over the ring's crests, in all, as \
-         volume per metre of both bodies, and the part of it in the last passage.\n\n\
+         The presets as they are stay below their hardness and live as before. With flanks as ground (waves of 30 \
+         µm on both, amplitudes 0.72 and 0.57 µm, 513 nodes) elastic crests carry what no steel does. Hardness \
+         6.84 GPa (60 HRC) of both bodies. Greatest pressure and life are those of the last passage of so many; \
+         flow is what both bodies have yielded from the start-up on, per metre of length, and the part of it in \
+         that passage. At the pitch point crests go beyond their hardness only while the roughness comes up. Not \
+         converged: steps, elastic and yielding.\n\n\
          | case | passages | elastic: greatest p, GPa | life | Newtons a step | yielding: greatest p, GPa | life | Newtons a step | flow, m³/m | in the last passage | not converged |\n\
          |---|---|---|---|---|---|---|---|---|---|---|\n",
     );
