@@ -191,6 +191,7 @@ fn unlike_bodies_slide_alike_by_both_paths() {
             sheared: Some(Sheared {
                 law: &law,
                 deflection: &sheared,
+                film: &march.state.film,
             }),
             gap: &march.solver.gap,
             c_star: &zero,

@@ -132,7 +132,7 @@ fn life_sees_all_phases() {
 fn a_wave_under_four_nodes_is_refused_by_name() {
     // dx = 14.696 µm: 4 nodes are 58.79 µm.
     assert!(plan(&["body_1.surface.wavelength_x_m=5.88e-5"]).is_ok());
-    let PlanError::Unresolved {
+    let PlanError::Refused {
         key,
         value,
         allowed,
@@ -143,7 +143,7 @@ fn a_wave_under_four_nodes_is_refused_by_name() {
     );
     assert!(allowed.contains("at least 5.879e-5 m"), "{allowed}");
     let named = |settings: &[&str]| match plan(settings).unwrap_err() {
-        PlanError::Unresolved { key, .. } => key,
+        PlanError::Refused { key, .. } => key,
     };
     assert_eq!(
         named(&["body_2.surface.wavelength_y_m=1e-5"]),
@@ -179,7 +179,7 @@ fn coarse_meshes_are_warned_of() {
         forced
             .warnings
             .iter()
-            .any(|warning| matches!(warning, Warning::ShortInlet { .. }))
+            .any(|warning| matches!(warning, Warning::ShortDomain { .. }))
     );
 }
 

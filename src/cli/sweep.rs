@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use asperity::study::sweep::{
     Against, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, SweepError, against_cold,
-    points_csv, run,
+    cost, points_csv, run,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -49,6 +49,11 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
         usize::from,
     );
+    tell(&format!(
+        "{} cases, an estimated {} on one core from cold starts",
+        sweep.len(),
+        cost(&sweep, args.shard)?.time_text()
+    ));
     let began = Instant::now();
     let report = with_bar(&progress, "", || {
         run(&sweep, &folder, args.shard, threads, &progress)

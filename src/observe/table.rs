@@ -140,8 +140,7 @@ impl Observer for Table {
         self.write(frame)
             .map_err(|error| self.failed(&error.into()))?;
         self.rows += 1;
-        self.placed.hold();
-        Ok(())
+        self.placed.hold().map_err(|error| self.failed(&error))
     }
 
     fn event(&mut self, _event: &RunEvent) -> Result<(), ObserveError> {

@@ -53,17 +53,50 @@ pub fn nijenbanning_central_m(point: &OperatingPoint) -> f64 {
 
 /// The same in Moes units, of D = Rx/Ry, M and L.
 pub fn nijenbanning_central(d: f64, m: f64, l: f64) -> f64 {
-    let shape = 1.0 + 0.006 * d.ln() + 0.63 * d.powf(4.0 / 7.0);
-    let rigid_iso = 145.0 * (1.0 + 0.796 * d.powf(14.0 / 15.0)).powf(-15.0 / 7.0) / d * m.powi(-2);
-    let elastic_iso = 3.18 * shape.powf(-14.0 / 25.0) * d.powf(-1.0 / 15.0) * m.powf(-2.0 / 15.0);
-    let rigid_piezo = 1.29 * (1.0 + 0.691 * d).powf(-2.0 / 3.0) * l.powf(2.0 / 3.0);
-    let elastic_piezo =
-        1.48 * shape.powf(-7.0 / 20.0) * d.powf(-1.0 / 24.0) * m.powf(-1.0 / 12.0) * l.powf(0.75);
-    let unloaded = 1.8 / d;
-    let s = 1.5 * (1.0 + (-1.2 * elastic_iso / elastic_piezo).exp());
-    let iso = rigid_iso.powf(1.5) + (elastic_iso.powi(-4) + unloaded.powi(-4)).powf(-0.375);
-    let piezo = rigid_piezo.powi(-8) + elastic_piezo.powi(-8);
-    (iso.powf(2.0 * s / 3.0) + piezo.powf(-s / 8.0)).powf(1.0 / s)
+    let parts = Parts::of(d, m, l);
+    (parts.iso.powf(2.0 * parts.s / 3.0) + parts.piezo).powf(1.0 / parts.s)
+}
+
+/// ∂ ln H_c/∂ ln H_RI of that formula at constant s: how much the film is that of rigid bodies in an oil of one viscosity, 0
+/// to 1.
+pub fn nijenbanning_rigid_share(d: f64, m: f64, l: f64) -> f64 {
+    let parts = Parts::of(d, m, l);
+    let iso = parts.iso.powf(2.0 * parts.s / 3.0);
+    iso / (iso + parts.piezo) * parts.rigid_iso.powf(1.5) / parts.iso
+}
+
+/// What the formula is made of.
+struct Parts {
+    rigid_iso: f64,
+    /// H_RI^{3/2} + (H_EI^{−4} + H_00^{−4})^{−3/8}.
+    iso: f64,
+    /// (H_RP^{−8} + H_EP^{−8})^{−s/8}.
+    piezo: f64,
+    s: f64,
+}
+
+impl Parts {
+    fn of(d: f64, m: f64, l: f64) -> Self {
+        let shape = 1.0 + 0.006 * d.ln() + 0.63 * d.powf(4.0 / 7.0);
+        let rigid_iso =
+            145.0 * (1.0 + 0.796 * d.powf(14.0 / 15.0)).powf(-15.0 / 7.0) / d * m.powi(-2);
+        let elastic_iso =
+            3.18 * shape.powf(-14.0 / 25.0) * d.powf(-1.0 / 15.0) * m.powf(-2.0 / 15.0);
+        let rigid_piezo = 1.29 * (1.0 + 0.691 * d).powf(-2.0 / 3.0) * l.powf(2.0 / 3.0);
+        let elastic_piezo = 1.48
+            * shape.powf(-7.0 / 20.0)
+            * d.powf(-1.0 / 24.0)
+            * m.powf(-1.0 / 12.0)
+            * l.powf(0.75);
+        let unloaded = 1.8 / d;
+        let s = 1.5 * (1.0 + (-1.2 * elastic_iso / elastic_piezo).exp());
+        Self {
+            rigid_iso,
+            iso: rigid_iso.powf(1.5) + (elastic_iso.powi(-4) + unloaded.powi(-4)).powf(-0.375),
+            piezo: (rigid_piezo.powi(-8) + elastic_piezo.powi(-8)).powf(-s / 8.0),
+            s,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -108,6 +108,20 @@ impl LinePoint {
 
 /// Central film by Moes, in Moes units.
 pub fn moes_central(m: f64, l: f64) -> f64 {
+    let [_, iso, piezo, s] = moes_parts(m, l);
+    (iso.powf(3.0 * s / 7.0) + piezo.powf(-2.0 * s / 7.0)).powf(1.0 / s)
+}
+
+/// ∂ ln H_c/∂ ln H_RI of that formula at constant s: how much the film is that of rigid bodies in an oil of one viscosity, 0
+/// to 1.
+pub fn moes_rigid_share(m: f64, l: f64) -> f64 {
+    let [rigid_iso, iso, piezo, s] = moes_parts(m, l);
+    let (all_iso, all_piezo) = (iso.powf(3.0 * s / 7.0), piezo.powf(-2.0 * s / 7.0));
+    all_iso / (all_iso + all_piezo) * rigid_iso.powf(7.0 / 3.0) / iso
+}
+
+/// H_RI, H_RI^{7/3} + H_EI^{7/3}, H_RP^{−7/2} + H_EP^{−7/2}, s.
+fn moes_parts(m: f64, l: f64) -> [f64; 4] {
     let (rigid_iso, elastic_iso) = (3.0 / m, 2.621 * m.powf(-0.2));
     let (rigid_piezo, elastic_piezo) = (
         1.287 * l.powf(2.0 / 3.0),
@@ -116,7 +130,7 @@ pub fn moes_central(m: f64, l: f64) -> f64 {
     let s = 0.2 * (7.0 + 8.0 * (-2.0 * elastic_iso / rigid_iso).exp());
     let iso = rigid_iso.powf(7.0 / 3.0) + elastic_iso.powf(7.0 / 3.0);
     let piezo = rigid_piezo.powf(-3.5) + elastic_piezo.powf(-3.5);
-    (iso.powf(3.0 * s / 7.0) + piezo.powf(-2.0 * s / 7.0)).powf(1.0 / s)
+    [rigid_iso, iso, piezo, s]
 }
 
 /// Minimum film by Dowson and Higginson, in Moes units.

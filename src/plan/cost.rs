@@ -1,6 +1,7 @@
 //! What a run will cost: memory, time, size of a recorded frame. Estimates to one digit, for `asperity check`
 //! and for deciding on a progress bar; nothing in the results depends on them.
 
+use super::display::duration;
 use crate::scene::ContactKind;
 
 /// Memory and time of a run.
@@ -59,6 +60,11 @@ pub(super) fn frame_bytes(nodes: usize, rows: usize) -> f64 {
 }
 
 impl Cost {
+    /// The time in words.
+    pub fn time_text(&self) -> String {
+        duration(self.time_s)
+    }
+
     pub(super) fn new(load: Load) -> Self {
         let nodes = load.nodes as f64;
         if load.kind == ContactKind::Line {

@@ -2,8 +2,8 @@
 
 use super::LifeAsked;
 use super::{
-    Crests, Domain, FilmPlan, LeftOut, MOLECULE_M, March, OtherFilms, Plan, StressPlan, Symmetry,
-    TractionDeflection, Valleys, Warning, WavePlan, inlet_error, mesh_error,
+    Crests, Domain, EDGES_WORTH_A_WORD, FilmPlan, LeftOut, MOLECULE_M, March, OtherFilms, Plan,
+    StressPlan, Symmetry, TractionDeflection, Valleys, Warning, WavePlan,
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
@@ -21,6 +21,7 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
             central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
             lambda_ratio: None,
             radii_ratio: 0.0,
+            ellipticity: 1.0,
             valleys: valleys(scene),
             eyring_flow: eyring_flow(scene),
         };
@@ -38,6 +39,7 @@ pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
         central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
         lambda_ratio: None,
         radii_ratio: point.rx_m / point.ry_m,
+        ellipticity: hertz.b_m / hertz.a_m,
         valleys: valleys(scene),
         eyring_flow: eyring_flow(scene),
     };
@@ -80,15 +82,9 @@ fn valleys(scene: &Scene) -> Valleys {
     }
 }
 
-pub(super) fn domain_warnings(
-    kind: ContactKind,
-    domain: &Domain,
-    film: Option<&FilmPlan>,
-) -> Vec<Warning> {
-    /// Errors of the film above which the user is told: by the mesh, and by an inlet that the user chose
-    /// (the plan's own stays below 0.5 %).
+pub(super) fn domain_warnings(domain: &Domain, film: Option<&FilmPlan>) -> Vec<Warning> {
+    /// Error of the film by the mesh above which the user is told.
     const WORTH_A_WORD: f64 = 0.05;
-    const INLET_WORTH_A_WORD: f64 = 0.01;
     let Some(film) = film else {
         return Vec::new();
     };
@@ -99,15 +95,17 @@ pub(super) fn domain_warnings(
         }];
     }
     let mut warnings = Vec::new();
-    let mesh = mesh_error(kind, film.central, domain.dx_a());
+    let truncation = film.truncation();
+    let mesh = truncation.mesh_error(domain.dx_a());
     if mesh > WORTH_A_WORD {
         warnings.push(Warning::CoarseForTheFilm { error: mesh });
     }
-    let inlet = inlet_error(kind, film.central, film.groups.l, domain.x_min_a);
-    if inlet > INLET_WORTH_A_WORD {
-        warnings.push(Warning::ShortInlet {
-            error: inlet,
+    let error = truncation.error(domain);
+    if error > EDGES_WORTH_A_WORD {
+        warnings.push(Warning::ShortDomain {
+            error,
             x_min_a: domain.x_min_a,
+            kind: truncation.kind,
         });
     }
     warnings

@@ -35,7 +35,7 @@ impl fmt::Display for Plan {
             f,
             "\nEstimate    {} of memory, {} on one core",
             size(self.cost.memory_bytes),
-            duration(self.cost.time_s)
+            self.cost.time_text()
         )
     }
 }
@@ -334,7 +334,7 @@ fn size(bytes: u64) -> String {
     }
 }
 
-fn duration(seconds: f64) -> String {
+pub(super) fn duration(seconds: f64) -> String {
     if seconds < 100.0 {
         format!("{seconds:.0} s")
     } else if seconds < 6000.0 {

@@ -1,28 +1,4 @@
-//! The domain: how far the inlet reaches, how fine the mesh is, and what both cost in accuracy.
-//!
-//! ```text
-//! film       H_c = h_c Rx/a²                                            (h_c by regression)
-//! mesh rule  relative error of the central film ≈ (ΔX/H_c^{2/3})²
-//! inlet      relative error ≈ 0.05 L^0.35 H_c [g(2.5)/g(X)]^{1.5}
-//! sides      0.14 of that, with |X| the half-width
-//! Hertz gap  g(X) = [√(X² − 1) − (2 − X²) arccos(1/X)]/π                 (in a²/R, circular)
-//! line       mesh 0.1 (ΔX/H_c^{2/3})²;  inlet 0.11 in place of 0.055, g(X) = [X √(X² − 1) − ln(X + √(X² − 1))]/2
-//! ```
-//!
-//! The rules are fits to measured smooth contacts (`tests/domain.rs`, ignored for its length): M from 10 to
-//! 200 at L from 2 to 20, Barus, incompressible, edges from 1.9 to 6 a against a reference at −9 a and ±5 a.
-//! Central film, per cent, lost to an inlet at −2.53 a, and by the rule:
-//!
-//! | L | M = 10 | 20 | 50 | 100 | 200 |
-//! |---|---|---|---|---|---|
-//! | 2 | 2.1 (2.2) | 1.4 (1.3) | 0.70 (0.69) | 0.41 (0.41) | 0.22 (0.23) |
-//! | 5 | 3.7 (4.5) | 2.8 (2.8) | 1.5 (1.5) | 0.84 (0.89) | 0.46 (0.53) |
-//! | 10 | 7.8 (8.4) | 5.3 (5.3) | | | |
-//!
-//! The scaling with the gap is what starvation theory says: a film is starved by the ratio of itself to the
-//! gap where the oil begins. From −2.53 to −4.5 a the losses fall as the gap to the power 1.5 to 1.6.
-//! At M = 5 the pressure is no longer Hertz's and the rule is only a guide. The rules size the grid and warn;
-//! they never correct results.
+//! The domain: how far the inlet reaches and how fine the mesh is; what both cost in accuracy: `truncation.rs`.
 //!
 //! *The choice.* The shortest domain whose inlet costs less than 0.5 % and whose sides cost at most 0.25 %. At a
 //! fixed number of nodes a longer domain has a coarser mesh, whose error grows with the square of its length.
@@ -31,15 +7,18 @@
 //! errors at 129² is no worse for H_c < 0.057 (L = 10), which holds all presets, worse by at most a sixth of
 //! itself up to 0.15, where the mesh rules, and falls to two thirds for thick films (test below).
 //!
+//! *Contacts that hardly deform* (M below 10) lose film as slowly as 1/|X|, and no uniform mesh reaches far enough for
+//! 0.5 %. Their domain grows, at one shape, with the length of the wedge, until what the edges cost and half of what the
+//! mesh costs are least together: half, because a run measures the mesh's part itself, from a companion on half the nodes,
+//! but not the edges'. What is left is told, by the plan and by the cautions.
+//!
 //! *Rough surfaces.* Under a light load crests meet far outside of the Hertz contact: wherever the gap of the smooth
 //! contact is less than their heights together. The edges lie beyond that, up to 6 a, and a warning says so
 //! where they do not. Loads and amplitudes that events of the scene set in mid-run are foreseen. What a hand turns is
 //! not: a load whose Hertz contact would reach an edge is refused with the greatest that does not, and a step whose
 //! surfaces overlap at an edge is named as not converged.
-//!
-//! The line's factors are measured too (`tests/line.rs`: at M = 20 and 100 the inlet rule holds within 1.3
-//! from −2 to −3.5).
 
+use super::truncation::{Truncation, gap};
 use crate::scene::{ContactKind, Grid};
 
 /// Nodes and edges of the computed rectangle.
@@ -55,7 +34,7 @@ pub struct Domain {
     pub y_half_b: f64,
 }
 
-/// The origin lies so many of 64 intervals behind the inlet, from −2.5 a to −8.1 a.
+/// The origin lies so many of 64 intervals behind the inlet, from −2.5 a to −8.1 a and beyond.
 const FIRST: usize = 40;
 const LAST: usize = 54;
 /// Up to this many the rectangle stays 4 a long, and the outlet comes nearer.
@@ -71,6 +50,11 @@ const INLET_ERROR: f64 = 0.005;
 const SIDE_ERROR: f64 = 0.0025;
 /// A dry contact has no inlet; the margin is for pressure beyond the Hertz ellipse on rough surfaces.
 const DRY_HALF: f64 = 1.5;
+/// Part of the mesh's error that weighs as much as an error by the edges (see above).
+const MESH_SHARE: f64 = 0.5;
+/// Steps in which a domain grows beyond the usual longest, and how many at most: to 2000 times.
+const GROWTH: f64 = 1.05;
+const GROWTHS: i32 = 156;
 /// Farthest edge for the sake of crests, in a.
 const FARTHEST: f64 = 6.0;
 
@@ -103,18 +87,18 @@ impl Crests {
 }
 
 impl Domain {
-    /// The domain that a scene's grid asks for, the edges that it leaves out chosen by the film, given as
-    /// (H_c, L) (`None`: dry), and by the crests.
+    /// The domain that a scene's grid asks for, the edges that it leaves out chosen by the film (`None`: dry) and by the
+    /// crests.
     pub fn choose(
         kind: ContactKind,
         grid: &Grid,
-        film: Option<(f64, f64)>,
+        film: Option<Truncation>,
         crests: Crests,
     ) -> Self {
         let [reach_x, reach_y] = crests.reach(kind);
-        let (x_min_a, x_max_a, y_half_b) = if let Some((film, l)) = film {
-            let (x_min, x_max) = beyond(edges(kind, film, l), reach_x);
-            (x_min, x_max, side(film, l).max(reach_y))
+        let (x_min_a, x_max_a, y_half_b) = if let Some(film) = film {
+            let (x_min, x_max) = beyond(edges(&film, grid.nodes), reach_x);
+            (x_min, x_max, side(&film, grid.nodes).max(reach_y))
         } else {
             let x = DRY_HALF.max(reach_x);
             (-x, x, DRY_HALF.max(reach_y))
@@ -154,45 +138,44 @@ impl Domain {
     }
 }
 
-/// Relative error of the central film by the mesh, `film` = h_c Rx/a².
-pub fn mesh_error(kind: ContactKind, film: f64, dx_a: f64) -> f64 {
-    let rule = (dx_a / film.powf(2.0 / 3.0)).powi(2);
-    match kind {
-        ContactKind::Point => rule,
-        ContactKind::Line => 0.1 * rule,
-    }
-}
-
-/// Relative error of the central film by an inlet that begins at `x_min_a` (below −1); `film` = h_c Rx/a²,
-/// `l` Moes' L (point contact; the line's rule joins two measured points at L = 10).
-pub fn inlet_error(kind: ContactKind, film: f64, l: f64, x_min_a: f64) -> f64 {
-    match kind {
-        ContactKind::Point => {
-            let gaps = hertz_gap(2.5) / hertz_gap(-x_min_a);
-            0.05 * l.powf(0.35) * film * gaps.powf(1.5)
-        }
-        ContactKind::Line => {
-            let gaps = line_gap(2.5) / line_gap(-x_min_a);
-            0.11 * (film / 0.497 * gaps).powf(1.2)
-        }
-    }
-}
-
-/// Relative error of the central film by sides at ±`y_half_b` (above 1), point contact.
-pub fn side_error(film: f64, l: f64, y_half_b: f64) -> f64 {
-    0.14 * inlet_error(ContactKind::Point, film, l, -y_half_b)
-}
-
 /// The nearest inlet edge that is far enough, and the outlet with it. The origin is a node of every grid from
 /// 65² on, so that the central film needs no interpolation.
-fn edges(kind: ContactKind, film: f64, l: f64) -> (f64, f64) {
+fn edges(film: &Truncation, nodes: usize) -> (f64, f64) {
     let with = |k: usize, dx: f64| (-(k as f64) * dx, (64 - k) as f64 * dx);
     let shifted = (FIRST..=SHIFTED).map(|k| with(k, SHORTEST / 64.0));
     let longer = (FIRST..=LAST).map(|k| with(k, X_MAX_A / (64 - k) as f64));
     shifted
         .chain(longer)
-        .find(|&(x_min, _)| inlet_error(kind, film, l, x_min) < INLET_ERROR)
-        .unwrap_or(with(LAST, X_MAX_A / (64 - LAST) as f64))
+        .find(|&(x_min, _)| film.inlet_error(x_min) < INLET_ERROR)
+        .unwrap_or_else(|| {
+            let spacing = |size: f64| size * X_MAX_A / (64 - LAST) as f64;
+            let x_min = |size: f64| -(LAST as f64) * spacing(size);
+            let size = grown(|size| {
+                let inlet = film.inlet_error(x_min(size));
+                let dx = 64.0 * spacing(size) / (nodes - 1) as f64;
+                (
+                    inlet < INLET_ERROR,
+                    inlet + MESH_SHARE * film.mesh_error(dx),
+                )
+            });
+            with(LAST, spacing(size))
+        })
+}
+
+/// How much larger than the usual longest a domain is best: the first size that is enough, or that of the least cost.
+fn grown(judge: impl Fn(f64) -> (bool, f64)) -> f64 {
+    let mut best = (1.0, f64::INFINITY);
+    for step in 0..GROWTHS {
+        let size = GROWTH.powi(step);
+        let (enough, cost) = judge(size);
+        if cost < best.1 {
+            best = (size, cost);
+        }
+        if enough || cost > 2.0 * best.1 {
+            break;
+        }
+    }
+    best.0
 }
 
 /// Edges that hold `|x| <= reach` too, the shortest with the origin on a node of every grid from 65² on.
@@ -209,39 +192,38 @@ fn beyond((x_min, x_max): (f64, f64), reach: f64) -> (f64, f64) {
 }
 
 /// The nearest sides that are far enough.
-fn side(film: f64, l: f64) -> f64 {
+fn side(film: &Truncation, nodes: usize) -> f64 {
     let (least, most, step) = SIDES;
     let n = ((most - least) / step) as usize;
     (0..n)
         .map(|k| least + k as f64 * step)
-        .find(|&y| side_error(film, l, y) <= SIDE_ERROR)
-        .unwrap_or(most)
-}
-
-/// Gap outside of a smooth contact, in a²/Rx (of the long side of an ellipse a guide).
-fn gap(kind: ContactKind, x: f64) -> f64 {
-    match kind {
-        ContactKind::Point => hertz_gap(x),
-        ContactKind::Line => line_gap(x),
-    }
-}
-
-/// Gap outside of a Hertz line contact at |X| = `x`, in b²/R (Johnson 1985, §4.2).
-fn line_gap(x: f64) -> f64 {
-    let root = (x * x - 1.0).max(0.0).sqrt();
-    0.5 * (x * root - (x + root).ln())
-}
-
-/// Gap outside of a circular Hertz contact at |X| = `x`, in a²/R.
-fn hertz_gap(x: f64) -> f64 {
-    let square = x * x;
-    ((square - 1.0).max(0.0).sqrt() - (2.0 - square) * (1.0 / x).min(1.0).acos())
-        / std::f64::consts::PI
+        .find(|&y| film.side_error(y) <= SIDE_ERROR)
+        .unwrap_or_else(|| {
+            let size = grown(|size| {
+                let side = film.side_error(size * most);
+                // In lengths of the wedge a spacing along y counts as one along x.
+                let dy = 2.0 * size * most * film.side / (nodes - 1) as f64;
+                (side <= SIDE_ERROR, side + MESH_SHARE * film.mesh_error(dy))
+            });
+            size * most
+        })
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::truncation::{hertz_gap, inlet_error, mesh_error, side_error};
     use super::*;
+
+    /// The film of a circular contact that deforms.
+    fn of(film: f64, l: f64) -> Truncation {
+        Truncation {
+            kind: ContactKind::Point,
+            film,
+            l,
+            rigid: 0.0,
+            side: 1.0,
+        }
+    }
 
     /// H_c of the tables' cases: Moes film × √(λ/6π), λ = (128π³/(3M⁴))^{1/3}.
     fn film(m: f64, moes: f64) -> f64 {
@@ -305,7 +287,7 @@ mod tests {
                 .into_iter()
                 .find(|&(x, _)| inlet_error(ContactKind::Point, film, l, x) <= 0.015)
                 .unwrap_or((-8.0, 5.0));
-            let (x, y) = (edges(ContactKind::Point, film, l), side(film, l));
+            let (x, y) = (edges(&of(film, l), 129), side(&of(film, l), 129));
             let old = total(film, l, (before.0, 1.5), before.1);
             let new = total(film, l, x, y);
             println!("H {film:.4}: {before:?} {old:.4} -> ({x:.3?}, {y}) {new:.4}");
@@ -326,7 +308,7 @@ mod tests {
             Domain::choose(
                 ContactKind::Point,
                 &Grid::default(),
-                Some((film, 10.0)),
+                Some(of(film, 10.0)),
                 Crests::default(),
             )
         };
@@ -359,7 +341,7 @@ mod tests {
             Domain::choose(
                 ContactKind::Point,
                 &grid,
-                Some((0.05, 10.0)),
+                Some(of(0.05, 10.0)),
                 Crests::default()
             )
             .x_min_a,
@@ -377,7 +359,7 @@ mod tests {
             let domain = Domain::choose(
                 ContactKind::Point,
                 &Grid::default(),
-                Some((0.03, 10.0)),
+                Some(of(0.03, 10.0)),
                 crests,
             );
             (domain, crests.meet_at_edge_of(ContactKind::Point, &domain))
@@ -398,7 +380,7 @@ mod tests {
         let domain = Domain::choose(
             ContactKind::Point,
             &Grid::default(),
-            Some((0.03, 10.0)),
+            Some(of(0.03, 10.0)),
             Crests::default(),
         );
         assert_eq!(domain.dx_a(), 4.0 / 128.0);

@@ -9,13 +9,16 @@ mod display;
 mod domain;
 mod film;
 mod life;
+mod range;
 mod surfaces;
+mod truncation;
 mod warning;
 
 pub use cost::Cost;
-pub use domain::{Crests, Domain, inlet_error, mesh_error, side_error};
+pub use domain::{Crests, Domain};
 pub use life::{LifeAsked, LifePlan};
 pub use surfaces::WavePlan;
+pub use truncation::{Truncation, inlet_error, mesh_error, side_error};
 pub use warning::{LeftOut, PlanError, Warning};
 
 use crate::physics::groups::Groups;
@@ -96,6 +99,8 @@ pub struct FilmPlan {
     pub lambda_ratio: Option<f64>,
     /// Rx/Ry; 0 for a line.
     pub radii_ratio: f64,
+    /// Half-width along y over that along x; of a line 1.
+    pub ellipticity: f64,
     /// Whether the oil between the bodies can leave.
     pub valleys: Valleys,
     /// What the pressure's flow meets in sheared oil; `None`: the oil is Newtonian.
@@ -215,6 +220,10 @@ pub struct RecordPlan {
     pub budget_bytes: u64,
 }
 
+/// Error of the film by the edges of the domain above which the user is told: an inlet that the plan chooses costs less than
+/// half of it, where the contact deforms.
+pub const EDGES_WORTH_A_WORD: f64 = 0.01;
+
 /// Rows by which frames show a line contact, all alike: enough for a map or a mesh.
 pub const LINE_ROWS: usize = 9;
 /// Half of the width that they span, in half-widths of the contact.
@@ -222,23 +231,27 @@ pub const LINE_HALF_WIDTH: f64 = 2.0;
 
 /// A passage, in a.
 const PASSAGE_A: f64 = 4.0;
-/// Lengths of 4 a at U that cost as much as the start-up with all its grids (measured on the default scene).
-const START_UP_PASSAGES: f64 = 2.5;
+/// The start-up costs as much as so many crossings of the domain (all grids) and so many lengths of 4 a (the development)
+/// on the last grid; measured on the default scene, whose domain is 4 a long.
+const START_UP_CROSSINGS: f64 = 1.5;
+const START_UP_PASSAGES: f64 = 1.0;
 
 impl Plan {
     /// Decides what a validated scene needs.
     ///
     /// # Errors
-    /// [`PlanError::Unresolved`] when a wavelength has fewer than 4 nodes.
+    /// [`PlanError::Refused`] when a wavelength has fewer than 4 nodes, or when the equations do not hold for the bodies or
+    /// the film.
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
+        range::check(scene, &hertz, film.as_ref())?;
         let kind = scene.kind();
         let crests = decide::crests(scene, &hertz);
         let domain = Domain::choose(
             kind,
             &scene.grid,
-            film.map(|film| (film.central, film.groups.l)),
+            film.map(|film| film.truncation()),
             crests,
         )
         .holding(decide::greatest_size(scene), &scene.grid);
@@ -247,7 +260,7 @@ impl Plan {
             ContactKind::Point => domain.dy_b() * hertz.b_m,
             ContactKind::Line => 2.0 * LINE_HALF_WIDTH * hertz.a_m / (LINE_ROWS - 1) as f64,
         };
-        let mut warnings = decide::domain_warnings(kind, &domain, film.as_ref());
+        let mut warnings = decide::domain_warnings(&domain, film.as_ref());
         if crests.meet_at_edge_of(kind, &domain) {
             warnings.push(Warning::CrestsAtEdge {
                 crests_m: decide::crest_m(scene),
@@ -355,6 +368,9 @@ impl Plan {
         let volumes = self
             .life
             .map_or(0, |life| self.steps / life.volume_every_steps + 1);
+        let domain = &self.domain;
+        let step_a = self.dt_s * self.speeds_m_s.iter().sum::<f64>().abs() / 2.0 / self.hertz.a_m;
+        let crossing = (domain.x_max_a - domain.x_min_a) / step_a;
         Cost::new(cost::Load {
             kind: self.kind,
             nodes: self.domain.nodes,
@@ -364,7 +380,9 @@ impl Plan {
             },
             depths: self.depths(),
             steps: self.steps,
-            start_up_steps: (START_UP_PASSAGES * self.steps_per_passage as f64) as u64,
+            start_up_steps: (START_UP_CROSSINGS * crossing
+                + START_UP_PASSAGES * self.steps_per_passage as f64)
+                as u64,
             volumes,
         })
     }

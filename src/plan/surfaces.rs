@@ -102,7 +102,7 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
     } = surface
     else {
         let wave_m = (1.0 / k_x).min(1.0 / k_y);
-        return Err(PlanError::Unresolved {
+        return Err(PlanError::Refused {
             key: format!("body_{body}.surface.file"),
             value: format!("a map whose shortest significant wave is {wave_m:.3e} m"),
             allowed: format!(
@@ -125,7 +125,7 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
     } else {
         ("wavelength_y_m", wavelength_y_m)
     };
-    Err(PlanError::Unresolved {
+    Err(PlanError::Refused {
         key: format!("body_{body}.surface.{name}"),
         value: format!("{value_m:e} m"),
         allowed: format!(

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::Valleys;
+use crate::scene::ContactKind;
 
 /// A stage that is left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,13 +26,18 @@ pub enum Warning {
         /// Estimated relative error.
         error: f64,
     },
-    /// The inlet is too short.
-    #[error("the inlet at {x_min_a} a starves the film by about {:.1} %; move it with grid.x_min_a", 100.0 * error)]
-    ShortInlet {
+    /// The inlet is too short, or the sides are too near.
+    #[error(
+        "the edges of the domain, the inlet at {x_min_a:.4} a, starve the film by about {:.1} %; {} move them out, for which more grid.nodes make room",
+        100.0 * error, match kind { ContactKind::Point => "grid.x_min_a and grid.y_half_a", ContactKind::Line => "grid.x_min_a" }
+    )]
+    ShortDomain {
         /// Estimated relative error.
         error: f64,
         /// Inlet edge, in a.
         x_min_a: f64,
+        /// Point or line.
+        kind: ContactKind,
     },
     /// Crests can touch at the edge of the domain.
     #[error(
@@ -115,9 +121,9 @@ pub enum Warning {
 /// A scene that cannot be computed as asked.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
-    /// A wavelength is not resolved by the grid.
+    /// A wavelength is not resolved by the grid, or the equations do not hold for the bodies or the film.
     #[error("{key} = {value} is refused; allowed: {allowed}")]
-    Unresolved {
+    Refused {
         /// Key in full.
         key: String,
         /// The value.

@@ -57,6 +57,10 @@ fn kind_of(table: &Table) -> Option<String> {
 
 /// The error for a key that no scene has.
 pub(super) fn unknown(full: &str) -> SceneError {
+    if full.split(['.', '[']).next() == Some("event") {
+        let key = super::error::shortened(full);
+        return SceneError::value(key, "a setting", "tables [[event]] in a scene file");
+    }
     let paths: Vec<String> = keys::all_paths()
         .chain(SECTIONS.iter().map(|section| section.path.to_owned()))
         .chain(["event".to_owned()])

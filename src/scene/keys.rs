@@ -195,9 +195,9 @@ pub const SECTIONS: &[Section] = &[
         doc: "Nodes and domain, in Hertz half-widths along x and along y.",
         keys: &[
             key("nodes", "", IntegerOf(&[33, 65, 129, 257, 513, 1025]), Defaulted, "nodes per side, 2^k + 1"),
-            key("x_min_a", "a", Number(-20.0, -1.2), Optional("chosen by the plan"), "inlet edge, x along the flow"),
-            key("x_max_a", "a", Number(1.1, 10.0), Optional("chosen by the plan"), "outlet edge, x along the flow"),
-            key("y_half_a", "b", Number(1.1, 10.0), Optional("chosen by the plan"), "half-width across, in half-widths along y"),
+            key("x_min_a", "a", Number(-1000.0, -1.2), Optional("chosen by the plan"), "inlet edge, x along the flow"),
+            key("x_max_a", "a", Number(1.1, 1000.0), Optional("chosen by the plan"), "outlet edge, x along the flow"),
+            key("y_half_a", "b", Number(1.1, 1000.0), Optional("chosen by the plan"), "half-width across, in half-widths along y"),
         ],
     },
     Section {

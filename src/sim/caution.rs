@@ -4,16 +4,17 @@
 //! beyond_yield   p_max > H or σ_eff > Y of the body that carries less, as far as it is known        greatest of the last passage
 //! still_yielding  more than 1 % of all flow of surfaces in the last passage
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
+//! short_domain   the same by the edges of the domain > 1 %                      likewise
 //! model_range    greatest over least life of the choices > 2
 //! ```
 //! One list for the screen, the summary and the report text. It is made only when asked for.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Frame, LifeEstimate, Metrics};
+use super::{Frame, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::sig;
 use crate::physics::strength::Strength;
-use crate::plan::MOLECULE_M;
+use crate::plan::{EDGES_WORTH_A_WORD, MOLECULE_M};
 use crate::scene::StressMeasure;
 
 /// Kind of caution, as scripts read it.
@@ -32,6 +33,8 @@ pub enum CautionCode {
     FilmBelowMolecule,
     /// The mesh costs a good part of the film.
     MeshFilm,
+    /// The edges of the domain starve the film.
+    ShortDomain,
     /// A body stands (|S| = 2) and is left out of the life.
     StandingBody,
     /// Models and cycle bases differ by a large factor.
@@ -76,6 +79,8 @@ pub struct Grounds {
     pub flows: bool,
     /// Relative error of the smooth central film by the mesh at those values; `None`: no flow.
     pub mesh_film: Option<f64>,
+    /// The same by the edges of the domain.
+    pub short_domain: Option<f64>,
     /// Whether the scene computes a life.
     pub has_life: bool,
     /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.
@@ -111,6 +116,7 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::Dry, dry(grounds));
     say(CautionCode::FilmBelowMolecule, below_molecule(grounds));
     say(CautionCode::MeshFilm, mesh_film(grounds));
+    say(CautionCode::ShortDomain, short_domain(grounds));
     say(CautionCode::StandingBody, standing(m, grounds));
     say(CautionCode::ModelRange, model_range(m.life.as_ref()));
     say(CautionCode::NotSettled, not_settled(m, grounds));
@@ -230,6 +236,16 @@ fn mesh_film(grounds: &Grounds) -> Option<String> {
     })
 }
 
+fn short_domain(grounds: &Grounds) -> Option<String> {
+    let error = grounds
+        .short_domain
+        .filter(|error| *error > EDGES_WORTH_A_WORD)?;
+    Some(format!(
+        "the edges of the domain starve the smooth central film by about {} % at these settings; a wider grid (grid.x_min_a, grid.y_half_a) with more grid.nodes makes it less",
+        sig(100.0 * error, 2)
+    ))
+}
+
 fn standing(m: &Metrics, grounds: &Grounds) -> Option<String> {
     if !grounds.has_life || m.entrainment_m_s == 0.0 {
         return None;
@@ -262,10 +278,13 @@ fn model_range(life: Option<&LifeEstimate>) -> Option<String> {
 
 fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
     let settled = m.life.is_some_and(|life| life.settled);
-    (grounds.has_life && !settled).then(|| {
+    let never_repeats = m.repeat.is_some_and(|r| r.rhythm == Rhythm::Statistics);
+    let why = if never_repeats {
+        "both bodies' waves have no common period, and the average does not cover three passages of 4a yet: it still moves"
+    } else {
         "the average does not cover a whole period of these conditions yet: it still moves"
-            .to_owned()
-    })
+    };
+    (grounds.has_life && !settled).then(|| why.to_owned())
 }
 
 fn no_life(grounds: &Grounds) -> Option<String> {
@@ -345,10 +364,10 @@ mod tests {
     fn each_ground_has_its_caution_with_its_number() {
         use CautionCode::{
             BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife, NotConverged,
-            NotSettled, StandingBody, StillYielding, StrengthUnknown,
+            NotSettled, ShortDomain, StandingBody, StillYielding, StrengthUnknown,
         };
         type Spoil = fn(&mut Metrics, &mut Grounds);
-        let table: [(CautionCode, &str, Spoil); 14] = [
+        let table: [(CautionCode, &str, Spoil); 15] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
             (BeyondYield, "7.5 GPa", |_, g| {
@@ -373,6 +392,7 @@ mod tests {
             }),
             (FilmBelowMolecule, "0.20 nm", |_, g| g.film_m = Some(2e-10)),
             (MeshFilm, "9.8 %", |_, g| g.mesh_film = Some(0.098)),
+            (ShortDomain, "2.0 %", |_, g| g.short_domain = Some(0.02)),
             (StandingBody, "body 1 stands (S = 2.00)", |m, _| {
                 (m.n_body_1, m.slide_roll) = (None, 2.0);
             }),

@@ -72,6 +72,8 @@ fn fill_fields(sim: &Simulation, frame: &mut Frame) {
         &mut frame.pressure_pa,
     );
     expand(sim, &state.film, door.film_m, &mut frame.film_m);
+    // Where the bodies touch there is no film; what they overlap by is the solver's, and told as overlap.
+    frame.film_m.iter_mut().for_each(|h| *h = h.max(0.0));
     expand(sim, &sim.work.traction, along_x, &mut frame.traction_pa);
     expand(sim, one, door.film_m, &mut frame.roughness_1_m);
     expand(sim, two, door.film_m, &mut frame.roughness_2_m);

@@ -100,7 +100,7 @@ impl Simulation {
             "its steps or times are none",
         )?;
         demand(
-            state.motion.fits(&self.state.motion) && state.pace.is_sound(),
+            self.state.motion.fits(&state.motion) && state.pace.is_sound(),
             "its motion is of another make",
         )?;
         if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {

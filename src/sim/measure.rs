@@ -11,7 +11,8 @@ use crate::solve::traction::TractionLaw;
 pub(super) struct Measured {
     /// Greatest P.
     pub(super) p_max: f64,
-    /// H at the origin.
+    /// H at the origin; 0 where the bodies touch, as of every film: what they overlap by, within the solver's tolerance or
+    /// beyond it, is told as overlap.
     pub(super) h_central: f64,
     /// Least H under pressure.
     pub(super) h_min: f64,
@@ -81,9 +82,9 @@ pub(super) fn measure(fields: &Fields, traction: &mut [f64], rows: &mut [RowSums
     let load = total.load.max(f64::MIN_POSITIVE);
     Measured {
         p_max: total.p_max,
-        h_central: at_origin(grid, fields.h),
-        h_min: total.h_min,
-        h_mean: total.film / total.middle.max(f64::MIN_POSITIVE),
+        h_central: at_origin(grid, fields.h).max(0.0),
+        h_min: total.h_min.max(0.0),
+        h_mean: (total.film / total.middle.max(f64::MIN_POSITIVE)).max(0.0),
         contact_ratio: total.contact / whole,
         contact_load_ratio: total.touching / load,
         friction: total.drag / load,

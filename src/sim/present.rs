@@ -4,7 +4,7 @@
 use super::measure::Measured;
 use super::setup::stress_error;
 use super::{Grounds, Knob, LubricationRegime, MeshErrors, Simulation};
-use crate::plan::{FilmPlan, mesh_error};
+use crate::plan::{Domain, FilmPlan};
 use crate::solve::march::Flow;
 
 impl Simulation {
@@ -59,20 +59,37 @@ impl Simulation {
     /// The plan's rule for a contact of `size` times the scene's.
     fn mesh_rule(&self, film: &FilmPlan, size: f64) -> f64 {
         let dx_a = self.plan.domain.dx_a() / size;
-        mesh_error(self.plan.kind, film.central, dx_a)
+        film.truncation().mesh_error(dx_a)
     }
 
     /// What cautions rest on beside the scalars.
     pub(super) fn grounds(&self) -> Grounds {
         let film = self.regime.film_now(&self.door, &self.state.drive);
         let flows = self.regime.flow_now(&self.door, &self.state.drive) != Flow::Dry;
+        let size = self.size_now();
         let measured = self.state.metrics.errors.map(|errors| errors.h_central);
-        let by_rule = film.map(|film| self.mesh_rule(&film, self.size_now()));
+        let by_rule = film.map(|film| self.mesh_rule(&film, size));
+        // Where the mesh cannot carry the film two grids may agree on anything, as on no film at all.
+        let is_lost = by_rule.is_some_and(|rule| rule > 1.0);
+        let mesh_film = if is_lost {
+            by_rule
+        } else {
+            measured.or(by_rule)
+        };
         let mut grounds = Grounds {
             steps: self.state.step,
             film_m: film.map(|film| film.central_m),
             flows,
-            mesh_film: measured.or(by_rule).filter(|_| flows),
+            mesh_film: mesh_film.filter(|_| flows),
+            short_domain: film.filter(|_| flows).map(|film| {
+                let domain = &self.plan.domain;
+                let seen = Domain {
+                    x_min_a: domain.x_min_a / size,
+                    y_half_b: domain.y_half_b / size,
+                    ..*domain
+                };
+                film.truncation().error(&seen)
+            }),
             ..self.grounds
         };
         self.state.totals.ground(&mut grounds);

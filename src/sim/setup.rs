@@ -185,7 +185,7 @@ fn drives(scene: &Scene, plan: &Plan) -> (Drive, Drive) {
 }
 
 fn motion_of(scene: &Scene, door: &Door) -> Motion {
-    let mut motion = Motion::new(scene.time.step_nodes);
+    let mut motion = Motion::new();
     motion.shear_rate = scene.lubricant.as_ref().map_or(0.0, |oil| {
         oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
     });

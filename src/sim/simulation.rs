@@ -127,7 +127,7 @@ impl Simulation {
     /// Counts and phases seen so far belong to other conditions. The next step is looked at.
     fn forget_passage(&mut self) {
         self.state.orbit.restart();
-        let window = self.averaged();
+        let window = self.state.orbit.life_window(self.plan.passage_a);
         if let Some(life) = &mut self.state.life {
             life.restart(window);
         }
@@ -159,11 +159,10 @@ impl Simulation {
             && self.state.motion.is_flushed()
             && self.door.p_from_pa(self.state.metrics.p_max_pa) < self.hardness * (1.0 - 1e-9);
         if held {
+            let speed = self.state.drive.get(Knob::EntrainmentMS).now;
             self.state.time_s +=
-                self.state
-                    .motion
-                    .dt_s(&self.work.solver.grid, &self.door, &self.state.drive);
-            let held = Attempted::held(&self.state.metrics, self.state.motion.nodes);
+                self.stepping.usual() * self.work.solver.grid.dx * self.door.a_m / speed;
+            let held = Attempted::held(&self.state.metrics, self.stepping.usual());
             // The contact rests, the bodies do not: material points cross it.
             let s = self.state.drive.get(Knob::SlideRoll).now;
             let grid = &self.work.solver.grid;
@@ -226,13 +225,13 @@ impl Simulation {
     /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
     fn next_step(&self) -> (Stepping, f64) {
         if let Phase::Settle { coarse: 1.., .. } = self.state.phase {
-            let nodes = super::follow::COARSE * self.state.motion.nodes;
+            let nodes = super::follow::COARSE * self.stepping.usual();
             return (Stepping::Fixed(nodes), nodes);
         }
         if self.state.phase != Phase::Passage {
             return (
-                Stepping::Fixed(self.state.motion.nodes),
-                self.state.motion.nodes,
+                Stepping::Fixed(self.stepping.usual()),
+                self.stepping.usual(),
             );
         }
         let crests = self

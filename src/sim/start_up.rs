@@ -5,6 +5,15 @@ use super::setup::{COARSEST, grid_of};
 use super::simulation::{DEVELOP, Phase, Simulation};
 use super::{Knob, MeshErrors, StepError};
 
+/// What a coarser grid's value is off a finer one's; all of it, where that is nothing: bodies that touch.
+fn off(coarser: f64, finer: f64) -> f64 {
+    if finer > 0.0 {
+        (coarser / finer - 1.0).abs()
+    } else {
+        1.0
+    }
+}
+
 impl Simulation {
     /// The next finer grid, or the reference and the development.
     pub(super) fn refine_or_develop(&mut self) -> Result<(), StepError> {
@@ -23,9 +32,9 @@ impl Simulation {
         }
         let measured = self.measure();
         self.state.mesh_errors = self.state.coarser.map(|coarser| MeshErrors {
-            h_central: (coarser.h_central / measured.h_central - 1.0).abs(),
-            h_min: (coarser.h_min / measured.h_min - 1.0).abs(),
-            p_max: (coarser.p_max / measured.p_max - 1.0).abs() + self.stress_error,
+            h_central: off(coarser.h_central, measured.h_central),
+            h_min: off(coarser.h_min, measured.h_min),
+            p_max: off(coarser.p_max, measured.p_max) + self.stress_error,
         });
         let base = self.regime.base();
         if let (Some(stress), Some(life)) = (&mut self.work.stress, &mut self.state.life) {
@@ -65,7 +74,7 @@ impl Simulation {
     }
 
     fn steps_of(&self, time: f64) -> u64 {
-        (time / (self.state.motion.nodes * self.work.solver.grid.dx)).ceil() as u64
+        (time / (self.stepping.usual() * self.work.solver.grid.dx)).ceil() as u64
     }
 
     /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, the
@@ -81,7 +90,7 @@ impl Simulation {
             0.75
         };
         let dx = length / (nodes - 1) as f64;
-        (share * length / (self.state.motion.nodes * dx)).ceil() as u64
+        (share * length / (self.stepping.usual() * dx)).ceil() as u64
     }
 
     /// Way of both bodies, in a, in the smooth part of the start-up.
@@ -90,7 +99,7 @@ impl Simulation {
         climb(&self.plan)
             .map(|nodes| {
                 let dx = length / (nodes - 1) as f64;
-                self.smooth_steps(nodes, self.plan.has_flow()) as f64 * self.state.motion.nodes * dx
+                self.smooth_steps(nodes, self.plan.has_flow()) as f64 * self.stepping.usual() * dx
             })
             .sum()
     }
@@ -100,6 +109,6 @@ impl Simulation {
             .map(|nodes| self.smooth_steps(nodes, self.plan.has_flow()))
             .sum();
         let dx = self.plan.domain.dx_a();
-        smooth + (DEVELOP / (self.state.motion.nodes * dx)).ceil() as u64
+        smooth + (DEVELOP / (self.stepping.usual() * dx)).ceil() as u64
     }
 }

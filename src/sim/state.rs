@@ -107,7 +107,7 @@ impl Simulation {
     pub(super) fn solve_on(&mut self, nodes: usize) {
         if nodes != self.work.solver.grid.nx {
             let grid = grid_of(&self.plan, nodes, self.door.b_over_a);
-            let usual = self.state.motion.nodes;
+            let usual = self.stepping.usual();
             let (shape, flow) = (&self.shape, self.flow);
             self.work.solver = self.pool.install(|| Solver::new(grid, shape, usual, flow));
         }

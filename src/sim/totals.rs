@@ -123,7 +123,7 @@ impl Totals {
     }
 }
 
-/// The summary of a simulation.
+/// The summary of a simulation. What only its run knows (name, clock, steps planned, discretisation error) is left out.
 pub(super) fn summary(
     sim: &Simulation,
     totals: &Totals,
@@ -135,14 +135,9 @@ pub(super) fn summary(
     let stress = totals.greatest_stress();
     let stage = sim.state.life.as_ref();
     Summary {
-        scene: String::new(),
         converged: totals.not_converged == 0,
-        stopped: false,
         steps: sim.passage_steps(),
-        steps_planned: None,
         steps_not_converged: totals.not_converged,
-        wall_s: 0.0,
-        steps_per_s: None,
         a_m: sim.plan.hertz.a_m * size,
         p_hertz_pa: sim.plan.hertz.p_max_pa * size,
         h_central_m: totals.mean(0),
@@ -206,15 +201,7 @@ pub(super) fn summary(
         period_s: m.repeat.map(|r| r.period_s),
         period_drift: m.repeat.and_then(|r| r.drift),
         periodic: m.repeat.map(|r| r.repeats),
-        error_h_central_m: None,
-        error_h_min_m: None,
-        error_p_max_pa: None,
-        error_contact_ratio: None,
-        error_contact_load_ratio: None,
-        error_friction_coefficient: None,
-        error_ln_life: None,
-        life_extrapolated: None,
-        h_central_extrapolated_m: None,
+        ..Summary::default()
     }
 }
 

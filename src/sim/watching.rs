@@ -42,7 +42,7 @@ impl Simulation {
         };
         let (p, q) = (&self.state.contact.pressure, &self.work.traction);
         let every = self.plan.life.map_or(f64::INFINITY, |life| {
-            life.volume_every_steps as f64 * self.state.motion.nodes * self.work.solver.grid.dx
+            life.volume_every_steps as f64 * self.stepping.usual() * self.work.solver.grid.dx
         });
         // By the way at the step's beginning, so that the first step of a passage is looked at.
         let due =
@@ -99,7 +99,7 @@ impl Simulation {
         if self.state.orbit.listen(frequencies, passage)
             && let Some(life) = &mut self.state.life
         {
-            life.set_period(self.state.orbit.window(passage));
+            life.set_window(self.state.orbit.life_window(passage));
         }
         if self.state.motion.is_flushed() {
             let contact = &self.state.contact;

@@ -163,7 +163,12 @@ impl Dry {
             report.iterations += u32::from(fresh_search);
             since += 1;
             self.turn(grid, fresh_search);
-            let tau = self.line(elastic, grid);
+            let mut tau = self.line(elastic, grid);
+            if !tau.is_finite() {
+                // As many directions as the contact set has freedoms leave nothing to turn to.
+                self.turn(grid, true);
+                tau = self.line(elastic, grid);
+            }
             fresh_search = self.walk_down(elastic, problem, iterate, tau, &mut report);
             if fresh_search {
                 since = 0;

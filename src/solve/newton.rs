@@ -147,6 +147,7 @@ impl Newton {
             yielding.begin(iterate.p);
         }
         self.evaluate(problem, iterate, &mut report);
+        self.follow_traction(problem, iterate);
         let mut now = self.judge_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
         loop {
@@ -198,12 +199,28 @@ impl Newton {
             .zip(self.deflection.par_chunks(nx))
             .with_min_len(8)
             .for_each(|((h, gap), u)| film_row(h0, gap, u, h));
-        if let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) {
-            shear.add_to(sheared.law, iterate.p, iterate.h);
+        if let Some(shear) = &self.shear {
+            shear.add_to(iterate.h);
         }
         if let Some(yielding) = &mut self.yielding {
             yielding.add_to(iterate.p, iterate.h);
         }
+        self.balance(problem, iterate);
+    }
+
+    /// Takes the deflection by the traction of the iterate into the film; whether there is any.
+    fn follow_traction(&mut self, problem: &Problem, iterate: &mut Iterate) -> bool {
+        let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) else {
+            return false;
+        };
+        shear.follow(&sheared, iterate.p, iterate.h);
+        self.balance(problem, iterate);
+        true
+    }
+
+    /// Properties, F and D of pressure and film.
+    fn balance(&mut self, problem: &Problem, iterate: &Iterate) {
+        let grid = problem.grid;
         self.reynolds
             .properties(grid, problem.medium, iterate.p, iterate.h);
         self.reynolds.residual(
@@ -336,9 +353,6 @@ impl Newton {
         report: &mut NewtonReport,
     ) -> Evaluation {
         self.old_p.copy_from_slice(iterate.p);
-        if let Some(shear) = &mut self.shear {
-            shear.accept();
-        }
         if let Some(yielding) = &mut self.yielding {
             yielding.accept(iterate.h);
         }
@@ -359,6 +373,11 @@ impl Newton {
             new.reduction = new.merit / base;
             report.left = left_of(report.change, new.reduction);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
+                if new.finite && self.follow_traction(problem, iterate) {
+                    new = self.judge(problem, iterate);
+                    new.reduction = new.merit / base;
+                    report.left = left_of(report.change, new.reduction);
+                }
                 return new;
             }
             t *= 0.5;

@@ -62,18 +62,20 @@ impl Tangential {
 /// Deflection by traction and its fields.
 ///
 /// ```text
-/// u^s_new = S q(P, H_e + u^s),   H = H_e + u^s_new          H_e: gap and deflection by pressure
+/// in an iteration of Newton's   H = H_e + u^s,  u^s held          H_e: gap and deflection by pressure
+/// after it                      u^s ← S q(P, H)
 /// ```
-/// u^s belongs to the iterate: an evaluation reads that of the iterate at which the line search began (of a step that
-/// begins, the last step's, which the state holds) and leaves the next one, so that what a step gives does not depend
-/// on what was evaluated before it. The derivative of q is left out of the linearisation, because u^s is at most βμ,
-/// some per cent, of u^p.
+/// u^s belongs to the iterate (of a step that begins it is the last step's, which the state holds), so that what a step
+/// gives does not depend on what was evaluated before it. While pressure and film move, it is held: the flow holds the film
+/// where there is pressure, so that what a change of u^s meets is the pressure, which gives way by βμ, some per cent, of
+/// it, and the traction by as much; an iteration of the whole loses that factor. With q made anew at each evaluation the
+/// film of one and the same pressure would change by the traction's own answer, S ∂q/∂H, which in thin films is greater
+/// than 1 and jumps where they come to touch, and the step would go astray; its derivative in the linearisation does not
+/// help where it jumps.
 pub struct Shear {
     tangential: Tangential,
     traction: Vec<f64>,
     /// u^s of the iterate.
-    iterate: Vec<f64>,
-    /// u^s as it was added last.
     deflection: Vec<f64>,
 }
 
@@ -84,6 +86,8 @@ pub struct Sheared<'a> {
     pub law: &'a TractionLaw,
     /// u^s of the last step.
     pub deflection: &'a [f64],
+    /// Its film.
+    pub film: &'a [f64],
 }
 
 impl Shear {
@@ -93,12 +97,11 @@ impl Shear {
         Self {
             tangential,
             traction: zero.clone(),
-            iterate: zero.clone(),
             deflection: zero,
         }
     }
 
-    /// u^s as it was added last.
+    /// u^s of the iterate.
     pub(super) fn deflection(&self) -> &[f64] {
         &self.deflection
     }
@@ -110,12 +113,7 @@ impl Shear {
 
     /// A step begins at the last one's u^s.
     pub(super) fn begin(&mut self, before: &[f64]) {
-        self.iterate.copy_from_slice(before);
-    }
-
-    /// The evaluation made last is the iterate now.
-    pub(super) fn accept(&mut self) {
-        self.iterate.copy_from_slice(&self.deflection);
+        self.deflection.copy_from_slice(before);
     }
 
     /// Adds u^s to the gap of a dry contact, where the traction follows from the pressure alone.
@@ -123,23 +121,30 @@ impl Shear {
         for (q, &p) in self.traction.iter_mut().zip(p) {
             *q = law.traction(p, 0.0);
         }
-        self.deflect_and_add(gap);
-    }
-
-    /// Adds u^s to the film.
-    pub(super) fn add_to(&mut self, law: &TractionLaw, p: &[f64], h: &mut [f64]) {
-        for (n, q) in self.traction.iter_mut().enumerate() {
-            *q = law.traction(p[n], h[n] + self.iterate[n]);
-        }
-        self.deflect_and_add(h);
-    }
-
-    fn deflect_and_add(&mut self, to: &mut [f64]) {
         self.tangential
             .deflect(&self.traction, &mut self.deflection);
-        for (to, &u) in to.iter_mut().zip(&self.deflection) {
-            *to += u;
+        self.add_to(gap);
+    }
+
+    /// Adds the u^s that is held.
+    pub(super) fn add_to(&self, h: &mut [f64]) {
+        for (h, &u) in h.iter_mut().zip(&self.deflection) {
+            *h += u;
         }
+    }
+
+    /// u^s of the traction that pressure and film make; the film takes the difference.
+    pub(super) fn follow(&mut self, sheared: &Sheared, p: &[f64], h: &mut [f64]) {
+        let law = sheared.law;
+        for (n, q) in self.traction.iter_mut().enumerate() {
+            *q = law.traction_of(p[n], h[n], sheared.film[n] <= law.contact_film);
+        }
+        for (h, &u) in h.iter_mut().zip(&self.deflection) {
+            *h -= u;
+        }
+        self.tangential
+            .deflect(&self.traction, &mut self.deflection);
+        self.add_to(h);
     }
 }
 

@@ -72,13 +72,24 @@ impl TractionLaw {
     /// q of one node.
     #[inline]
     pub fn traction(&self, p: f64, h: f64) -> f64 {
+        self.traction_of(p, h, h <= self.contact_film)
+    }
+
+    /// The same where it is known whether the node is in contact.
+    #[inline]
+    pub fn traction_of(&self, p: f64, h: f64, touches: bool) -> f64 {
         if self.direction == 0.0 || p <= 0.0 {
             return 0.0;
         }
-        let Some(film) = self.film.filter(|_| !self.is_contact(p, h)) else {
+        let Some(film) = self.film.filter(|_| !touches) else {
             return self.direction * self.boundary * p;
         };
-        let newtonian = film.rate / h * exp(self.viscosity.ln_eta(p).0);
+        let open = if h > self.contact_film {
+            h
+        } else {
+            self.contact_film
+        };
+        let newtonian = film.rate / open * exp(self.viscosity.ln_eta(p).0);
         let shear = match film.eyring {
             Some(tau0) => tau0 * asinh(newtonian / tau0),
             None => newtonian,

@@ -5,11 +5,11 @@ use super::super::newton::{Iterate, NewtonReport, Verdict};
 use super::{Conditions, Solver};
 
 impl Solver {
-    /// A dry step. Deflection by traction (unlike bodies) is at most βμ, some per cent, of that by
-    /// pressure: it is taken from the last pressure and solved again until nothing moves.
+    /// A dry step. Deflection by traction (unlike bodies) is at most βμ of that by pressure, some per cent, with any
+    /// friction and any materials a half: it is taken from the last pressure and solved again until nothing moves.
     pub(super) fn attempt_dry(&mut self, conditions: &Conditions) -> NewtonReport {
-        /// Solutions at most; each gains a factor of about βμ ≤ 0.1.
-        const PASSES: usize = 12;
+        /// Solutions at most; each gains a factor of about βμ ≤ 1/2, and 2⁻⁴⁰ is less than any tolerance asks for.
+        const PASSES: usize = 40;
         let mut whole = NewtonReport::nothing();
         let (dry, newton, trial) = (&mut self.dry, &mut self.newton, &mut self.trial);
         let gap = &mut self.c_star;

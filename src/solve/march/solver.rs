@@ -187,6 +187,7 @@ impl Solver {
             sheared: conditions.law.map(|law| Sheared {
                 law,
                 deflection: &state.sheared,
+                film: &state.film,
             }),
             gap: &self.gap,
             c_star: &self.c_star,

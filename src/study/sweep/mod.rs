@@ -43,6 +43,6 @@ pub use path::PathPoint;
 pub use plots::draw;
 pub use points::points_csv;
 pub use presets::{SweepPreset, all as presets, names as preset_names};
-pub use run::{Progress, Report, run};
+pub use run::{Progress, Report, cost, run};
 pub use spec::{ChainKeys, Combine, MOST_CASES, Sweep};
 pub use table::{COLUMNS, Rows, numbers};

@@ -13,7 +13,7 @@ use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::{ChainKeys, Sweep};
 use super::window::window;
-use crate::plan::{March, Plan, PlanError};
+use crate::plan::{Cost, March, Plan, PlanError};
 use crate::scene::Scene;
 use crate::sim::State;
 
@@ -130,6 +130,25 @@ pub fn run(
         computed: crew.computed.into_inner(),
         stopped: progress.stop.load(Ordering::Relaxed),
     })
+}
+
+/// What the cases of a shard cost together, each from a cold start: an estimate, told before the first one runs.
+///
+/// # Errors
+/// [`SweepError`] as of [`run`].
+pub fn cost(sweep: &Sweep, shard: Shard) -> Result<Cost, SweepError> {
+    let chains = sweep.chains().into_iter().enumerate();
+    let own = chains.filter(|(chain, _)| shard.has(*chain));
+    let mut all = Cost {
+        memory_bytes: 0,
+        time_s: 0.0,
+    };
+    for case in own.flat_map(|(_, cases)| cases) {
+        let (_, plan) = prepare(sweep, case)?;
+        all.memory_bytes = all.memory_bytes.max(plan.cost.memory_bytes);
+        all.time_s += plan.cost.time_s;
+    }
+    Ok(all)
 }
 
 /// Scene and plan of a case.

@@ -48,6 +48,7 @@ fn name(caution: &Caution) -> &'static str {
         CautionCode::Dry => "dry",
         CautionCode::FilmBelowMolecule => "film < molecule",
         CautionCode::MeshFilm => "coarse mesh",
+        CautionCode::ShortDomain => "short domain",
         CautionCode::StandingBody => "a body stands",
         CautionCode::ModelRange => "models differ",
         CautionCode::NotSettled => "not settled",
