@@ -15,6 +15,7 @@ use asperity::solve::film::Elastic;
 use asperity::solve::march::{Flow, Guess, March};
 use asperity::solve::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
+use asperity::solve::yielding::Yielding;
 use contact::{CIRCLE, LOAD, conditions};
 
 /// A periodic surface of length 1 that is pressed and let go; pressures in p*.
@@ -270,7 +271,7 @@ fn conjugate_gradients_and_newton_yield_alike() {
             },
         );
         assert_eq!(by_newton.verdict, Verdict::Converged, "{by_newton:?}");
-        let of_newton = newton.yielding.as_ref().map(|yielding| yielding.depth());
+        let of_newton = newton.yielding.as_ref().map(Yielding::depth);
         let (one, two) = (march.solver.yielded(), of_newton);
         let (one, two) = (one.expect("it yields"), two.expect("it yields"));
         let moved = grid.integrate(|n| (p[n] - march.state.pressure[n]).abs()) / LOAD;

@@ -49,7 +49,9 @@ impl Dry {
         }
         let grid = problem.grid;
         for _ in 0..ROUNDS {
-            p.iter_mut().for_each(|p| *p = p.min(self.hardness));
+            for p in p.iter_mut() {
+                *p = p.min(self.hardness);
+            }
             let carried = self.carried(grid, p);
             let missing = problem.load - carried.held;
             if missing > 0.0 && carried.free > 0.0 {
@@ -68,7 +70,9 @@ impl Dry {
                 }
             } else {
                 let scale = problem.load / (carried.held + carried.free);
-                p.iter_mut().for_each(|p| *p *= scale);
+                for p in p.iter_mut() {
+                    *p *= scale;
+                }
                 return;
             }
         }
