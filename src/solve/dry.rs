@@ -68,7 +68,7 @@ pub struct Dry {
     z: Vec<f32>,
     edge: Edge,
     /// P_H; infinite: elastic.
-    pub hardness: f64,
+    hardness: f64,
     /// P and K P before a step between two bounds.
     before: [Vec<f64>; 2],
 }
