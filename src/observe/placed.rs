@@ -102,14 +102,14 @@ impl Overwrite {
             There::Device => {
                 let file = OpenOptions::new().write(true).open(path).map_err(failed)?;
                 let mut placed = Placed::new(path, path);
-                placed.is_device = true;
+                placed.name = Name::Device;
                 (file, placed)
             }
             There::Nothing => {
                 let part = part_of(path);
                 let file = new(&part).map_err(failed)?;
                 let mut placed = Placed::new(path, &part);
-                placed.is_free = true;
+                placed.name = Name::Free;
                 placed.lock = Some(file.try_clone().map_err(failed)?);
                 (file, placed)
             }
@@ -202,6 +202,17 @@ fn refused(path: &Path, error: &std::io::Error) -> ObserveError {
     ObserveError::new(path.display().to_string(), reason)
 }
 
+/// What a name leads to while its file is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Name {
+    /// To nothing: the file takes it as soon as it holds something.
+    Free,
+    /// To the file that it will replace.
+    Taken,
+    /// To what is written into.
+    Device,
+}
+
 /// A file that is being written, and the name that it will have.
 #[derive(Debug)]
 pub(super) struct Placed {
@@ -211,9 +222,7 @@ pub(super) struct Placed {
     /// Held while it is written.
     lock: Option<File>,
     holds_something: bool,
-    is_device: bool,
-    /// Nothing had its name: it takes that as soon as it holds something.
-    is_free: bool,
+    name: Name,
     is_settled: bool,
 }
 
@@ -224,8 +233,7 @@ impl Placed {
             at: at.to_owned(),
             lock: None,
             holds_something: false,
-            is_device: false,
-            is_free: false,
+            name: Name::Taken,
             is_settled: false,
         }
     }
@@ -238,7 +246,7 @@ impl Placed {
         }
         let tried = self.lock.as_ref().map(File::try_lock);
         let is_held = matches!(tried, Some(Err(TryLockError::WouldBlock)));
-        if is_held || (self.is_free && is_expected(&self.target, &self.at)) {
+        if is_held || (self.name == Name::Free && is_expected(&self.target, &self.at)) {
             // The part file alone is this run's.
             if self.at != self.target {
                 drop(std::fs::remove_file(&self.at));
@@ -259,7 +267,7 @@ impl Placed {
     /// There is something in it that is worth its name, which it takes if nothing has it.
     pub(super) fn hold(&mut self) -> std::io::Result<()> {
         let is_first = !std::mem::replace(&mut self.holds_something, true);
-        if is_first && self.is_free {
+        if is_first && self.name == Name::Free {
             publish(&self.at, &self.target, false)?;
             self.at.clone_from(&self.target);
         }
@@ -274,12 +282,12 @@ impl Placed {
             return None;
         }
         self.is_settled = true;
-        (self.at != self.target && !self.is_device).then(|| self.at.clone())
+        (self.at != self.target && self.name != Name::Device).then(|| self.at.clone())
     }
 
     /// Brings it to the disk and gives it its name; takes it away if nothing is in it. Whether it is there.
     pub(super) fn settle(&mut self) -> std::io::Result<bool> {
-        if self.is_settled || self.is_device {
+        if self.is_settled || self.name == Name::Device {
             self.is_settled = true;
             return Ok(self.holds_something);
         }
@@ -299,7 +307,7 @@ impl Placed {
 
     /// Takes away a file that nothing is in.
     fn discard(&mut self) {
-        if !self.is_settled && !self.is_device {
+        if !self.is_settled && self.name != Name::Device {
             // Gone already is as good.
             drop(std::fs::remove_file(&self.at));
         }

@@ -50,12 +50,18 @@ impl Ended {
     }
 }
 
+/// This build, or another one to try the attack on.
+pub(crate) fn program() -> String {
+    let built = env!("CARGO_BIN_EXE_asperity").to_owned();
+    std::env::var("ASPERITY_PROGRAM").unwrap_or(built)
+}
+
 /// The program in a folder, with a limit as a shell says it; its words go to files outside of that folder.
 pub(crate) fn start(folder: &Path, words: &Path, limit: &str, args: &[&str]) -> Child {
     let file = |name: &str| Stdio::from(File::create(words.join(name)).unwrap());
     Command::new("sh")
         .args(["-c", &format!("{limit}; exec \"$0\" \"$@\"")])
-        .arg(env!("CARGO_BIN_EXE_asperity"))
+        .arg(program())
         .args(args)
         .current_dir(folder)
         .env("RAYON_NUM_THREADS", "1")

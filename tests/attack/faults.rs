@@ -155,9 +155,11 @@ impl Faults {
         );
         let rows = || {
             let names = place.names().into_iter();
-            let part = names
-                .filter(|name| name.contains(".part-"))
-                .find(|name| name.ends_with(".csv"));
+            let part = names.filter(|name| name.contains(".part-")).find(|name| {
+                Path::new(name)
+                    .extension()
+                    .is_some_and(|ending| ending == "csv")
+            });
             let text = part.map(|name| std::fs::read_to_string(place.folder().join(name)));
             text.and_then(Result::ok)
                 .map_or(0, |text| text.lines().count())
@@ -222,7 +224,7 @@ impl Faults {
         let script = "\"$0\" \"$@\" | true";
         let args = args("0.1", &["--summary=-".to_owned()]);
         let output = std::process::Command::new("sh")
-            .args(["-c", script, env!("CARGO_BIN_EXE_asperity")])
+            .args(["-c", script, &child::program()])
             .args(&args)
             .current_dir(place.folder())
             .output()

@@ -122,6 +122,16 @@ fn forged_recording(notes: &[String]) -> Vec<u8> {
     bytes
 }
 
+fn hostile_toml(random: &mut Random, seeds: &[String]) -> Vec<u8> {
+    let seed = &seeds[random.below(seeds.len())];
+    let other = &seeds[random.below(seeds.len())];
+    if random.below(3) == 0 {
+        mutate::bytes(random, seed.as_bytes(), other.as_bytes())
+    } else {
+        mutate::toml(random, seed, other)
+    }
+}
+
 impl Arsenal {
     pub(crate) fn new() -> Self {
         let mut scenes: Vec<String> = presets::all()
@@ -208,11 +218,11 @@ impl Arsenal {
         let words = |args: &[&str]| args.iter().map(|arg| (*arg).to_owned()).collect();
         match kind {
             "scenes" => {
-                place.put("in.toml", &self.toml(random, &self.scenes));
+                place.put("in.toml", &hostile_toml(random, &self.scenes));
                 (words(&["check", "in.toml"]), &[0, 1])
             }
             "sweeps" | "rides" => {
-                place.put("in.toml", &self.toml(random, &self.sweeps));
+                place.put("in.toml", &hostile_toml(random, &self.sweeps));
                 let show = if kind == "rides" { "ride" } else { "points" };
                 (words(&["sweep", "in.toml", "--show", show]), &[0, 1])
             }
@@ -261,16 +271,6 @@ impl Arsenal {
                 )
             }
             _ => panic!("no kind of input: {kind}"),
-        }
-    }
-
-    fn toml(&self, random: &mut Random, seeds: &[String]) -> Vec<u8> {
-        let seed = &seeds[random.below(seeds.len())];
-        let other = &seeds[random.below(seeds.len())];
-        if random.below(3) == 0 {
-            mutate::bytes(random, seed.as_bytes(), other.as_bytes())
-        } else {
-            mutate::toml(random, seed, other)
         }
     }
 

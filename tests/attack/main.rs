@@ -5,7 +5,7 @@
 //! cargo test --release --test attack -- --ignored --nocapture          10 000 inputs; writes assets/reports/attack.md
 //! ASPERITY_ATTACK=scenes:123 cargo test --release --test attack hostile -- --nocapture      that one input again
 //! ```
-//! Inputs are made from a few seeds and from `corpus/` by a generator that is seeded with the input's number, so that
+//! `ASPERITY_PROGRAM` names another build to attack. Inputs are made from a few seeds and from `corpus/` by a generator that is seeded with the input's number, so that
 //! each can be made again. Every one is given to a process of its own, in a folder of its own, with 20 seconds and
 //! 3 GB of address space.
 #![cfg(all(unix, feature = "rerun"))]
@@ -67,7 +67,7 @@ fn faults_lose_nothing() {
 }
 
 #[test]
-#[ignore = "the long form: a quarter of an hour, and it writes the report"]
+#[ignore = "the long form: some minutes, and it writes the report"]
 fn the_whole_attack() {
     let mut tallies = attack(1);
     tallies.extend(faults::all());

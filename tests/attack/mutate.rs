@@ -170,26 +170,25 @@ pub(crate) fn json(random: &mut Random, value: &mut serde_json::Value) {
         }
         _ => None,
     };
-    match inner {
-        Some(inner) => json(random, inner),
-        None => {
-            let values = [
-                json!(0),
-                json!(-1),
-                json!(1e308),
-                json!(-1e308),
-                json!(1e-320),
-                json!(u64::MAX),
-                json!(1_u64 << 40),
-                json!(null),
-                json!(true),
-                json!(""),
-                json!([]),
-                json!({}),
-                json!([1.0, 2.0]),
-                json!(0.5),
-            ];
-            *value = values[random.below(values.len())].clone();
-        }
+    if let Some(inner) = inner {
+        json(random, inner);
+        return;
     }
+    let values = [
+        json!(0),
+        json!(-1),
+        json!(1e308),
+        json!(-1e308),
+        json!(1e-320),
+        json!(u64::MAX),
+        json!(1_u64 << 40),
+        json!(null),
+        json!(true),
+        json!(""),
+        json!([]),
+        json!({}),
+        json!([1.0, 2.0]),
+        json!(0.5),
+    ];
+    *value = values[random.below(values.len())].clone();
 }
