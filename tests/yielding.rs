@@ -231,7 +231,7 @@ fn conjugate_gradients_and_newton_yield_alike() {
         load: 1e-6,
         max_iterations: 60,
     };
-    for hardness in [3.0, 1.5, 0.9] {
+    for hardness in [1.2, 1.0, 0.8] {
         let grid = Grid::new(129, -1.5, 1.5, 1.5, Symmetry::MirrorY);
         let mut march = March::from_hertz(grid, &CIRCLE, 0.0, 1.0, Flow::Dry);
         let solver = &mut march.solver;
