@@ -50,3 +50,49 @@ fn slow_films_become_the_dry_contact() {
     // It falls as about U^0.3 (6.5e-3, 3.4e-3, 1.6e-3, 7.2e-4, 3.8e-4 from 1e-2 to 1e-6 m/s).
     assert!(slow < 1e-2 && slower < 2e-3 && slower < slow / 3.0);
 }
+
+/// Two nodes in contact have one freedom, which the second direction finds used up: it was 0/0.
+#[test]
+fn a_contact_of_few_nodes_is_solved_to_the_last_digit() {
+    let line = [
+        "contact.kind=line",
+        "contact.ry_m=none",
+        "load.force_n=none",
+        "load.force_n_per_m=2e5",
+    ];
+    let common = [
+        "body_1.surface.kind=smooth",
+        "body_2.surface.kind=smooth",
+        "life=none",
+        "stress=none",
+        "record=none",
+        "lubricant=none",
+        "grid.nodes=33",
+        "time.passages=0.2",
+    ];
+    let edges = [(-20.0, 10.0), (-10.0, 10.0), (-5.0, 5.0)];
+    for ((x_min, x_max), tolerance) in edges
+        .into_iter()
+        .flat_map(|edges| [1e-5, 1e-6, 1e-7, 1e-9].map(|tolerance| (edges, tolerance)))
+    {
+        for kind in [&line[..], &["grid.y_half_a=10"][..]] {
+            let sets: Vec<Override> = common
+                .iter()
+                .chain(kind)
+                .map(|&set| set.to_owned())
+                .chain([
+                    format!("grid.x_min_a={x_min}"),
+                    format!("grid.x_max_a={x_max}"),
+                    format!("numerics.tolerance={tolerance}"),
+                ])
+                .map(|set| set.parse().unwrap())
+                .collect();
+            let scene = Scene::load_with("demonstration", &sets).unwrap();
+            let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
+            while !sim.is_done() {
+                sim.step().unwrap();
+                assert!(sim.metrics().converged, "{kind:?} {x_min} {tolerance}");
+            }
+        }
+    }
+}

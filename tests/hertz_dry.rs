@@ -233,3 +233,28 @@ fn a_dry_solution_tells_the_gap_that_it_leaves() {
     assert!(reports[0].film_error > 0.05 && reports[0].film_error.is_finite());
     assert!(reports[1].film_error < 1e-3 * reports[0].film_error);
 }
+
+/// Any friction and any materials: βμ = 1/2 at most.
+#[test]
+fn unlike_bodies_with_all_friction_are_solved() {
+    let grid = Grid::new(65, -1.5, 1.5, 1.5, Symmetry::MirrorY);
+    // κ_s/κ = (1 − 2ν)/(2 − 2ν) of a rigid body on another.
+    let shape = Shape {
+        kappa_s: 0.5 * CIRCLE.kappa,
+        ..CIRCLE
+    };
+    let law = TractionLaw {
+        film: None,
+        viscosity: DRY.viscosity,
+        boundary: 1.0,
+        contact_film: 0.0,
+        direction: 1.0,
+    };
+    let asked = Conditions {
+        law: Some(&law),
+        ..conditions(&DRY, tolerance(1e-6))
+    };
+    let mut march = March::from_hertz(grid, &shape, 0.0, 1.0, Flow::Dry);
+    let report = march.attempt(&asked, 1.0, Guess::Last);
+    assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+}

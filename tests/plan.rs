@@ -9,6 +9,8 @@ fn plan(settings: &[&str]) -> Result<Plan, PlanError> {
     Plan::new(&Scene::load_with(presets::DEFAULT, &overrides).unwrap())
 }
 
+const SMOOTH: [&str; 2] = ["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"];
+
 fn left_out(plan: &Plan) -> Vec<&str> {
     plan.left_out.iter().map(|item| item.stage).collect()
 }
@@ -273,4 +275,82 @@ fn loads_and_amplitudes_of_events_are_foreseen() {
     let own = format!("{own}\n[[event]]\nat_s = 1e-3\nset = {{ \"load.force_n\" = 6400.0 }}\n");
     let own = Plan::new(&Scene::from_toml(&own).unwrap()).unwrap();
     assert_eq!((own.domain.x_max_a, own.domain.x_min_a), (1.75, -5.0));
+}
+
+/// The rigid-viscous limit, whose film by formula was 6e7 m thick, and a contact larger than its bodies: the plan says what
+/// would do, and takes it.
+#[test]
+fn what_the_equations_do_not_hold_for_is_refused() {
+    let [one, two] = SMOOTH;
+    let thick = [
+        one,
+        two,
+        "load.force_n=1e-2",
+        "lubricant.viscosity_pa_s=10",
+        "motion.entrainment_m_s=200",
+    ];
+    assert!(
+        plan(&[
+            one,
+            two,
+            "load.force_n=1e-6",
+            "lubricant.viscosity_pa_s=1e4"
+        ])
+        .is_err()
+    );
+    let soft = ["body_1.young_pa=1e6", "body_2.young_pa=1e6"];
+    for (settings, key) in [
+        (&thick[..], "motion.entrainment_m_s"),
+        (&soft[..], "load.force_n"),
+    ] {
+        let PlanError::Refused {
+            key: named,
+            allowed,
+            ..
+        } = plan(settings).unwrap_err();
+        assert_eq!(named, key);
+        let number = allowed.trim_start_matches("at most ");
+        let most: f64 = number.split(' ').next().unwrap().parse().unwrap();
+        let with = |value: f64| {
+            let set = format!("{key}={value:e}");
+            let all: Vec<&str> = settings.iter().copied().chain([set.as_str()]).collect();
+            plan(&all)
+        };
+        // The waves may be refused, but not the film or the contact.
+        let names = |result: Result<Plan, PlanError>| match result {
+            Ok(_) => String::new(),
+            Err(PlanError::Refused { key, .. }) => key,
+        };
+        assert_ne!(names(with(0.995 * most)), key, "{allowed}");
+        assert_eq!(names(with(1.005 * most)), key, "{allowed}");
+    }
+}
+
+/// The start-up crosses the whole domain on every grid, however long it is: `check` said 0 s.
+#[test]
+fn a_long_domain_costs_what_its_crossings_cost() {
+    let usual = plan(&SMOOTH).unwrap().cost.time_s;
+    let long: Vec<&str> = SMOOTH
+        .into_iter()
+        .chain(["grid.x_min_a=-900", "grid.x_max_a=100"])
+        .collect();
+    let long = plan(&long).unwrap().cost.time_s;
+    assert!(long > 0.5 * usual, "{long} {usual}");
+}
+
+#[test]
+fn a_light_load_moves_the_edges_out_as_far_as_the_mesh_allows() {
+    let [one, two] = SMOOTH;
+    let light = plan(&[one, two, "load.force_n=1"]).unwrap();
+    let (domain, film) = (light.domain, light.film.unwrap());
+    assert!(film.groups.m < 10.0, "{}", film.groups.m);
+    let wedge = (2.0 * film.central).sqrt();
+    assert!(domain.x_min_a < -10.0 * wedge, "{domain:?} {wedge}");
+    let said = film.truncation().error(&domain);
+    let warned = light.warnings.iter().find_map(|warning| match warning {
+        Warning::ShortDomain { error, .. } => Some(*error),
+        _ => None,
+    });
+    assert_eq!(warned, Some(said));
+    assert!(said < 0.2, "{said}");
 }

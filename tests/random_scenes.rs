@@ -61,6 +61,8 @@ struct Ranges {
     pressure_pa: (f64, f64),
     friction: f64,
     tolerance: (f64, f64),
+    /// Whether pressures keep to a tenth of the modulus.
+    elastic: bool,
 }
 
 /// The keys' own.
@@ -75,20 +77,22 @@ const WHOLE: Ranges = Ranges {
     pressure_pa: (1e6, 1e10),
     friction: 1.0,
     tolerance: (1e-9, 0.1),
+    elastic: false,
 };
 
 /// Of machines.
 const MACHINES: Ranges = Ranges {
     name: "machines",
     radius_m: (1e-3, 0.3),
-    young_pa: (1e8, 5e11),
+    young_pa: (1e9, 5e11),
     viscosity_pa_s: (1e-3, 2.0),
     alpha_per_pa: (1e-9, 3e-8),
     eyring_pa: (1e6, 2e7),
     speed_m_s: (1e-3, 30.0),
-    pressure_pa: (5e6, 4e9),
+    pressure_pa: (2e7, 4e9),
     friction: 0.2,
     tolerance: (1e-4, 1e-3),
+    elastic: true,
 };
 
 /// Settings of the scene number `index`, on top of the default one.
@@ -114,9 +118,15 @@ fn settings(index: u64) -> (Ranges, Vec<String>) {
             set("contact.ry_m", &"none");
         }
     }
-    let pressure_pa = over(&mut draw, ranges.pressure_pa);
-    set("load.hertz_pressure_pa", &format!("{pressure_pa:.4e}"));
     let young_pa = over(&mut draw, ranges.young_pa);
+    let (least_pa, most_pa) = ranges.pressure_pa;
+    let most_pa = if ranges.elastic {
+        most_pa.min(0.1 * young_pa)
+    } else {
+        most_pa
+    };
+    let pressure_pa = draw.decades(least_pa, most_pa);
+    set("load.hertz_pressure_pa", &format!("{pressure_pa:.4e}"));
     let poisson = draw.between(0.0, 0.5);
     set("body_1.young_pa", &format!("{young_pa:.4e}"));
     set("body_1.poisson", &format!("{poisson:.3}"));
@@ -183,27 +193,37 @@ fn settings(index: u64) -> (Ranges, Vec<String>) {
             &draw.of(&["reynolds", "reynolds", "jfo"]),
         );
     }
-    let a_m = half_width_m(&sets);
+    let half_widths_m = half_widths_m(&sets);
     for body in [1, 2] {
-        sets.extend(surface(&mut draw, body, a_m));
+        sets.extend(surface(&mut draw, body, half_widths_m));
     }
     (ranges, sets)
 }
 
-/// Half-width of the contact so far; of one that is refused anything.
-fn half_width_m(sets: &[String]) -> f64 {
+/// Half-widths of the contact so far, along x and along y; of one that is refused anything.
+fn half_widths_m(sets: &[String]) -> [f64; 2] {
     let smooth = [1, 2].map(|body| format!("body_{body}.surface.kind=smooth"));
     let all: Vec<String> = sets.iter().cloned().chain(smooth).collect();
-    scene(&all).map_or(1e-4, |scene| scene.hertz().a_m)
+    scene(&all).map_or([1e-4; 2], |scene| {
+        let hertz = scene.hertz();
+        [
+            hertz.a_m,
+            if hertz.b_m.is_finite() {
+                hertz.b_m
+            } else {
+                hertz.a_m
+            },
+        ]
+    })
 }
 
-fn surface(draw: &mut Draw, body: u8, a_m: f64) -> Vec<String> {
+fn surface(draw: &mut Draw, body: u8, [a_m, b_m]: [f64; 2]) -> Vec<String> {
     let path = format!("body_{body}.surface");
     if draw.chance(0.6) {
         return vec![format!("{path}.kind=smooth")];
     }
-    let wave = |draw: &mut Draw| (a_m * draw.decades(0.3, 5.0)).clamp(1e-7, 1.0);
-    let (x_m, y_m) = (wave(draw), wave(draw));
+    let mut wave = |half_m: f64| (half_m * draw.decades(0.6, 6.0)).clamp(1e-7, 1.0);
+    let (x_m, y_m) = (wave(a_m), wave(b_m));
     let slope = draw.decades(1e-5, 0.1);
     let amplitude_m = (slope * x_m.min(y_m) / std::f64::consts::TAU).clamp(1e-12, 1e-4);
     let lengths = match draw.of(&["across", "along", "product"]) {
@@ -403,18 +423,77 @@ fn command(sets: &[String]) -> String {
     format!("asperity run demonstration --set body_1.surface=none --set body_2.surface=none{sets}")
 }
 
-/// The first `count` scenes from number `first` on that pass the scene's own check, and their table.
-fn draw(first: u64, count: usize) -> (BTreeMap<Class, usize>, String) {
-    let (mut found, mut text) = (BTreeMap::new(), String::new());
-    let mut by_range: BTreeMap<&str, BTreeMap<Class, usize>> = BTreeMap::new();
-    let (mut index, mut done) = (first, 0);
+/// What `count` scenes came to.
+struct Drawn {
+    by_range: BTreeMap<&'static str, BTreeMap<Class, usize>>,
+    /// Those that neither converged on the right film nor were refused, a line each.
+    named: String,
+}
+
+impl Drawn {
+    fn of(&self, class: Class) -> usize {
+        self.by_range
+            .values()
+            .filter_map(|found| found.get(&class))
+            .sum()
+    }
+
+    /// None is wrong in silence, and all but a few converge or are refused.
+    fn check(&self) {
+        let all: usize = self.by_range.values().flat_map(BTreeMap::values).sum();
+        let good = [Class::Converged, Class::Marked, Class::Refused];
+        let good: usize = good.map(|class| self.of(class)).iter().sum();
+        println!("{:?}\n{}", self.by_range, self.named);
+        assert_eq!(self.of(Class::Wrong) + self.of(Class::NotFinite), 0);
+        assert!(good as f64 >= 0.97 * all as f64, "{good} of {all}");
+    }
+
+    fn report(&self) -> String {
+        let mut text = String::from(
+            "# Random scenes\n\n\
+             `cargo test --release --test random_scenes -- --ignored` draws them over the ranges of the keys and writes this.\n\n\
+             A smooth film counts as right within a factor of three of a regression (Nijenbanning, Venner and Moes or Hamrock \
+             and Dowson; of a line Moes). *Marked*: it is not, because the mesh cannot carry it, and the summary's cautions say \
+             so. *Out of work*: more than 4000 Newton iterations.\n\n\
+             | ranges | converged | refused by the plan | marked | stalled by name | out of work | not finite | wrong |\n\
+             |---|---|---|---|---|---|---|---|\n",
+        );
+        for (name, found) in &self.by_range {
+            let count = |class: Class| found.get(&class).copied().unwrap_or(0);
+            let columns = [
+                Class::Converged,
+                Class::Refused,
+                Class::Marked,
+                Class::Stalled,
+                Class::OutOfWork,
+                Class::NotFinite,
+                Class::Wrong,
+            ];
+            let cells = columns.map(|class| count(class).to_string());
+            let _ = writeln!(text, "| {name} | {} |", cells.join(" | "));
+        }
+        let _ = write!(
+            text,
+            "\n## By number\n\n| scene | class | what it is and says |\n|---|---|---|\n{}",
+            self.named
+        );
+        text
+    }
+}
+
+/// The first `count` scenes that pass the scene's own check.
+fn draw(count: usize) -> Drawn {
+    let mut drawn = Drawn {
+        by_range: BTreeMap::new(),
+        named: String::new(),
+    };
+    let (mut index, mut done) = (0, 0);
     while done < count {
         let (ranges, sets) = settings(index);
         index += 1;
         let Some(ended) = run(&sets) else { continue };
         done += 1;
-        *found.entry(ended.class).or_insert(0) += 1;
-        let own = by_range.entry(ranges.name).or_default();
+        let own = drawn.by_range.entry(ranges.name).or_default();
         *own.entry(ended.class).or_insert(0) += 1;
         println!(
             "{} {:?} {} Newton, {:.1} s: {}",
@@ -425,30 +504,32 @@ fn draw(first: u64, count: usize) -> (BTreeMap<Class, usize>, String) {
             ended.why
         );
         if !matches!(ended.class, Class::Converged | Class::Refused) {
+            println!("  {}", command(&sets));
             let _ = writeln!(
-                text,
-                "| {} | {:?} | {} | `{}` |",
+                drawn.named,
+                "| {} | {:?} | {} |",
                 index - 1,
                 ended.class,
-                ended.why,
-                command(&sets)
+                ended.why
             );
         }
     }
-    println!("{found:?} {by_range:?}");
-    (found, format!("{by_range:?}\n{text}"))
+    drawn
 }
 
 #[test]
 fn no_random_scene_is_wrong_in_silence() {
-    let (found, text) = draw(0, 40);
-    assert_eq!(found.get(&Class::Wrong), None, "{text}");
+    draw(100).check();
 }
 
 #[test]
-#[ignore = "500 scenes, many minutes"]
+#[ignore = "500 scenes, minutes"]
 fn five_hundred_random_scenes() {
-    let (found, text) = draw(0, 500);
-    std::fs::write("/tmp/qwork/random.md", &text).unwrap();
-    assert_eq!(found.get(&Class::Wrong), None, "{text}");
+    let drawn = draw(500);
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/assets/reports/random_scenes.md"
+    );
+    std::fs::write(path, drawn.report()).unwrap();
+    drawn.check();
 }

@@ -4,12 +4,19 @@
 //! pressure between its bounds that leaves no gap inside, none below zero outside and an overlap only at P_H is the
 //! minimum of a convex problem, and there is one: these conditions are evaluated here anew, not taken from the solver.
 
+mod contact;
+
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use asperity::math::grid::{Grid, Symmetry};
+use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::solve::dry::{Dry, DryProblem};
 use asperity::solve::film::Elastic;
-use asperity::solve::newton::{Iterate, NewtonReport, Tolerance, Verdict};
+use asperity::solve::march::{Flow, Guess, March};
+use asperity::solve::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
+use asperity::solve::reynolds::Medium;
+use asperity::solve::yielding::Yielding;
+use contact::{CIRCLE, LOAD, conditions};
 
 /// A periodic surface of length 1 that is pressed and let go; pressures in p*.
 struct Block {
@@ -38,7 +45,7 @@ impl Block {
     /// Presses it with `mean`, from what was there; asserts the conditions.
     fn press(&mut self, mean: f64, hardness: f64) -> NewtonReport {
         let mut dry = Dry::new(&self.grid, &self.elastic);
-        dry.hardness = hardness;
+        dry.yield_at(hardness);
         let report = dry.solve(
             &mut self.elastic,
             &DryProblem {
@@ -203,4 +210,78 @@ fn unloading_leaves_the_shape_and_reloading_is_elastic() {
     // Beyond the first load it flows on.
     block.press(0.06, 0.3);
     assert!(block.flow() > 0.01 * first);
+}
+
+/// Newton without flow and conjugate gradients on a rough contact of which a part is at its hardness: the same pressure,
+/// and the same depth.
+#[test]
+fn conjugate_gradients_and_newton_yield_alike() {
+    const DRY: Medium = Medium {
+        viscosity: Viscosity::Barus { alpha_p: 0.0 },
+        density: Density::Incompressible,
+        lambda: f64::INFINITY,
+        sliding: 0.0,
+        sheared: ShearedFlow::Secant,
+    };
+    let asked = Tolerance {
+        pressure: 1e-7,
+        film: f64::INFINITY,
+        mass: f64::INFINITY,
+        least_film: 1e-5,
+        load: 1e-6,
+        max_iterations: 60,
+    };
+    for hardness in [1.2, 1.0, 0.8] {
+        let grid = Grid::new(129, -1.5, 1.5, 1.5, Symmetry::MirrorY);
+        let mut march = March::from_hertz(grid, &CIRCLE, 0.0, 1.0, Flow::Dry);
+        let solver = &mut march.solver;
+        for (n, gap) in solver.gap.iter_mut().enumerate() {
+            let (x, y) = (solver.grid.x(n % 129), solver.grid.y(n / 129));
+            *gap -= 0.04 * (TAU * x / 0.4).cos() * (TAU * y / 0.3).cos();
+        }
+        solver.yield_at(hardness);
+        let report = march.attempt(&conditions(&DRY, asked), 1.0, Guess::Last);
+        assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+        march.commit(1.0);
+        let grid = &march.solver.grid;
+        let mut newton = Newton::new(grid, CIRCLE.kappa, 2.0 / 3.0 * grid.dx);
+        newton.yield_at(hardness);
+        let zero = vec![0.0; grid.len()];
+        // From Hertz, whose pressure knows neither roughness nor hardness.
+        let (mut p, mut h, mut h0) = (zero.clone(), zero.clone(), march.state.h0);
+        for (n, p) in p.iter_mut().enumerate() {
+            let r2 = grid.x(n % 129).powi(2) + grid.y(n / 129).powi(2);
+            *p = (1.0 - r2).max(0.0).sqrt();
+        }
+        let by_newton = newton.solve(
+            &Problem {
+                grid,
+                medium: &DRY,
+                sheared: None,
+                gap: &march.solver.gap,
+                c_star: &zero,
+                s: &zero,
+                load: LOAD,
+                tolerance: asked,
+            },
+            &mut Iterate {
+                p: &mut p,
+                h: &mut h,
+                h0: &mut h0,
+            },
+        );
+        assert_eq!(by_newton.verdict, Verdict::Converged, "{by_newton:?}");
+        let of_newton = newton.yielding.as_ref().map(Yielding::depth);
+        let (one, two) = (march.solver.yielded(), of_newton);
+        let (one, two) = (one.expect("it yields"), two.expect("it yields"));
+        let moved = grid.integrate(|n| (p[n] - march.state.pressure[n]).abs()) / LOAD;
+        let flowed = grid.integrate(|n| one[n]);
+        let off = grid.integrate(|n| (one[n] - two[n]).abs()) / flowed;
+        let at_bound = grid.integrate(|n| f64::from(u8::from(p[n] >= hardness)));
+        println!(
+            "P_H {hardness}: {} Newtons, area at P_H {at_bound:.3}, pressure {moved:.1e} off, depth {off:.1e}",
+            by_newton.iterations
+        );
+        assert!(at_bound > 0.05 && moved < 1e-5 && off < 1e-4);
+    }
 }

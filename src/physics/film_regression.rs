@@ -57,12 +57,10 @@ pub fn nijenbanning_central(d: f64, m: f64, l: f64) -> f64 {
     (parts.iso.powf(2.0 * parts.s / 3.0) + parts.piezo).powf(1.0 / parts.s)
 }
 
-/// ∂ ln H_c/∂ ln H_RI of that formula at constant s: how much the film is that of rigid bodies in an oil of one viscosity, 0
-/// to 1.
-pub fn nijenbanning_rigid_share(d: f64, m: f64, l: f64) -> f64 {
-    let parts = Parts::of(d, m, l);
-    let iso = parts.iso.powf(2.0 * parts.s / 3.0);
-    iso / (iso + parts.piezo) * parts.rigid_iso.powf(1.5) / parts.iso
+/// How much of the film without piezoviscosity is that of rigid bodies, ∂ ln H_c/∂ ln H_RI of that formula at L = 0: 0 to 1.
+pub fn nijenbanning_rigid_share(d: f64, m: f64) -> f64 {
+    let parts = Parts::of(d, m, 0.0);
+    parts.rigid_iso.powf(1.5) / parts.iso
 }
 
 /// What the formula is made of.

@@ -112,12 +112,10 @@ pub fn moes_central(m: f64, l: f64) -> f64 {
     (iso.powf(3.0 * s / 7.0) + piezo.powf(-2.0 * s / 7.0)).powf(1.0 / s)
 }
 
-/// ∂ ln H_c/∂ ln H_RI of that formula at constant s: how much the film is that of rigid bodies in an oil of one viscosity, 0
-/// to 1.
-pub fn moes_rigid_share(m: f64, l: f64) -> f64 {
-    let [rigid_iso, iso, piezo, s] = moes_parts(m, l);
-    let (all_iso, all_piezo) = (iso.powf(3.0 * s / 7.0), piezo.powf(-2.0 * s / 7.0));
-    all_iso / (all_iso + all_piezo) * rigid_iso.powf(7.0 / 3.0) / iso
+/// How much of the film without piezoviscosity is that of rigid bodies, ∂ ln H_c/∂ ln H_RI of that formula at L = 0: 0 to 1.
+pub fn moes_rigid_share(m: f64) -> f64 {
+    let [rigid_iso, iso, ..] = moes_parts(m, 0.0);
+    rigid_iso.powf(7.0 / 3.0) / iso
 }
 
 /// H_RI, H_RI^{7/3} + H_EI^{7/3}, H_RP^{−7/2} + H_EP^{−7/2}, s.

@@ -84,7 +84,7 @@ fn too_thick(scene: &Scene, film: &FilmPlan) -> PlanError {
         key: "motion.entrainment_m_s".to_owned(),
         value: format!("{speed_m_s:.4e} m/s"),
         allowed: format!(
-            "at most {:.3e} m/s with this oil, load and radius (a central film of Rx/8 = {most_m:.2e} m by formula; this one is {:.2e} m: no thin film)",
+            "at most {:.3e} m/s with this oil, load and radius (a central film of Rx/8 = {most_m:.2e} m by formula; this one is {:.2e} m: no thin film), or a higher load",
             speed_m_s.abs() * low.exp(),
             film.central_m
         ),

@@ -25,6 +25,13 @@ impl Scene {
         finite.reduce(f64::min)
     }
 
+    /// Which bodies flow at that pressure: the softer one, or both.
+    pub fn softer(&self) -> [bool; 2] {
+        let hardness_pa = self.hardness_pa();
+        let flows = |pa: Option<f64>| pa.is_some() && pa == hardness_pa;
+        [&self.body_1, &self.body_2].map(|body| flows(body.hardness_pa))
+    }
+
     /// Whether the contact is a point or a line.
     pub fn kind(&self) -> ContactKind {
         self.contact.kind

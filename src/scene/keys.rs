@@ -83,7 +83,6 @@ const BODY: &[Key] = &[
     key("poisson", "", Number(0.0, 0.5), Defaulted, "Poisson's ratio"),
     key("hardness_pa", "Pa", NumberOrInf(1e6, 1e12), Optional("it stays elastic"), "greatest pressure that its surface carries: what would exceed it flows for good; inf: elastic"),
 ];
-
 #[rustfmt::skip]
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),

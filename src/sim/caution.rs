@@ -85,7 +85,7 @@ pub struct Grounds {
     pub has_life: bool,
     /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.
     pub hardness_pa: Option<f64>,
-    /// Part of all that has flowed that did so in the last passage (or period); `None`: elastic.
+    /// Part of all that has flowed that did so in the last passage (or period); `None`: nothing has.
     pub yielded_last_share: Option<f64>,
 }
 
@@ -175,7 +175,7 @@ fn stress_beyond(grounds: &Grounds) -> Option<String> {
     };
     let limit = share * weaker(grounds, |strength| strength.yield_pa)?;
     (stress > limit).then(|| {
-        let left_out = match grounds.hardness_pa {
+        let left_out = match grounds.yielded_last_share {
             Some(_) => "what flows below the surface, and the stress that it leaves behind, is not modelled",
             None => "the material would flow there",
         };
@@ -309,7 +309,7 @@ fn elastic_only(grounds: &Grounds) -> String {
     } else {
         ""
     };
-    let elastic = match grounds.hardness_pa {
+    let elastic = match grounds.yielded_last_share {
         Some(_) => "elastic below surfaces that flow at their hardness",
         None => "elastic",
     };
@@ -378,7 +378,7 @@ mod tests {
                 g.sigma_eff_greatest_pa = Some(1.3e9);
             }),
             (BeyondYield, "leaves behind", |_, g| {
-                g.hardness_pa = Some(6.8e9);
+                (g.hardness_pa, g.yielded_last_share) = (Some(6.8e9), Some(0.0));
                 g.sigma_eff_greatest_pa = Some(7.5e9);
             }),
             (StillYielding, "12 %", |_, g| {

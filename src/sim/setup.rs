@@ -164,9 +164,8 @@ fn yielded_of(scene: &Scene, grid: &Grid, terrain: &mut Terrain) -> (Option<f64>
     let Some(hardness) = scene.hardness_pa() else {
         return (None, None);
     };
-    let softer = [&scene.body_1, &scene.body_2].map(|body| body.hardness_pa == Some(hardness));
     let repeats = [0, 1].map(|body: usize| terrain.repeat(body));
-    let yielded = Yielded::new(grid, softer, repeats);
+    let yielded = Yielded::new(grid, scene.softer(), repeats);
     for body in [0, 1] {
         if yielded.yields(body) {
             terrain.make_heights(grid, body);

@@ -157,7 +157,7 @@ impl Simulation {
         // Where a body yields at rest, what enters is flattened anew.
         let held = matches!(self.plan.march, Marching::Steady { .. })
             && self.state.motion.is_flushed()
-            && self.door.p_from_pa(self.state.metrics.p_max_pa) < self.hardness;
+            && self.door.p_from_pa(self.state.metrics.p_max_pa) < self.hardness * (1.0 - 1e-9);
         if held {
             let speed = self.state.drive.get(Knob::EntrainmentMS).now;
             self.state.time_s +=

@@ -123,6 +123,9 @@ impl Simulation {
         if let Some(life) = &mut state.life {
             life.make_room();
         }
+        if !matches!(state.phase, Phase::Smooth { .. }) {
+            self.work.solver.yield_at(self.hardness);
+        }
     }
 
     /// Takes over what a neighbour leaves to [`Simulation::follow`]: its contact and its references.

@@ -312,8 +312,11 @@ impl Mover<'_> {
             done.overlap = done.overlap.max(overlap);
         }
         self.solver.commit(self.state, nodes);
-        if let (Some((_, yielded)), Some(depth)) = (&mut self.yielding, self.solver.yielded()) {
-            yielded.take(&self.solver.grid, depth, self.motion.ways());
+        if let (Some((_, yielded)), Some(depth)) = (&mut self.yielding, self.solver.yielded())
+            && yielded.take(&self.solver.grid, depth, self.motion.ways())
+        {
+            // The surfaces are seen as the step leaves them.
+            self.place_surfaces();
         }
         done.nodes += nodes;
         done.dt_s +=

@@ -73,7 +73,7 @@ pub struct Summary {
     /// Same of body 2.
     #[serde(default)]
     pub yielded_body_2_m3: Option<f64>,
-    /// Part of both that has flowed in the last passage (or period): 0 where the bodies are run in.
+    /// Part of both that has flowed in the last passage (or period): near 0 where the bodies are run in; `None`: nothing has.
     #[serde(default)]
     pub yielded_last_share: Option<f64>,
     /// Contacts per loading cycle of body 1 by formula.

@@ -102,17 +102,15 @@ impl Totals {
     pub(super) fn ground(&self, grounds: &mut Grounds) {
         grounds.steps_not_converged = self.not_converged;
         grounds.p_max_greatest_pa = self.greatest(2);
-        grounds.yielded_last_share = grounds.hardness_pa.map(|_| self.yielded_last_share());
+        grounds.yielded_last_share = self.yielded_last_share();
         grounds.sigma_eff_greatest_pa = self.greatest_stress().map(|stress| stress[0]);
     }
 
-    /// Part of all that has flowed that did so after the first of these steps.
-    fn yielded_last_share(&self) -> f64 {
-        let ends = self.recent.front().zip(self.recent.back());
-        ends.map_or(0.0, |(first, last)| {
-            let all = last.yielded_m3.max(f64::MIN_POSITIVE);
-            (last.yielded_m3 - first.yielded_m3) / all
-        })
+    /// Part of all that has flowed that did so after the first of these steps; `None`: nothing has.
+    fn yielded_last_share(&self) -> Option<f64> {
+        let (first, last) = self.recent.front().zip(self.recent.back())?;
+        let lately = last.yielded_m3 - first.yielded_m3;
+        (last.yielded_m3 > 0.0).then(|| lately / last.yielded_m3)
     }
 
     fn least(&self, k: usize) -> f64 {
@@ -158,7 +156,7 @@ pub(super) fn summary(
         friction_coefficient: totals.mean(4),
         yielded_body_1_m3: m.yielded_m3.map(|both| both[0]),
         yielded_body_2_m3: m.yielded_m3.map(|both| both[1]),
-        yielded_last_share: m.yielded_m3.map(|_| totals.yielded_last_share()),
+        yielded_last_share: totals.yielded_last_share(),
         n_body_1: m.n_body_1,
         n_body_2: m.n_body_2,
         n_counted_body_1: m.n_counted_body_1,

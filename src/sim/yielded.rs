@@ -12,7 +12,8 @@
 //! in the domain; what enters is virgin.
 //!
 //! Columns and nodes are interpolated by cubics, not below zero; a column keeps its material, so nothing is worn down by
-//! being moved. What the interpolation misses, some 1e-3 of the depth, flows in the steps that follow.
+//! being moved. What the interpolation misses, some 1e-3 of the depth, flows in the steps that follow. A knob that turns
+//! an amplitude scales the virgin relief; what has flowed stays.
 
 use serde::{Deserialize, Serialize};
 
@@ -87,8 +88,8 @@ impl Yielded {
         }
     }
 
-    /// Takes what a step has yielded, with the bodies where the step has brought them.
-    pub(super) fn take(&mut self, grid: &Grid, yielded: &[f64], ways: [Way; 2]) {
+    /// Takes what a step has yielded, with the bodies where the step has brought them; whether anything has.
+    pub(super) fn take(&mut self, grid: &Grid, yielded: &[f64], ways: [Way; 2]) -> bool {
         let volume = grid.integrate(|n| yielded[n]);
         for (skin, way) in self.skins.iter_mut().zip(ways) {
             let Some(skin) = skin else { continue };
@@ -98,6 +99,7 @@ impl Yielded {
                 skin.deepen(grid, yielded);
             }
         }
+        volume > 0.0
     }
 }
 

@@ -19,8 +19,7 @@
 //! contact set, pressures below zero cut off, overlapping nodes let in, the search begun anew when the
 //! set changes. What is added is the preconditioner: without it the iterations grow as √N, because the
 //! condition of K on the set grows as N; with it they hardly do. It costs a quarter of a padded pair.
-//! An overlap where P = P_H is the depth by which the softer body gives way for good (`yielding.rs`); the second bound is
-//! that of Almqvist, Sahlin, Larsson and Glavatskih (2007), Tribology International 40, 574-579.
+//! An overlap where P = P_H is the depth by which the softer body gives way for good (`yielding.rs`, source there).
 //! `K P` is carried along (`K P − τ K t`, single precision for `K t`, whose error shrinks with the step)
 //! and made anew in double precision before the result is believed.
 //!
@@ -68,7 +67,7 @@ pub struct Dry {
     z: Vec<f32>,
     edge: Edge,
     /// P_H; infinite: elastic.
-    pub hardness: f64,
+    hardness: f64,
     /// P and K P before a step between two bounds.
     before: [Vec<f64>; 2],
 }

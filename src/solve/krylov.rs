@@ -60,8 +60,6 @@ impl Pressure {
     fn part(&mut self, held: Option<&[bool]>) {
         self.parted = held.is_some();
         if let Some(held) = held {
-            self.held.resize(held.len(), false);
-            self.part.resize(held.len(), 0.0);
             self.held.copy_from_slice(held);
         }
     }
@@ -95,6 +93,12 @@ impl Krylov {
             border_load: 0.0,
             pressure: Pressure::default(),
         }
+    }
+
+    /// Makes room for vectors whose entries are not all pressures.
+    pub(super) fn make_room(&mut self, n: usize) {
+        self.pressure.held.resize(n, false);
+        self.pressure.part.resize(n, 0.0);
     }
 
     /// Makes the border for a new linearisation: `y = M⁻¹ A_H 1`; `held`: nodes whose unknown is the film.

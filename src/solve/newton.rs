@@ -7,15 +7,19 @@
 //! update    P ← max(P + t v, 0), H0 ← H0 + t h0,  t halved until the natural residual falls
 //! natural residual  φ = min(P, F/D): zero exactly at the solution
 //! ```
+//! Where the softer body yields, P is bounded from above too, and nodes at that bound have their film for unknown
+//! (`yielding.rs`).
 //! Converged when the error that is left in the pressure (estimated, `converge.rs`), the film error
 //! Σ|F|/Σρ̄H over the pressurised nodes, the mass error and the load error are below their tolerances. What is left of F up to
 //! [`CARRIED`] of the film is not lost: the next step takes it over (`march.rs`), so the mass error counts
 //! only what lies beyond. Not converging is a verdict, never a panic; nothing is committed by this file.
 
+mod judge;
+
 use rayon::prelude::*;
 
 pub use super::converge::{CARRIED, NewtonReport, OVERLAP, Tolerance, Verdict};
-use super::converge::{FIRST_FORCING, Sums, forcing_after, left_of, sum_row};
+use super::converge::{FIRST_FORCING, Sums, forcing_after, left_of};
 use super::film::Elastic;
 use super::jacobian::Jacobian;
 use super::krylov::Krylov;
@@ -26,6 +30,7 @@ use super::tangential::Shear;
 pub use super::tangential::Sheared;
 use super::yielding::Yielding;
 use crate::math::grid::Grid;
+use judge::Evaluation;
 
 /// Most halvings of the line search.
 const MAX_HALVINGS: u32 = 4;
@@ -86,18 +91,6 @@ pub struct Newton {
     rows: Vec<Sums>,
 }
 
-struct Evaluation {
-    merit: f64,
-    /// Merit over that before the iteration.
-    reduction: f64,
-    film_error: f64,
-    mass_error: f64,
-    load: f64,
-    overlap: f64,
-    worst_row: usize,
-    finite: bool,
-}
-
 impl Newton {
     /// Makes all buffers; `s` is the usual effective step, for the preconditioner's symbols.
     pub fn new(grid: &Grid, kappa: f64, s: f64) -> Self {
@@ -122,6 +115,19 @@ impl Newton {
             rhs: vec![0.0; n],
             scratch: vec![0.0; n],
             rows: vec![Sums::default(); grid.ny],
+        }
+    }
+
+    /// No pressure above `hardness` from now on; infinite: elastic.
+    pub fn yield_at(&mut self, hardness: f64) {
+        let len = self.active.len();
+        if hardness.is_finite() {
+            self.krylov.make_room(len);
+            let yielding = &mut self.yielding;
+            let yielding = yielding.get_or_insert_with(|| Yielding::new(len, hardness));
+            yielding.hardness = hardness;
+        } else {
+            self.yielding = None;
         }
     }
 
@@ -226,66 +232,6 @@ impl Newton {
             problem.c_star,
             problem.s,
         );
-    }
-
-    /// [`Self::judge`] with the D of this evaluation.
-    fn judge_anew(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
-        self.reference.copy_from_slice(&self.reynolds.diagonal);
-        self.judge(problem, iterate)
-    }
-
-    /// Sums of the evaluation; the merit uses the frozen D in `reference`.
-    fn judge(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
-        let (grid, nx) = (problem.grid, problem.grid.nx);
-        let interior = grid.interior_rows();
-        let (reynolds, reference) = (&self.reynolds, &self.reference);
-        let (p, h): (&[f64], &[f64]) = (iterate.p, iterate.h);
-        let rows = self.rows.par_iter_mut().enumerate().with_min_len(8);
-        rows.filter(|(j, _)| interior.contains(j))
-            .for_each(|(j, row)| {
-                // The boundary has no equation; whether surfaces overlap there is asked by `march.rs`.
-                let here = j * nx + 1..(j + 1) * nx - 1;
-                *row = sum_row(
-                    &reynolds.residual[here.clone()],
-                    &p[here.clone()],
-                    &reference[here.clone()],
-                    &reynolds.densities()[here.clone()],
-                    &h[here],
-                    problem.tolerance.least_film,
-                );
-            });
-        let mut total = Sums::default();
-        let (mut worst_row, mut largest) = (0, 0.0);
-        for j in grid.interior_rows() {
-            let row = &self.rows[j];
-            if row.largest > largest {
-                (worst_row, largest) = (j, row.largest);
-            }
-            total.add(row, grid.weight(j));
-        }
-        let mass = total.mass.max(f64::MIN_POSITIVE);
-        Evaluation {
-            merit: total.merit,
-            reduction: 1.0,
-            film_error: total.film / mass,
-            mass_error: total.lost / mass,
-            load: total.load,
-            overlap: total.overlap,
-            worst_row,
-            finite: total.merit.is_finite() && total.load.is_finite(),
-        }
-    }
-
-    /// Node of the largest |φ|.
-    fn worst_node(&self, grid: &Grid, p: &[f64], row: usize) -> usize {
-        let phi = |n: usize| {
-            p[n].min(self.reynolds.residual[n] / self.reference[n])
-                .abs()
-        };
-        let nodes = row * grid.nx + 1..(row + 1) * grid.nx - 1;
-        nodes
-            .max_by(|&a, &b| phi(a).total_cmp(&phi(b)))
-            .unwrap_or_default()
     }
 
     /// Marks the active nodes, P − F/D > 0 (where a step has lifted the bodies apart those with pressure: an

@@ -61,7 +61,9 @@ impl Yielding {
     pub(super) fn begin(&mut self, p: &mut [f64]) {
         self.held.fill(false);
         self.any_held = false;
-        p.iter_mut().for_each(|p| *p = p.min(self.hardness));
+        for p in p {
+            *p = p.min(self.hardness);
+        }
     }
 
     /// Adds w to the film of an elastic evaluation.

@@ -31,6 +31,17 @@ struct Carried {
 }
 
 impl Dry {
+    /// No pressure above `hardness` from now on; infinite: elastic.
+    pub fn yield_at(&mut self, hardness: f64) {
+        self.hardness = hardness;
+        if hardness.is_finite() {
+            let n = self.deflection.len();
+            self.before
+                .iter_mut()
+                .for_each(|field| field.resize(n, 0.0));
+        }
+    }
+
     /// Brings a pressure back between its bounds and to its load; of elastic bodies it is there already.
     pub(super) fn bring_back(&self, problem: &DryProblem, p: &mut [f64]) {
         if self.hardness.is_infinite() {
@@ -38,7 +49,9 @@ impl Dry {
         }
         let grid = problem.grid;
         for _ in 0..ROUNDS {
-            p.iter_mut().for_each(|p| *p = p.min(self.hardness));
+            for p in p.iter_mut() {
+                *p = p.min(self.hardness);
+            }
             let carried = self.carried(grid, p);
             let missing = problem.load - carried.held;
             if missing > 0.0 && carried.free > 0.0 {
@@ -57,7 +70,9 @@ impl Dry {
                 }
             } else {
                 let scale = problem.load / (carried.held + carried.free);
-                p.iter_mut().for_each(|p| *p *= scale);
+                for p in p.iter_mut() {
+                    *p *= scale;
+                }
                 return;
             }
         }
@@ -117,8 +132,6 @@ impl Dry {
 
     fn keep(&mut self, p: &[f64]) {
         let [old, deflection] = &mut self.before;
-        old.resize(p.len(), 0.0);
-        deflection.resize(p.len(), 0.0);
         old.copy_from_slice(p);
         deflection.copy_from_slice(&self.deflection);
     }

@@ -14,9 +14,6 @@ impl Solver {
         let (dry, newton, trial) = (&mut self.dry, &mut self.newton, &mut self.trial);
         let gap = &mut self.c_star;
         let yielding = &mut newton.yielding;
-        dry.hardness = yielding
-            .as_ref()
-            .map_or(f64::INFINITY, |yielding| yielding.hardness);
         for pass in 0..=PASSES {
             gap.copy_from_slice(&self.gap);
             let shear = newton.shear.as_mut().zip(conditions.law);

@@ -118,13 +118,8 @@ impl Solver {
 
     /// No pressure above `hardness` (P_H, over p_h) from now on; infinite: the bodies are elastic.
     pub fn yield_at(&mut self, hardness: f64) {
-        let (len, yielding) = (self.grid.len(), &mut self.newton.yielding);
-        if hardness.is_finite() {
-            let yielding = yielding.get_or_insert_with(|| Yielding::new(len, hardness));
-            yielding.hardness = hardness;
-        } else {
-            *yielding = None;
-        }
+        self.newton.yield_at(hardness);
+        self.dry.yield_at(hardness);
     }
 
     /// Depth by which the softer body has given way for good in the last attempt, film units; `None`: elastic.
