@@ -83,6 +83,18 @@ pub struct Newton {
     rows: Vec<Sums>,
 }
 
+/// Errors of an evaluation.
+fn note(problem: &Problem, now: &Evaluation, report: &mut NewtonReport) {
+    // Dry: there is no flow whose mass could be lost.
+    (report.film_error, report.mass_error) = if problem.medium.lambda.is_finite() {
+        (now.film_error, now.mass_error)
+    } else {
+        (0.0, 0.0)
+    };
+    report.load_error = (now.load / problem.load - 1.0).abs();
+    report.overlap = now.overlap;
+}
+
 struct Evaluation {
     merit: f64,
     /// Merit over that before the iteration.
@@ -134,18 +146,15 @@ impl Newton {
             shear.begin(sheared.deflection);
         }
         self.evaluate(problem, iterate, &mut report);
-        self.follow_traction(problem, iterate);
+        if let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared) {
+            shear.aim(&sheared, iterate.p, iterate.h, problem.tolerance.least_film);
+            shear.follow(iterate.h);
+            self.balance(problem, iterate);
+        }
         let mut now = self.judge_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
         loop {
-            // Dry: there is no flow whose mass could be lost.
-            (report.film_error, report.mass_error) = if problem.medium.lambda.is_finite() {
-                (now.film_error, now.mass_error)
-            } else {
-                (0.0, 0.0)
-            };
-            report.load_error = (now.load / problem.load - 1.0).abs();
-            report.overlap = now.overlap;
+            note(problem, &now, &mut report);
             report.worst_node = self.worst_node(problem.grid, iterate.p, now.worst_row);
             if !now.finite {
                 report.verdict = Verdict::NotFinite;
@@ -192,14 +201,39 @@ impl Newton {
         self.balance(problem, iterate);
     }
 
-    /// Takes the deflection by the traction of the iterate into the film; whether there is any.
-    fn follow_traction(&mut self, problem: &Problem, iterate: &mut Iterate) -> bool {
-        let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) else {
-            return false;
+    /// Lets the deflection by traction follow pressure and film, unless the iterate is solved as it stands but for a small
+    /// part of the film; the evaluation of what then is.
+    fn follow_traction(
+        &mut self,
+        problem: &Problem,
+        iterate: &mut Iterate,
+        (held, base): (Evaluation, f64),
+        report: &mut NewtonReport,
+    ) -> Evaluation {
+        let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared) else {
+            return held;
         };
-        shear.follow(&sheared, iterate.p, iterate.h);
+        let tolerance = &problem.tolerance;
+        let way = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
+        let mut new = held;
+        note(problem, &new, report);
+        report.film_error += way;
+        if Self::is_converged(tolerance, report) {
+            new.film_error += way;
+            return new;
+        }
+        shear.follow(iterate.h);
+        let lacking = shear.lacking(way);
         self.balance(problem, iterate);
-        true
+        let held = new.merit;
+        new = self.judge(problem, iterate);
+        new.film_error += lacking;
+        new.reduction = new.merit / base;
+        report.left = left_of(report.change, new.reduction);
+        if let Some(shear) = &mut self.shear {
+            shear.pace(base, held, new.merit);
+        }
+        new
     }
 
     /// Properties, F and D of pressure and film.
@@ -391,12 +425,7 @@ impl Newton {
             new.reduction = new.merit / base;
             report.left = left_of(report.change, new.reduction);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
-                if new.finite && self.follow_traction(problem, iterate) {
-                    new = self.judge(problem, iterate);
-                    new.reduction = new.merit / base;
-                    report.left = left_of(report.change, new.reduction);
-                }
-                return new;
+                return self.follow_traction(problem, iterate, (new, base), report);
             }
             t *= 0.5;
         }
