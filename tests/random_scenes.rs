@@ -98,7 +98,7 @@ const MACHINES: Ranges = Ranges {
 /// Settings of the scene number `index`, on top of the default one.
 fn settings(index: u64) -> (Ranges, Vec<String>) {
     let mut draw = Draw(0x5eed_0001 + 0x1_0000_0000 * index);
-    let ranges = if index % 2 == 0 { WHOLE } else { MACHINES };
+    let ranges = if index.is_multiple_of(2) { WHOLE } else { MACHINES };
     let over = |draw: &mut Draw, (low, high): (f64, f64)| draw.decades(low, high);
     let mut sets: Vec<String> = ["life", "stress", "record", "load.force_n"]
         .map(|key| format!("{key}=none"))
