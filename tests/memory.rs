@@ -72,6 +72,17 @@ fn a_warm_step_allocates_nothing() {
     });
     println!("adaptive, with a knob: {n} calls");
     assert_eq!(n, 0);
+    // Surfaces that flow, under oil and dry.
+    for oil in ["time.passages=1", "lubricant=none"] {
+        let mut sim = warm(
+            1,
+            &["body_1.hardness_pa=2e9", "body_2.hardness_pa=2e9", oil],
+        );
+        let n = calls(&mut sim, steps, |_, _| {});
+        println!("yielding, {oil}: {n} calls");
+        assert_eq!(n, 0);
+        assert!(sim.summary().yielded_last_share.unwrap() > 0.0);
+    }
     // A restored simulation has its room again.
     let mut again = warm(1, &[]);
     let state = again.save();

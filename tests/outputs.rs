@@ -269,7 +269,8 @@ fn a_killed_run_leaves_what_it_was_to_replace_and_what_it_had_made() {
     let kept = part(".rrd").unwrap();
     let name = kept.file_name().unwrap().to_str().unwrap();
     let again = asperity(place, &["run", "--from", name, "--no-record"]);
-    assert_code(&again, 0);
+    // What there is of it is repeated, and is not all.
+    refused(&again, 5, &["breaks off after step"]);
     // The lock went with the process; now all are replaced, whole, and nothing lies beside.
     for path in [kept, part(".csv").unwrap()] {
         std::fs::remove_file(path).unwrap();
@@ -281,6 +282,37 @@ fn a_killed_run_leaves_what_it_was_to_replace_and_what_it_had_made() {
     assert_code(&short(place, &["--from-state=run.state", "--no-record"]), 0);
     let again = asperity(place, &["run", "--from=run.rrd", "--no-record"]);
     assert_code(&again, 0);
+}
+
+/// Before its first step a run has nothing that is worth a name: a kill leaves the names free.
+#[test]
+fn a_run_that_is_killed_in_its_start_up_blocks_nobody() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    let outputs = ["--out=run.rrd", "--table=run.csv", "--export=fields"];
+    let long = ["run", "--set=grid.nodes=257", "--threads=1"];
+    let mut child = command(place, &[&long[..], &outputs].concat())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_until("files beside", || names(place).len() == 3);
+    // While it goes on its names are its own, whatever is forced.
+    for other in ["--out=run.rrd", "--table=run.csv", "--export=fields"] {
+        let more = ["--no-record", "--force", other];
+        let more = &more[usize::from(other.starts_with("--out"))..];
+        refused(&short(place, more), 4, &["another run"]);
+    }
+    assert!(child.try_wait().unwrap().is_none(), "too short a start-up");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(
+        names(place)
+            .iter()
+            .all(|name| name != "run.rrd" && name != "run.csv")
+    );
+    assert_code(&short(place, &outputs), 0);
+    assert!(place.join("run.rrd").exists() && rows(&place.join("run.csv")) > 1);
 }
 
 #[test]

@@ -442,7 +442,7 @@ fn a_small_budget_thins_fields_and_not_scalars() {
     let frames = frames(40);
     let small = Record {
         every_steps: 1,
-        budget_mb: 0.4,
+        budget_mb: 1.6,
     };
     record(&path, &small, &frames);
     let contents = Contents::read(&path);
@@ -452,6 +452,53 @@ fn a_small_budget_thins_fields_and_not_scalars() {
     assert_eq!(fields, contents.rows("contact_3d/body_1_surface", false));
     let notes = contents.text("text/notes_on_the_data");
     assert!(notes.contains("more seldom than asked for"), "{notes}");
+}
+
+/// The whole file with all that is in it, also when nearly all of it are scalars; and what is kept is the same whatever
+/// the clock does.
+#[test]
+fn a_budget_is_a_budget_and_knows_no_clock() {
+    let folder = tempfile::tempdir().unwrap();
+    for (budget_mb, steps) in [(1.5, 600), (2.0, 3000), (5.0, 12_000)] {
+        let record = |name: &str, pause_every: u64| {
+            let path = folder.path().join(name);
+            let record = Record {
+                every_steps: 1,
+                budget_mb,
+            };
+            let mut recorder = Recorder::create(&path, Overwrite::Replace, &record).unwrap();
+            // Half of it comes after the scene's end.
+            let passages = 0.5 * steps as f64 / (NODES - 1) as f64;
+            let scene = synthetic::scene(NODES, passages);
+            recorder.begin(&synthetic::context(scene)).unwrap();
+            for step in 1..=steps {
+                let mut frame = Frame::clone(&synthetic::frame(NODES, 1 + step % 64));
+                frame.step = step;
+                recorder.frame(&Arc::new(frame)).unwrap();
+                if step % pause_every == 0 {
+                    recorder.idle().unwrap();
+                }
+            }
+            let bytes = recorder.finish().unwrap().bytes;
+            let contents = Contents::read(&path);
+            let scalars = contents.rows("series/pressure_GPa", false);
+            (bytes, scalars, contents.pictures("maps/pressure_GPa/image"))
+        };
+        let (bytes, scalars, quick) = record("quick.rrd", u64::MAX);
+        println!(
+            "{budget_mb} MB, {steps} steps: {bytes} bytes, {scalars} scalars, {} frames",
+            quick.len()
+        );
+        assert!(bytes as f64 <= 1e6 * budget_mb, "{bytes} of {budget_mb} MB");
+        // Weights are upper estimates: what is made up here is compressed better than a run's numbers.
+        assert!(
+            bytes as f64 > 0.4e6 * budget_mb,
+            "{bytes} of {budget_mb} MB"
+        );
+        assert!(quick.len() > 1 && scalars > 100);
+        let (_, again, slow) = record("slow.rrd", 7);
+        assert_eq!((again, slow == quick), (scalars, true));
+    }
 }
 
 #[test]

@@ -116,9 +116,14 @@ fn apart(one: Option<f64>, two: Option<f64>) -> f64 {
 impl Pair {
     fn agrees(&self, reference: f64, life: f64) {
         let (one, two) = (&self.turned, &self.cold);
-        assert!(apart(one.i_ref, two.i_ref) < reference, "reference");
         assert!(apart(one.peak_factor, two.peak_factor) < life, "peaks");
         assert!(apart(one.life_relative, two.life_relative) < life, "life");
+        self.has_one_reference(reference);
+    }
+
+    fn has_one_reference(&self, reference: f64) {
+        let (one, two) = (&self.turned, &self.cold);
+        assert!(apart(one.i_ref, two.i_ref) < reference, "reference");
         let lambdas = one.lambda_ratio.zip(two.lambda_ratio);
         assert_eq!(one.lambda_ratio.is_some(), two.lambda_ratio.is_some());
         assert!(lambdas.is_none_or(|(one, two)| (one / two - 1.0).abs() < 1e-9));
@@ -158,13 +163,48 @@ fn a_ride_ends_where_a_cold_run_there_begins() {
     for body in [&mut own.body_1, &mut own.body_2] {
         body.surface = asperity::scene::Surface::Smooth {};
     }
-    let load = 1.7 * own.force_n();
-    let speed = 1.2 * own.motion.entrainment_m_s;
-    let knobs = [
-        ("load.force_n_per_m", load),
-        ("motion.entrainment_m_s", speed),
-    ];
-    compare("ride", &own, &knobs).agrees(0.01, 0.02);
+    compare("smooth ride", &own, &along(&own)).agrees(0.01, 0.02);
+}
+
+/// The same with both flanks as rough as the scene has them, on its own grid. Which crests meet where the knobs have come
+/// to rest is chance, and a closed orbit keeps it: the turned life lies among those of runs that begin there with another
+/// phase, each with its numerical error. Four phases do not meet the extremes of what lies between them: 1 % is left for
+/// that (they are up to 2 % apart).
+#[test]
+fn a_rough_ride_ends_where_a_cold_run_there_begins() {
+    for name in ["fzg_point_a", "fzg_point_b", "fzg_point_e", "cam_nose"] {
+        let own = scene(name, &["stress.depths=12", "time.passages=6"]);
+        let pair = compare(name, &own, &along(&own));
+        pair.has_one_reference(0.01);
+        let band =
+            |run: &Summary| [run.life_relative_low, run.life_relative_high].map(Option::unwrap);
+        let [mut low, mut high] = band(&pair.cold);
+        for phase in ["90", "180", "270"] {
+            let phase = format!("body_1.surface.phase_deg={phase}");
+            let own = scene(name, &["stress.depths=12", "time.passages=6", &phase]);
+            let cold = run(&begun(own.clone(), &along(&own)));
+            let [least, most] = band(&cold);
+            println!(
+                "{name}, cold, {phase}: life {:.4e} ({least:.2e} to {most:.2e})",
+                cold.life_relative.unwrap()
+            );
+            (low, high) = (low.min(least), high.max(most));
+        }
+        let [least, most] = band(&pair.turned);
+        assert!(
+            least <= 1.01 * high && 0.99 * low <= most,
+            "{name}: {least} to {most} against {low} to {high}"
+        );
+        assert!(high < 1.5 * low, "{name}: a band that says something");
+    }
+}
+
+/// Load and speed of the next point of a ride.
+fn along(own: &Scene) -> [(&'static str, f64); 2] {
+    [
+        ("load.force_n_per_m", 1.7 * own.force_n()),
+        ("motion.entrainment_m_s", 1.2 * own.motion.entrainment_m_s),
+    ]
 }
 
 #[test]

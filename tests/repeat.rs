@@ -145,7 +145,9 @@ fn what_cannot_be_repeated_is_refused_in_words() {
     };
     recorder.begin(&context).unwrap();
     recorder.idle().unwrap();
-    let reason = Recorded::read(&path).unwrap_err().reason;
+    let reason = Recorded::read(&recorder.path().unwrap())
+        .unwrap_err()
+        .reason;
     assert!(reason.contains("no step"), "{reason}");
     // Finished without a step it holds nothing that is worth a file.
     recorder.finish().unwrap();
@@ -159,7 +161,9 @@ fn what_cannot_be_repeated_is_refused_in_words() {
     };
     recorder.begin(&context).unwrap();
     recorder.idle().unwrap();
-    let reason = Recorded::read(&path).unwrap_err().reason;
+    let reason = Recorded::read(&recorder.path().unwrap())
+        .unwrap_err()
+        .reason;
     assert!(reason.contains("--from-state"), "{reason}");
 }
 

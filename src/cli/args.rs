@@ -34,7 +34,8 @@ Examples:
   asperity view demonstration.rrd                          the recording in the Rerun viewer
 
 Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not converge (they are named);
-3 the run stalled; 4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP) before its end.
+3 the run stalled; 4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP) before its end, or the recording that
+it repeats breaks off.
 
 Outputs: a file that is there is replaced (--force) only by one that is whole; until then the new one lies beside it,
 as NAME.part-PID-N.ENDING, which is what a killed run leaves. Results are the same bit for bit on any number of
@@ -328,7 +329,8 @@ pub(crate) struct HeadlessArgs {
     /// Continue from the saved state of a run of the same scene; the result equals one whole run, bit for bit
     #[arg(long, value_name = "FILE")]
     pub(crate) from_state: Option<PathBuf>,
-    /// Repeat a recording: its scene, every knob turned at the same step as then
+    /// Repeat a recording: its scene, every knob turned at the same step as then; a damaged one exactly or not at all, that
+    /// of a killed run as far as it goes
     #[arg(long, value_name = "FILE.rrd", conflicts_with_all = ["scene", "settings", "passages", "from_state"])]
     pub(crate) from: Option<PathBuf>,
 }

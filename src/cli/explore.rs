@@ -6,8 +6,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use asperity::observe::Overwrite;
-use asperity::run::{Activity, Command, Ending, Request, Session, Status};
+use asperity::observe::{Overwrite, is_free};
+use asperity::run::{Activity, Command, Ending, Request, RunError, Session, Status};
 use asperity::study::sweep::{Background, Ground};
 use asperity::tui::{
     Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
@@ -30,8 +30,49 @@ struct Running {
     outputs: Outputs,
 }
 
-/// All runs of one sitting, the last one going.
-type Runs = Rc<RefCell<Vec<Running>>>;
+/// The runs of one sitting.
+#[derive(Default)]
+struct Sitting {
+    /// The last one goes; the others are coming to their end.
+    runs: Vec<Running>,
+    /// Worst exit code of those that have ended.
+    worst: u8,
+    /// What they had to say, for the terminal once it is given back; the first of them.
+    complaints: Vec<String>,
+    broken: Option<RunError>,
+}
+
+/// Complaints that are kept.
+const MOST_COMPLAINTS: usize = 100;
+
+type Runs = Rc<RefCell<Sitting>>;
+
+impl Sitting {
+    /// Closes the runs that have ended behind the one that goes: what each of them held is given back.
+    fn reap(&mut self) {
+        let behind = self.runs.len().saturating_sub(1);
+        let ended = self.runs.drain(..behind);
+        let (ended, going): (Vec<_>, Vec<_>) = ended.partition(|run| run.session.is_finished());
+        self.runs.splice(..0, going);
+        for run in ended {
+            self.close(run);
+        }
+    }
+
+    /// Waits for the end of a run, and keeps what it leaves of it.
+    fn close(&mut self, run: Running) {
+        match run.session.join() {
+            Ok(outcome) => {
+                self.worst = self.worst.max(outcome.exit_code());
+                let complaints = report::complaints(&outcome).into_iter();
+                let named = complaints.map(|words| format!("{}: {words}", run.prepared.name));
+                let room = MOST_COMPLAINTS - self.complaints.len();
+                self.complaints.extend(named.take(room));
+            }
+            Err(error) => self.broken = Some(error),
+        }
+    }
+}
 
 /// Opens the explorer and runs until the user quits.
 pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
@@ -48,7 +89,11 @@ pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
         .map_err(|error| Failure::stalled(miette!("signals cannot be watched: {error}")))?;
     let first = start(engine, args.threads(), prepared, outputs)?;
     let mut wiring = wiring(&first, args.threads(), interrupt.clone());
-    let runs = Runs::new(RefCell::new(vec![first]));
+    let sitting = Sitting {
+        runs: vec![first],
+        ..Sitting::default()
+    };
+    let runs = Runs::new(RefCell::new(sitting));
     wiring.rebuild = Some(rebuild(engine, args, Rc::clone(&runs), interrupt));
     let shown = asperity::tui::explore(wiring);
     let code = end(&runs)?;
@@ -83,35 +128,27 @@ fn start(
 /// Closes all runs in order; the summary is that of the last, the exit code the worst. A run that broke off
 /// keeps none of the others from being closed.
 fn end(runs: &Runs) -> Result<u8, Failure> {
-    let mut runs = runs.take();
-    let last = runs.pop();
-    let mut worst = 0;
-    let mut broken = None;
-    for run in runs {
-        run.session.send(Command::Stop);
-        match run.session.join() {
-            Ok(outcome) => {
-                worst = worst.max(outcome.exit_code());
-                for complaint in report::complaints(&outcome) {
-                    tell(&format!("{}: {complaint}", run.prepared.name));
-                }
-            }
-            Err(error) => broken = Some(error),
-        }
+    let mut sitting = runs.take();
+    let last = sitting.runs.pop();
+    for run in std::mem::take(&mut sitting.runs) {
+        sitting.close(run);
+    }
+    for complaint in &sitting.complaints {
+        tell(complaint);
     }
     if let Some(run) = last {
         run.session.send(Command::Stop);
         match run.session.join() {
             Ok(outcome) => {
                 let code = conclude(&run.prepared.scene, &outcome, None, run.outputs)?;
-                worst = worst.max(code);
+                sitting.worst = sitting.worst.max(code);
             }
-            Err(error) => broken = Some(error),
+            Err(error) => sitting.broken = Some(error),
         }
     }
-    match broken {
+    match sitting.broken {
         Some(error) => Err(error.into()),
-        None => Ok(worst),
+        None => Ok(sitting.worst),
     }
 }
 
@@ -123,7 +160,9 @@ fn rebuild(engine: Engine, args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool
         let words = |failure: Failure| failure.to_string();
         let mut next = RunArgs::bare();
         next.no_record = no_record;
-        let mut runs = runs.borrow_mut();
+        let mut sitting = runs.borrow_mut();
+        sitting.reap();
+        let runs = &mut sitting.runs;
         let mut scene = scene.clone();
         scene.record = runs
             .last()
@@ -132,7 +171,7 @@ fn rebuild(engine: Engine, args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool
         let path = free_name(&prepared).map_err(words)?;
         let outputs = Outputs::open(&next, &prepared.scene, &path, Pace::Live).map_err(words)?;
         let run = start(engine, threads, prepared, outputs).map_err(words)?;
-        // It ends by itself while the new one starts; it is joined when all is over.
+        // It ends by itself while the new one starts; what it holds goes when the next one comes.
         if let Some(old) = runs.last_mut() {
             old.session.send(Command::Stop);
         }
@@ -160,7 +199,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     let scene = prepared.scene.clone();
     let status = session.status_reader();
     let recorded = recording.clone();
-    let shown = recording.as_ref().map(|recording| recording.path.clone());
+    let shown = recording.clone();
     let name = prepared.name.clone();
     Wiring {
         scene: prepared.scene.clone(),
@@ -198,7 +237,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
                 })
             }) as _
         }),
-        open_viewer: shown.map(|path| Box::new(move || open_viewer(&path)) as _),
+        open_viewer: shown.map(|shown| Box::new(move || open_viewer(&shown)) as _),
         save_scene: Some(Box::new(move |toml| save(&name, toml))),
         write_shown: Some(shown::writer(prepared)),
         rebuild: None,
@@ -236,7 +275,14 @@ fn run_status(status: &Status, recorded: Option<&Recording>) -> RunStatus {
     }
 }
 
-fn open_viewer(path: &Path) -> Result<String, String> {
+fn open_viewer(recording: &Recording) -> Result<String, String> {
+    // Once there is a step it has its own name.
+    let own = Path::new(&recording.name);
+    let path = if recording.path.exists() {
+        &recording.path
+    } else {
+        own
+    };
     let mut command = view::command(path).map_err(|failure| failure.to_string())?;
     command
         .spawn()
@@ -272,5 +318,5 @@ pub(crate) fn numbered(folder: &Path, name: &str, extension: &str) -> Option<Pat
     let dot = if extension.is_empty() { "" } else { "." };
     (1..100_000)
         .map(|number| folder.join(format!("{name}-{number:03}{dot}{extension}")))
-        .find(|path| !path.exists())
+        .find(|path| is_free(path))
 }

@@ -16,12 +16,14 @@ pub(crate) struct Repetition {
     pub(crate) turns: Vec<Turn>,
     /// The last step that was recorded.
     pub(crate) last_step: u64,
+    /// Whether the recording breaks off: its run went on, nobody knows how far.
+    pub(crate) broken_off: bool,
 }
 
 impl Repetition {
     /// Whether it is a run of the scene and nothing else, from beginning to end.
     pub(crate) fn is_plain(&self) -> bool {
-        self.turns.is_empty() && self.last_step == self.prepared.plan.steps
+        self.turns.is_empty() && !self.broken_off && self.last_step == self.prepared.plan.steps
     }
 }
 
@@ -63,14 +65,54 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
             value: turn.value,
         });
     }
+    if let Some(words) = &recorded.broken_off {
+        tell(&format!(
+            "{}: {words}; its run is repeated up to there",
+            path.display()
+        ));
+    }
+    if recorded.unreadable > 0 {
+        let n = recorded.unreadable;
+        tell(&format!(
+            "{}: damaged, {n} of its messages cannot be read; what repeats its run is whole",
+            path.display()
+        ));
+    }
     let stem = path
         .file_stem()
         .map_or("scene".into(), |stem| stem.to_string_lossy());
+    let prepared = super::scenes::finish(args, scene, format!("{stem}-again"))?;
+    judge_length(path, &prepared, recorded.last_step)?;
     Ok(Repetition {
-        prepared: super::scenes::finish(args, scene, format!("{stem}-again"))?,
+        prepared,
         turns,
         last_step: recorded.last_step,
+        broken_off: recorded.broken_off.is_some(),
     })
+}
+
+/// Refuses more steps than the longest run of the scene has, and tells when it has more than the scene asks for.
+#[cfg(feature = "rerun")]
+fn judge_length(path: &Path, prepared: &Prepared, steps: u64) -> Result<(), Failure> {
+    /// Longest run that a scene may ask for, passages.
+    const LONGEST: f64 = 1e4;
+    let plan = &prepared.plan;
+    let most = plan.steps as f64 * LONGEST / prepared.scene.time.passages;
+    if steps as f64 > most.max(1.0) {
+        return Err(Failure::input(miette::miette!(
+            "{}: {steps} steps, where the longest run of its scene has {most:.0}",
+            path.display()
+        )));
+    }
+    if steps > plan.steps {
+        let seconds = plan.cost.time_s * steps as f64 / plan.steps.max(1) as f64;
+        super::failure::tell(&format!(
+            "repeats {steps} steps, where the scene asks for {}: about {}",
+            plan.steps,
+            asperity::math::number::seconds(seconds)
+        ));
+    }
+    Ok(())
 }
 
 /// Without the recorder nothing can be read.

@@ -4,7 +4,7 @@ mod complaints;
 
 use std::fmt::Write as _;
 
-use asperity::math::number::{seconds, sig, sig_or_dash};
+use asperity::math::number::{seconds, sig};
 use asperity::run::{End, Outcome};
 use asperity::scene::{ContactKind, Scene};
 use asperity::sim::{LubricationRegime, Rhythm, Summary};
@@ -324,19 +324,32 @@ pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
             share(s.error_h_min_m, s.h_min_m)
         )
     };
-    let contact = s.error_contact_ratio.map_or_else(String::new, |error| {
+    // Touching spots are in per cent already: their errors are in per cent of the ellipse and of the load, not of themselves.
+    let part = |name: &str, value: f64, error: Option<f64>| {
+        error
+            .filter(|_| value > 0.0)
+            .map_or_else(String::new, |error| {
+                let (value, error) = (sig(100.0 * value, 3), sig(100.0 * error, 2));
+                format!(", {name} {value} ± {error} %")
+            })
+    };
+    let area = part("touching area", s.contact_ratio, s.error_contact_ratio);
+    let load = part(
+        "load on it",
+        s.contact_load_ratio,
+        s.error_contact_load_ratio,
+    );
+    let friction = if s.friction_coefficient == 0.0 {
+        String::new()
+    } else {
         format!(
-            ", touching area {} of {} %, load on it {} of {} %",
-            sig(100.0 * error, 2),
-            sig(100.0 * s.contact_ratio, 3),
-            sig_or_dash(s.error_contact_load_ratio.map(|error| 100.0 * error), 2),
-            sig(100.0 * s.contact_load_ratio, 3)
+            ", friction {}",
+            share(s.error_friction_coefficient, s.friction_coefficient)
         )
-    });
+    };
     format!(
-        "{films}greatest pressure {}, friction {}{contact}{life}; from {nodes} nodes in {wall_s:.1} s{limit}",
+        "{films}greatest pressure {}{friction}{area}{load}{life}; from {nodes} nodes in {wall_s:.1} s{limit}",
         share(s.error_p_max_pa, s.p_max_pa),
-        share(s.error_friction_coefficient, s.friction_coefficient),
     )
 }
 

@@ -33,6 +33,9 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         .map(|path| repeat::read(path, args))
         .transpose()?;
     let is_plain = repetition.as_ref().is_none_or(Repetition::is_plain);
+    let broken_off = repetition
+        .as_ref()
+        .is_some_and(|repeated| repeated.broken_off);
     let (prepared, turns, last_step) = match repetition {
         None => (scenes::prepare(args)?, Vec::new(), 0),
         Some(repeated) => (repeated.prepared, repeated.turns, repeated.last_step),
@@ -48,11 +51,10 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     let saved = headless
         .from_state
         .as_deref()
-        .map(Checkpoint::read)
+        .map(|path| Checkpoint::read_for(path, &prepared.scene))
         .transpose()?;
     if let Some(saved) = &saved {
-        saved.fits(&prepared.scene)?;
-        warn_of_another_build(&saved.program);
+        tell_of_the_past(saved);
     }
     let names = Names::of(args, &prepared.scene, &path);
     names.with_states(headless).check()?;
@@ -82,6 +84,9 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     }?;
     wait(&session, estimate_s, &interrupt, "");
     let mut outcome = session.join()?;
+    if broken_off {
+        outcome.cut_short();
+    }
     let errors = if is_plain {
         let (scene, threads) = (&prepared.scene, args.threads());
         estimate_errors(scene, &plan, threads, &mut outcome, &interrupt)
@@ -127,12 +132,20 @@ fn save_state(outcome: &Outcome, path: &Path, overwrite: Overwrite) -> Result<()
     })
 }
 
-/// A state fits whatever program wrote it; the numbers after it are those of one run only if it was this one.
-fn warn_of_another_build(program: &str) {
-    if program != asperity::files::PROGRAM {
-        let now = asperity::files::PROGRAM;
+/// A state fits whatever program wrote it; the numbers after it are those of one run only if it was this one, and of
+/// the scene's run only if nobody turned a knob.
+fn tell_of_the_past(saved: &Checkpoint) {
+    let (program, now) = (&saved.program, asperity::files::PROGRAM);
+    if program != now {
         let note = format!("saved by {program}; this is {now}, so numbers may differ");
         tell(&note);
+    }
+    if saved.n_turned_by_hand > 0 {
+        let n = saved.n_turned_by_hand;
+        tell(&format!(
+            "{n} knobs had been turned by hand before it was saved; it goes on from where they stand, which is not the \
+             scene's own run"
+        ));
     }
 }
 

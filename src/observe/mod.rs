@@ -30,7 +30,7 @@ use thiserror::Error;
 
 pub use export::{Export, Format, is_exported};
 pub use latest::Latest;
-pub use placed::Overwrite;
+pub use placed::{Overwrite, is_free};
 pub use pool::FramePool;
 pub use queue::{Queue, QueueStats, WhenFull};
 pub use table::Table;

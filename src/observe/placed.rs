@@ -2,18 +2,19 @@
 //!
 //! | there before | while it is written | when it is done | after a kill |
 //! |---|---|---|---|
-//! | nothing | under its name | under its name; gone if nothing came | under its name, up to the last whole message |
+//! | nothing | until something came beside it, as `NAME.part-PID-N.ENDING`; then under its name | under its name; gone if nothing came | the same |
 //! | a file, `--force` | beside it, as `NAME.part-PID-N.ENDING` | in place of it; it stays if nothing came | the old file; the new one beside it |
 //! | a device | in it | | |
 //!
-//! A file that another run is writing is refused, by a lock that ends with its process.
+//! A file that another run is writing is refused, by a lock that ends with its process. A killed run leaves a name free
+//! until there is something that is worth it.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::ObserveError;
-use crate::files::{folder_of, part_of, publish, sync_file, sync_folder, write_whole};
+use crate::files::{folder_of, open_plain, part_of, publish, sync_file, sync_folder, write_whole};
 
 /// What to do with an output file that is there already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -101,12 +102,14 @@ impl Overwrite {
             There::Device => {
                 let file = OpenOptions::new().write(true).open(path).map_err(failed)?;
                 let mut placed = Placed::new(path, path);
-                placed.is_device = true;
+                placed.name = Name::Device;
                 (file, placed)
             }
             There::Nothing => {
-                let file = new(path).map_err(failed)?;
-                let mut placed = Placed::new(path, path);
+                let part = part_of(path);
+                let file = new(&part).map_err(failed)?;
+                let mut placed = Placed::new(path, &part);
+                placed.name = Name::Free;
                 placed.lock = Some(file.try_clone().map_err(failed)?);
                 (file, placed)
             }
@@ -141,6 +144,9 @@ impl Overwrite {
             Ok(_) => match std::fs::metadata(path) {
                 Err(_) => refuse("a link to a file that is not there; take the link away"),
                 Ok(there) if there.is_dir() => refuse("a folder has this name"),
+                Ok(there) if is_pipe(&there) && !path.starts_with("/dev") => refuse(
+                    "a pipe, which waits until somebody reads it; /dev/stdout is one that does not",
+                ),
                 Ok(there) if !there.is_file() => Ok(There::Device),
                 Ok(there) if there.permissions().readonly() => {
                     Err(refused(path, &ErrorKind::PermissionDenied.into()))
@@ -154,6 +160,37 @@ impl Overwrite {
     }
 }
 
+#[cfg(unix)]
+fn is_pipe(there: &std::fs::Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    there.file_type().is_fifo()
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_there: &std::fs::Metadata) -> bool {
+    false
+}
+
+/// Whether nothing has a name, and no run is writing a file that will have it.
+pub fn is_free(path: &Path) -> bool {
+    !path.exists() && !is_expected(path, Path::new(""))
+}
+
+/// Whether a run is writing a file, other than `own`, that will have that name.
+fn is_expected(target: &Path, own: &Path) -> bool {
+    let stem = target.file_stem().unwrap_or_default().to_string_lossy();
+    let begins = format!("{stem}.part-");
+    let entries = std::fs::read_dir(folder_of(target)).into_iter().flatten();
+    entries.flatten().any(|entry| {
+        let name = entry.file_name();
+        let is_part = own.file_name() != Some(&name)
+            && name.to_string_lossy().starts_with(&begins)
+            && Path::new(&name).extension() == target.extension();
+        let locked = |file: File| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock));
+        is_part && open_plain(&entry.path()).is_ok_and(locked)
+    })
+}
+
 fn refused(path: &Path, error: &std::io::Error) -> ObserveError {
     let reason = match error.kind() {
         ErrorKind::AlreadyExists => {
@@ -165,6 +202,17 @@ fn refused(path: &Path, error: &std::io::Error) -> ObserveError {
     ObserveError::new(path.display().to_string(), reason)
 }
 
+/// What a name leads to while its file is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Name {
+    /// To nothing: the file takes it as soon as it holds something.
+    Free,
+    /// To the file that it will replace.
+    Taken,
+    /// To what is written into.
+    Device,
+}
+
 /// A file that is being written, and the name that it will have.
 #[derive(Debug)]
 pub(super) struct Placed {
@@ -174,7 +222,7 @@ pub(super) struct Placed {
     /// Held while it is written.
     lock: Option<File>,
     holds_something: bool,
-    is_device: bool,
+    name: Name,
     is_settled: bool,
 }
 
@@ -185,7 +233,7 @@ impl Placed {
             at: at.to_owned(),
             lock: None,
             holds_something: false,
-            is_device: false,
+            name: Name::Taken,
             is_settled: false,
         }
     }
@@ -197,7 +245,8 @@ impl Placed {
             self.lock = None;
         }
         let tried = self.lock.as_ref().map(File::try_lock);
-        if let Some(Err(TryLockError::WouldBlock)) = tried {
+        let is_held = matches!(tried, Some(Err(TryLockError::WouldBlock)));
+        if is_held || (self.name == Name::Free && is_expected(&self.target, &self.at)) {
             // The part file alone is this run's.
             if self.at != self.target {
                 drop(std::fs::remove_file(&self.at));
@@ -209,15 +258,20 @@ impl Placed {
         Ok(())
     }
 
-    /// Where it is written: its name, or beside the file that it will replace.
+    /// Where it is written: its name, or beside it.
     #[cfg(feature = "rerun")]
     pub(super) fn at(&self) -> &Path {
         &self.at
     }
 
-    /// There is something in it that is worth its name.
-    pub(super) fn hold(&mut self) {
-        self.holds_something = true;
+    /// There is something in it that is worth its name, which it takes if nothing has it.
+    pub(super) fn hold(&mut self) -> std::io::Result<()> {
+        let is_first = !std::mem::replace(&mut self.holds_something, true);
+        if is_first && self.name == Name::Free {
+            publish(&self.at, &self.target, false)?;
+            self.at.clone_from(&self.target);
+        }
+        Ok(())
     }
 
     /// Leaves it where it is: it has failed, and what it replaces is worth more. Says where that is, if it is not
@@ -228,12 +282,12 @@ impl Placed {
             return None;
         }
         self.is_settled = true;
-        (self.at != self.target && !self.is_device).then(|| self.at.clone())
+        (self.at != self.target && self.name != Name::Device).then(|| self.at.clone())
     }
 
     /// Brings it to the disk and gives it its name; takes it away if nothing is in it. Whether it is there.
     pub(super) fn settle(&mut self) -> std::io::Result<bool> {
-        if self.is_settled || self.is_device {
+        if self.is_settled || self.name == Name::Device {
             self.is_settled = true;
             return Ok(self.holds_something);
         }
@@ -253,7 +307,7 @@ impl Placed {
 
     /// Takes away a file that nothing is in.
     fn discard(&mut self) {
-        if !self.is_settled && !self.is_device {
+        if !self.is_settled && self.name != Name::Device {
             // Gone already is as good.
             drop(std::fs::remove_file(&self.at));
         }
@@ -291,7 +345,7 @@ mod tests {
         // What holds something is worth it, finished or not.
         let (mut file, mut placed) = Overwrite::Replace.open(&path).unwrap();
         file.write_all(b"new").unwrap();
-        placed.hold();
+        placed.hold().unwrap();
         assert_eq!(read(&path).as_deref(), Some("mine"));
         drop(placed);
         assert_eq!(read(&path).as_deref(), Some("new"));
@@ -310,8 +364,16 @@ mod tests {
         let held = Overwrite::Refuse.open(&path).unwrap();
         let second = Overwrite::Replace.open(&path).unwrap_err();
         assert!(second.reason.contains("another run"), "{second}");
+        let other = folder.path().join("run.rrd");
+        drop(Overwrite::Refuse.open(&other).unwrap());
+        // Its name is free until it holds something.
+        assert!(!path.exists());
+        let (file, mut placed) = held;
+        placed.hold().unwrap();
         assert!(path.exists());
-        drop(held);
+        let third = Overwrite::Replace.open(&path).unwrap_err();
+        assert!(third.reason.contains("another run"), "{third}");
+        drop((file, placed));
         std::fs::write(&path, "mine").unwrap();
         std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o640)).unwrap();
         Overwrite::Replace.write(&path, b"new").unwrap();

@@ -16,7 +16,7 @@ use crate::sim::{Frame, LifeEstimate, Metrics, Stage};
 
 /// Columns in the order of [`Row::write`], which destructures every field: a new metric that is
 /// not given a column does not compile.
-const COLUMNS: [&str; 55] = [
+const COLUMNS: [&str; 57] = [
     "step",
     "time_s",
     "passages",
@@ -72,6 +72,8 @@ const COLUMNS: [&str; 55] = [
     "point_x_m",
     "point_effective_pa",
     "point_cycles_counted",
+    "yielded_body_1_m3",
+    "yielded_body_2_m3",
 ];
 
 /// Writes the table.
@@ -138,8 +140,7 @@ impl Observer for Table {
         self.write(frame)
             .map_err(|error| self.failed(&error.into()))?;
         self.rows += 1;
-        self.placed.hold();
-        Ok(())
+        self.placed.hold().map_err(|error| self.failed(&error))
     }
 
     fn event(&mut self, _event: &RunEvent) -> Result<(), ObserveError> {
@@ -201,6 +202,9 @@ impl Row {
         self.optional(point.map(|point| point.x_m));
         self.optional(point.map(|point| point.effective_pa));
         self.optional(point.map(|point| point.cycles_counted));
+        let yielded = frame.metrics.yielded_m3;
+        self.optional(yielded.map(|both| both[0]));
+        self.optional(yielded.map(|both| both[1]));
     }
 
     fn metrics(&mut self, metrics: &Metrics) {
@@ -232,6 +236,7 @@ impl Row {
             overlap_m,
             asked: _,
             friction_coefficient,
+            yielded_m3: _,
             sigma_eff_max_pa,
             sigma_eff_max_depth_m,
             sigma_eff_max_x_m,

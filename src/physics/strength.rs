@@ -9,11 +9,12 @@
 //! | H | mean pressure under a spot that flows freely: no asperity of the body carries more |
 //! | Y | von Mises stress at which the body begins to flow |
 //!
-//! Rolling bearings and the flanks of case-hardened gears have 58 to 64 HRC (ISO 683-17; ISO 6336-5); 60 HRC is 697 HV
-//! by the tables of ISO 18265 (ASTM E140 gives the same). H = 3Y: Tabor (1951), *The Hardness of Metals*, Oxford. A
-//! smooth Hertz contact begins to flow at p_h = 1.6 Y = 3.6 GPa (Johnson 1985, §6.1), below the 4.2 GPa that ISO 76
-//! allows a ball at rest, which leaves a dent of 1e-4 of its diameter. Work hardening, size effects and shakedown are
-//! left out: these are limits of the elastic model, not of the part.
+//! Rolling bearings and the flanks of case-hardened gears have 58 to 64 HRC (ISO 683-17; ISO 6336-5), 653 to 800 HV by
+//! ASTM E140, table 1; 60 HRC is 697 HV (ISO 18265 gives the same). H = 3Y: Tabor (1951), *The Hardness of Metals*,
+//! Oxford. A smooth Hertz contact begins to flow at p_h = 1.6 Y = 3.6 GPa (Johnson 1985, §6.1), below the 4.2 GPa that
+//! ISO 76 allows a ball at rest, which leaves a dent of 1e-4 of its diameter. Work hardening, size effects and shakedown
+//! are left out. Bodies that a scene gives a `hardness_pa` flow at their surface there (`solve/yielding.rs`); else H is a
+//! limit of the elastic model, as Y always is.
 
 /// Most that a body carries elastically.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,11 +30,18 @@ const PA_PER_HV: f64 = 9.806_65e6;
 /// Young's moduli of steels, Pa.
 const STEEL_PA: std::ops::RangeInclusive<f64> = 180e9..=230e9;
 
+impl Strength {
+    /// Of a body of that hardness.
+    pub const fn of(hardness_pa: f64) -> Self {
+        Self {
+            hardness_pa,
+            yield_pa: hardness_pa / 3.0,
+        }
+    }
+}
+
 /// Steel of 60 HRC.
-pub const HARDENED_STEEL: Strength = Strength {
-    hardness_pa: 697.0 * PA_PER_HV,
-    yield_pa: 697.0 * PA_PER_HV / 3.0,
-};
+pub const HARDENED_STEEL: Strength = Strength::of(697.0 * PA_PER_HV);
 
 /// Strength of a body by its Young's modulus: that of hardened steel where it is a steel's. `None`: not steel, and a
 /// modulus alone tells no strength (glass and aluminium have the same).

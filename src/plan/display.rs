@@ -189,6 +189,9 @@ impl Plan {
                 traction.mismatch_per_pa
             ));
         }
+        if let Some((hardness_pa, flows)) = self.yielding {
+            lines.push(yielding_text(hardness_pa, flows));
+        }
         if let Some(stress) = self.stress {
             lines.push(format!(
                 "{} in the plane y = 0, {} depths down to {:.0} µm, every step",
@@ -254,6 +257,19 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
         "damage of {bodies} over depth and along the surface, by material points on y = 0"
     ));
     lines
+}
+
+/// What flows at which pressure.
+fn yielding_text(hardness_pa: f64, flows: [bool; 2]) -> String {
+    let who = match flows {
+        [true, false] => "body 1, the softer, gives way",
+        [false, true] => "body 2, the softer, gives way",
+        _ => "both bodies give way, half each,",
+    };
+    format!(
+        "pressure at most {:.2} GPa: {who} for good where it would be more",
+        hardness_pa * 1e-9
+    )
 }
 
 /// What the pressure's flow meets in Eyring oil, in words.

@@ -68,6 +68,8 @@ pub struct Plan {
     pub waves: [Option<WavePlan>; 2],
     /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
     pub traction_deflection: Option<TractionDeflection>,
+    /// Pressure at which the softer body flows, Pa, and which bodies do; `None`: both stay elastic.
+    pub yielding: Option<(f64, [bool; 2])>,
     /// Subsurface stress.
     pub stress: Option<StressPlan>,
     /// Fatigue life.
@@ -294,6 +296,7 @@ impl Plan {
             length_a: scene.time.passages * PASSAGE_A,
             waves,
             traction_deflection: decide::traction_deflection(scene),
+            yielding: scene.hardness_pa().map(|pa| (pa, scene.softer())),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),
             life: None,
             record: None,

@@ -17,10 +17,14 @@ use crate::scene::Scene;
 use crate::sim::State;
 
 const MAGIC: &str = "asperity state 1 ";
+/// Nodes per side of the finest grid.
+const FINEST: usize = 1025;
 /// Digits of the digest.
 const DIGITS: usize = 16;
-/// Longest file that is read, bytes: ten times the state of the finest grid.
-const LONGEST: u64 = 20 << 30;
+/// Longest state, bytes: three times what the greatest was seen to take (300 for a node; 2.4 million of a line), with
+/// room for what does not grow with the grid.
+const LONGEST_NODE: u64 = 1 << 10;
+const LONGEST_REST: u64 = 64 << 20;
 
 /// Everything that a run needs to go on.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -33,6 +37,9 @@ pub struct Checkpoint {
     pub n_events_played: usize,
     /// Steps so far that did not converge.
     pub n_unconverged: u64,
+    /// Knobs turned by hand so far: it goes on from where they stand, where the scene's own run would not be.
+    #[serde(default)]
+    pub n_turned_by_hand: usize,
     /// The simulation.
     pub sim: State,
 }
@@ -56,12 +63,32 @@ pub enum CheckpointError {
     OtherScene(&'static str),
 }
 
+/// Longest state of a grid of so many nodes per side, bytes.
+fn longest(nodes: usize) -> u64 {
+    let nodes = nodes as u64;
+    LONGEST_REST + LONGEST_NODE * nodes * nodes
+}
+
 impl Checkpoint {
     /// Reads a file.
     ///
     /// # Errors
     /// [`CheckpointError::File`] when it cannot be read, is cut short, changed or no state at all.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
+        Self::read_up_to(path, longest(FINEST))
+    }
+
+    /// Reads a file for a run of `scene`: none that is longer than its states are.
+    ///
+    /// # Errors
+    /// As [`Checkpoint::read`] and [`Checkpoint::fits`].
+    pub fn read_for(path: &Path, scene: &Scene) -> Result<Self, CheckpointError> {
+        let saved = Self::read_up_to(path, longest(scene.grid.nodes))?;
+        saved.fits(scene)?;
+        Ok(saved)
+    }
+
+    fn read_up_to(path: &Path, most: u64) -> Result<Self, CheckpointError> {
         let failed = |reason: String| CheckpointError::File {
             path: path.display().to_string(),
             reason,
@@ -72,8 +99,9 @@ impl Checkpoint {
             // Opening a pipe may wait for ever, and reading a device may never end.
             return Err(failed("no regular file".to_owned()));
         }
-        if about.len() > LONGEST {
-            return Err(failed("longer than any state".to_owned()));
+        if about.len() > most {
+            let reason = format!("{} bytes, more than any state of its grid", about.len());
+            return Err(failed(reason));
         }
         let mut file = std::fs::File::open(path).map_err(io)?;
         let mut head = vec![0; MAGIC.len() + DIGITS + 1];
@@ -86,7 +114,7 @@ impl Checkpoint {
             return Err(failed("no state of this version of asperity".to_owned()));
         };
         let mut body = String::new();
-        let mut rest = file.take(LONGEST);
+        let mut rest = file.take(most);
         rest.read_to_string(&mut body).map_err(io)?;
         if digest != format!("{:016x}", fnv(body.as_bytes())) {
             return Err(failed(

@@ -30,6 +30,14 @@ enum Pace {
     OneStep,
 }
 
+/// What another run had done before this one goes on.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Done {
+    pub(super) events_played: usize,
+    pub(super) turned_by_hand: usize,
+    pub(super) unconverged: u64,
+}
+
 /// The loop's own state, on the simulation's thread.
 pub(super) struct Driver {
     ending: Ending,
@@ -53,6 +61,7 @@ pub(super) struct Driver {
     n_unconverged: u64,
     output_errors: Vec<ObserveError>,
     n_events_played: usize,
+    n_turned_by_hand: usize,
     /// When the first step of the passage was done.
     passage_began: Option<Instant>,
 }
@@ -86,15 +95,18 @@ impl Driver {
             n_unconverged: 0,
             output_errors: Vec::new(),
             n_events_played: 0,
+            n_turned_by_hand: 0,
             passage_began: None,
         }
     }
 
     /// Goes on where another run ended: what it has done is not done again.
-    pub(super) fn after(mut self, n_events_played: usize, n_unconverged: u64) -> Self {
-        self.script.drain(..n_events_played.min(self.script.len()));
-        self.n_events_played = n_events_played;
-        self.n_unconverged = n_unconverged;
+    pub(super) fn after(mut self, done: Done) -> Self {
+        let played = done.events_played.min(self.script.len());
+        self.script.drain(..played);
+        self.n_events_played = done.events_played;
+        self.n_turned_by_hand = done.turned_by_hand;
+        self.n_unconverged = done.unconverged;
         self
     }
 
@@ -187,6 +199,7 @@ impl Driver {
             scene: context.scene_toml.clone(),
             n_events_played: self.n_events_played,
             n_unconverged: self.n_unconverged,
+            n_turned_by_hand: self.n_turned_by_hand,
             sim,
         })
     }
@@ -310,6 +323,7 @@ impl Driver {
         match sim.set(knob, value) {
             Ok(()) => {
                 self.log(sim, Command::Set(knob, value), by);
+                self.n_turned_by_hand += usize::from(by == SetBy::Hand);
                 self.forget_settled();
                 let kind = RunEventKind::Set {
                     key: knob.key().to_owned(),

@@ -80,14 +80,23 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// The run that it repeats went on: what there was of it has been done, and that is not all.
+    pub fn cut_short(&mut self) {
+        self.stopped = true;
+        if let Some(summary) = &mut self.summary {
+            summary.stopped = true;
+        }
+    }
+
     /// Most unconverged steps that are listed one by one.
     pub const UNCONVERGED_KEPT: usize = 100;
 
-    /// Exit code of the command line: 0 converged, 2 some steps did not converge, 3 stalled or not
-    /// started, 4 an output failed, 5 stopped before its end. A failed solution weighs more than a failed output,
+    /// Exit code of the command line: 0 converged, 1 a state that does not fit, 2 some steps did not converge, 3 stalled
+    /// or not started, 4 an output failed, 5 stopped before its end. A failed solution weighs more than a failed output,
     /// and that more than a stop, which weighs more than steps that did not converge.
     pub fn exit_code(&self) -> u8 {
         match self.end {
+            End::NotStarted(SimError::State(_)) => 1,
             End::Stalled(_) | End::NotStarted(_) => 3,
             End::OutputFailed => 4,
             End::Done | End::Stopped if !self.output_errors.is_empty() => 4,

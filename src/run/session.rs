@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::Command;
 use super::checkpoint::Checkpoint;
-use super::driver::Driver;
+use super::driver::{Done, Driver};
 use super::outcome::{AppliedCommand, Outcome};
 use super::replay::Turn;
 use super::settled::Settled;
@@ -117,8 +117,8 @@ pub(super) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
 /// What a run begins with.
 #[derive(Debug, Default)]
 struct Start {
-    /// Scripted events played and steps unconverged before.
-    played: (usize, u64),
+    /// What had been done before.
+    done: Done,
     began: Began,
     turns: Vec<(u64, Command)>,
 }
@@ -151,9 +151,13 @@ impl Session {
     pub fn resume(request: Request, checkpoint: Checkpoint) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
-        let played = (checkpoint.n_events_played, checkpoint.n_unconverged);
+        let done = Done {
+            events_played: checkpoint.n_events_played,
+            turned_by_hand: checkpoint.n_turned_by_hand,
+            unconverged: checkpoint.n_unconverged,
+        };
         let start = Start {
-            played,
+            done,
             began: Began::FromState,
             turns: Vec::new(),
         };
@@ -227,7 +231,7 @@ impl Session {
             Arc::clone(&shared),
         )
         .planned(request.plan.steps)
-        .after(start.played.0, start.played.1)
+        .after(start.done)
         .repeating(start.turns);
         let context = RunContext {
             scene_toml: request.scene.to_toml(),

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, KNOB_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
 use super::model::{ContactKind, Event, Scene, Surface};
-use super::shape::{check_load, check_shape};
+use super::shape::{check_hardness, check_load, check_shape};
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
 pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
@@ -57,6 +57,10 @@ fn kind_of(table: &Table) -> Option<String> {
 
 /// The error for a key that no scene has.
 pub(super) fn unknown(full: &str) -> SceneError {
+    if full.split(['.', '[']).next() == Some("event") {
+        let key = super::error::shortened(full);
+        return SceneError::value(key, "a setting", "tables [[event]] in a scene file");
+    }
     let paths: Vec<String> = keys::all_paths()
         .chain(SECTIONS.iter().map(|section| section.path.to_owned()))
         .chain(["event".to_owned()])
@@ -205,6 +209,7 @@ const SLOPE_MAX: f64 = 0.5;
 pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
     check_shape(scene)?;
     check_load(scene)?;
+    check_hardness(scene)?;
     check_surface("body_1.surface", &scene.body_1.surface)?;
     check_surface("body_2.surface", &scene.body_2.surface)?;
     if scene.life.is_some() && scene.stress.is_none() {

@@ -18,6 +18,20 @@ impl Scene {
         )
     }
 
+    /// Hardness of the softer body, Pa; `None`: both stay elastic.
+    pub fn hardness_pa(&self) -> Option<f64> {
+        let given = [&self.body_1, &self.body_2].map(|body| body.hardness_pa);
+        let finite = given.into_iter().flatten().filter(|pa| pa.is_finite());
+        finite.reduce(f64::min)
+    }
+
+    /// Which bodies flow at that pressure: the softer one, or both.
+    pub fn softer(&self) -> [bool; 2] {
+        let hardness_pa = self.hardness_pa();
+        let flows = |pa: Option<f64>| pa.is_some() && pa == hardness_pa;
+        [&self.body_1, &self.body_2].map(|body| flows(body.hardness_pa))
+    }
+
     /// Whether the contact is a point or a line.
     pub fn kind(&self) -> ContactKind {
         self.contact.kind

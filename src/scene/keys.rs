@@ -81,8 +81,8 @@ use Need::{Defaulted, Optional, Required};
 const BODY: &[Key] = &[
     key("young_pa", "Pa", Number(1e6, 1e13), Defaulted, "Young's modulus"),
     key("poisson", "", Number(0.0, 0.5), Defaulted, "Poisson's ratio"),
+    key("hardness_pa", "Pa", NumberOrInf(1e6, 1e12), Optional("it stays elastic"), "greatest pressure that its surface carries: what would exceed it flows for good; inf: elastic"),
 ];
-
 #[rustfmt::skip]
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
@@ -244,8 +244,8 @@ pub const SECTIONS: &[Section] = &[
         need: Optional("no recording"),
         doc: "The recording (.rrd).",
         keys: &[
-            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "fields every so many time steps, scalars every step; the plan spaces them out to keep to the budget"),
-            key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "largest size of the recording"),
+            key("every_steps", "", Integer(1, 1_000_000), Defaulted, "fields every so many time steps, scalars every step; both are spaced out to keep to the budget"),
+            key("budget_mb", "MB", Number(0.1, 1e5), Defaulted, "largest size of the recording, of which layout and first frame take about 1 MB"),
         ],
     },
 ];

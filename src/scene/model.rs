@@ -100,6 +100,9 @@ pub struct Body {
     pub young_pa: f64,
     /// Poisson's ratio.
     pub poisson: f64,
+    /// Greatest pressure that its surface carries before it flows for good, Pa; `None` or infinite: it stays elastic.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hardness_pa: Option<f64>,
     /// Surface roughness.
     pub surface: Surface,
 }
@@ -109,6 +112,7 @@ impl Default for Body {
         Self {
             young_pa: 2.1e11,
             poisson: 0.3,
+            hardness_pa: None,
             surface: Surface::Smooth {},
         }
     }

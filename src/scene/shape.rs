@@ -69,6 +69,31 @@ fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
     )
 }
 
+/// A body that is too soft for the load would give way as a whole.
+pub(super) fn check_hardness(scene: &Scene) -> Result<(), SceneError> {
+    /// Least hardness over the Hertz pressure: the contact is then at most 4/3 (a line: π/2) of Hertz's, which its domain holds.
+    const LEAST: f64 = 0.5;
+    let least_pa = LEAST * scene.hertz().p_max_pa;
+    let bodies = [
+        ("body_1.hardness_pa", &scene.body_1),
+        ("body_2.hardness_pa", &scene.body_2),
+    ];
+    for (key, body) in bodies {
+        let Some(hardness_pa) = body.hardness_pa.filter(|pa| *pa < least_pa) else {
+            continue;
+        };
+        return Err(SceneError::value(
+            key,
+            format!("{} Pa", short(hardness_pa)),
+            format!(
+                "at least {} Pa, half the Hertz pressure: a softer body gives way as a whole and not by its asperities",
+                short(least_pa)
+            ),
+        ));
+    }
+    Ok(())
+}
+
 /// Exactly one load, of the kind that the contact takes.
 pub(super) fn check_load(scene: &Scene) -> Result<(), SceneError> {
     let load = &scene.load;

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! beyond_yield   p_max > H or σ_eff > Y of the body that carries less, as far as it is known        greatest of the last passage
+//! still_yielding  more than 1 % of all flow of surfaces in the last passage
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
 //! model_range    greatest over least life of the choices > 2
@@ -10,7 +11,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Frame, LifeEstimate, Metrics};
+use super::{Frame, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::sig;
 use crate::physics::strength::Strength;
 use crate::plan::{EDGES_WORTH_A_WORD, MOLECULE_M};
@@ -24,6 +25,8 @@ pub enum CautionCode {
     NotConverged,
     /// Pressure or stress beyond what the material carries elastically.
     BeyondYield,
+    /// Surfaces still flow at their hardness.
+    StillYielding,
     /// No oil flows.
     Dry,
     /// The film is thinner than a layer of oil molecules.
@@ -80,10 +83,16 @@ pub struct Grounds {
     pub short_domain: Option<f64>,
     /// Whether the scene computes a life.
     pub has_life: bool,
+    /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.
+    pub hardness_pa: Option<f64>,
+    /// Part of all that has flowed that did so in the last passage (or period); `None`: nothing has.
+    pub yielded_last_share: Option<f64>,
 }
 
 /// Error of the film by the mesh that is worth a word.
 const MESH_WORTH_A_WORD: f64 = 0.05;
+/// Share of all flow in one passage that is.
+const RUN_IN: f64 = 0.01;
 /// Factor between models that is.
 const RANGE_WORTH_A_WORD: f64 = 2.0;
 
@@ -103,6 +112,7 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::NotConverged, not_converged(m, grounds));
     say(CautionCode::BeyondYield, pressure_beyond(grounds));
     say(CautionCode::BeyondYield, stress_beyond(grounds));
+    say(CautionCode::StillYielding, still_yielding(grounds));
     say(CautionCode::Dry, dry(grounds));
     say(CautionCode::FilmBelowMolecule, below_molecule(grounds));
     say(CautionCode::MeshFilm, mesh_film(grounds));
@@ -145,7 +155,8 @@ fn weaker(grounds: &Grounds, of: impl Fn(Strength) -> f64) -> Option<f64> {
 fn pressure_beyond(grounds: &Grounds) -> Option<String> {
     let hardness = weaker(grounds, |strength| strength.hardness_pa)?;
     let p = grounds.p_max_greatest_pa;
-    (p > hardness).then(|| {
+    // Where surfaces flow at their hardness, this is it.
+    (p > hardness && grounds.hardness_pa.is_none()).then(|| {
         format!(
             "greatest pressure {} is beyond what hardened steel carries (about {}, its hardness): asperities would flow",
             gpa(p),
@@ -164,11 +175,27 @@ fn stress_beyond(grounds: &Grounds) -> Option<String> {
     };
     let limit = share * weaker(grounds, |strength| strength.yield_pa)?;
     (stress > limit).then(|| {
+        let left_out = match grounds.yielded_last_share {
+            Some(_) => "what flows below the surface, and the stress that it leaves behind, is not modelled",
+            None => "the material would flow there",
+        };
         format!(
-            "greatest {} stress {} is beyond yield of hardened steel (about {}): the material would flow there",
+            "greatest {} stress {} is beyond yield of hardened steel (about {}): {left_out}",
             measure.name(),
             gpa(stress),
             gpa(limit)
+        )
+    })
+}
+
+/// Bodies that come back to the contact flow less with every round; where they do not stop, that is a ratchet.
+fn still_yielding(grounds: &Grounds) -> Option<String> {
+    let (share, hardness_pa) = grounds.yielded_last_share.zip(grounds.hardness_pa)?;
+    (share > RUN_IN).then(|| {
+        format!(
+            "the surfaces still flow at {}: {} % of what has flowed so far did so in the last passage, so they are not run in",
+            gpa(hardness_pa),
+            sig(100.0 * share, 2)
         )
     })
 }
@@ -251,10 +278,13 @@ fn model_range(life: Option<&LifeEstimate>) -> Option<String> {
 
 fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
     let settled = m.life.is_some_and(|life| life.settled);
-    (grounds.has_life && !settled).then(|| {
+    let never_repeats = m.repeat.is_some_and(|r| r.rhythm == Rhythm::Statistics);
+    let why = if never_repeats {
+        "both bodies' waves have no common period, and the average does not cover three passages of 4a yet: it still moves"
+    } else {
         "the average does not cover a whole period of these conditions yet: it still moves"
-            .to_owned()
-    })
+    };
+    (grounds.has_life && !settled).then(|| why.to_owned())
 }
 
 fn no_life(grounds: &Grounds) -> Option<String> {
@@ -279,7 +309,11 @@ fn elastic_only(grounds: &Grounds) -> String {
     } else {
         ""
     };
-    format!("no wear, isothermal, elastic{initiation}")
+    let elastic = match grounds.yielded_last_share {
+        Some(_) => "elastic below surfaces that flow at their hardness",
+        None => "elastic",
+    };
+    format!("no wear, isothermal, {elastic}{initiation}")
 }
 
 #[cfg(test)]
@@ -330,10 +364,10 @@ mod tests {
     fn each_ground_has_its_caution_with_its_number() {
         use CautionCode::{
             BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife, NotConverged,
-            NotSettled, ShortDomain, StandingBody, StrengthUnknown,
+            NotSettled, ShortDomain, StandingBody, StillYielding, StrengthUnknown,
         };
         type Spoil = fn(&mut Metrics, &mut Grounds);
-        let table: [(CautionCode, &str, Spoil); 13] = [
+        let table: [(CautionCode, &str, Spoil); 15] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
             (BeyondYield, "7.5 GPa", |_, g| {
@@ -342,6 +376,16 @@ mod tests {
             (BeyondYield, "1.3 GPa", |_, g| {
                 g.measure = Some(StressMeasure::MaxShear);
                 g.sigma_eff_greatest_pa = Some(1.3e9);
+            }),
+            (BeyondYield, "leaves behind", |_, g| {
+                (g.hardness_pa, g.yielded_last_share) = (Some(6.8e9), Some(0.0));
+                g.sigma_eff_greatest_pa = Some(7.5e9);
+            }),
+            (StillYielding, "12 %", |_, g| {
+                g.hardness_pa = Some(6.8e9);
+                // At the hardness, which is not beyond it.
+                g.p_max_greatest_pa = 6.9e9;
+                g.yielded_last_share = Some(0.12);
             }),
             (Dry, "no lubricant", |_, g| {
                 (g.film_m, g.flows, g.mesh_film) = (None, false, None);

@@ -173,6 +173,20 @@ impl Door {
         p * self.p_hertz_pa
     }
 
+    /// Dimensionless pressure.
+    pub(super) fn p_from_pa(&self, pa: f64) -> f64 {
+        pa / self.p_hertz_pa
+    }
+
+    /// Volume of ∬ h, m³; of a line m³ per metre of length.
+    pub(super) fn m3_from_volume(&self, volume: f64) -> f64 {
+        let width_m = match self.kind {
+            ContactKind::Point => self.a_m,
+            ContactKind::Line => 1.0,
+        };
+        volume * self.film_m * self.a_m * width_m
+    }
+
     /// Film, m.
     pub(super) fn m_from_h(&self, h: f64) -> f64 {
         h * self.film_m

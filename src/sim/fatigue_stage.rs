@@ -19,7 +19,7 @@ use crate::physics::fatigue::{LifeFactors, LifeLaw};
 use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
 use crate::scene::{BodyChoice, ContactKind, CycleBasis, Life, Scene, Spread, VolumeIntegral};
-use crate::solve::life::{Shares, Sweep, factors};
+use crate::solve::life::{Shares, Sweep, Window, factors};
 use crate::solve::stress::{Loading, StressLaw};
 
 /// Conditions of an estimate.
@@ -70,7 +70,7 @@ impl LifeStage {
             weibull_slope: asked.weibull_slope,
         };
         let p_h = plan.hertz.p_max_pa;
-        let period = plan.passage_a;
+        let window = Window::closed(plan.passage_a);
         let capacity = life_plan.phases_per_passage.max(1) as usize + 1;
         let depths = stress.depths().to_vec();
         let mut laws = Vec::new();
@@ -80,7 +80,7 @@ impl LifeStage {
                 laws.push(StressLaw { exponent, limit });
                 laws.len() - 1
             });
-            variants.push(Variant::new(model, place, depths.len(), (period, capacity)));
+            variants.push(Variant::new(model, place, depths.len(), (window, capacity)));
         }
         let calibration = asked.calibration().map(|(cycles, p_pa)| Calibration {
             cycles,
@@ -183,17 +183,17 @@ impl LifeStage {
         self.wavelengths == saved.wavelengths
     }
 
-    /// Takes the mean over a way of `period` (in a) from now on.
-    pub(super) fn set_period(&mut self, period: f64) {
+    /// Takes the mean over `window` (in a) from now on.
+    pub(super) fn set_window(&mut self, window: Window) {
         for variant in &mut self.variants {
-            variant.set_period(period);
+            variant.set_window(window);
         }
     }
 
-    /// Forgets the phases seen: they belong to other conditions. The mean is over a way of `period` (in a).
-    pub(super) fn restart(&mut self, period: f64) {
+    /// Forgets the phases seen: they belong to other conditions. The mean is over `window` (in a).
+    pub(super) fn restart(&mut self, window: Window) {
         self.clear();
-        self.set_period(period);
+        self.set_window(window);
     }
 
     /// Forgets the phases seen.

@@ -65,6 +65,12 @@ impl Simulation {
             .stress
             .as_ref()
             .map_or(0, StressStage::depth_count);
+        let yielded_fits = match (&self.state.yielded, &state.yielded) {
+            (None, None) => true,
+            (Some(own), Some(saved)) => own.fits(saved),
+            _ => false,
+        };
+        demand(yielded_fits, "what it has yielded is of other bodies")?;
         if let (Some(own), Some(saved)) = (&self.state.counting, &state.counting) {
             demand(own.fits(saved, depths), "its counts are spoiled")?;
         }
@@ -94,7 +100,7 @@ impl Simulation {
             "its steps or times are none",
         )?;
         demand(
-            state.motion.fits(&self.state.motion) && state.pace.is_sound(),
+            self.state.motion.fits(&state.motion) && state.pace.is_sound(),
             "its motion is of another make",
         )?;
         if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {

@@ -42,7 +42,7 @@ impl Simulation {
     /// is as it was.
     pub fn follow(&mut self, neighbour: &State) -> Result<(), SimError> {
         self.take_over(neighbour)?;
-        let dt = self.state.motion.nodes * self.plan.domain.dx_a();
+        let dt = self.stepping.usual() * self.plan.domain.dx_a();
         let goal = self.cold_ways(dt);
         for knob in FREE {
             let wanted = self.state.wanted.get(knob).target;

@@ -247,6 +247,10 @@ pub struct Metrics {
     pub asked: [f64; 2],
     /// Friction force over load, positive.
     pub friction_coefficient: f64,
+    /// What body 1 and 2 have yielded since the roughness came up, m³ (of a line m³ per metre of length); `None`: both
+    /// are elastic.
+    #[serde(default)]
+    pub yielded_m3: Option<[f64; 2]>,
     /// Greatest effective stress in the slice (or volume), Pa.
     pub sigma_eff_max_pa: Option<f64>,
     /// Its depth, m.

@@ -33,6 +33,7 @@ mod terrain;
 mod totals;
 mod variant;
 mod watching;
+mod yielded;
 
 pub use caution::{Caution, CautionCode, Grounds};
 pub use error::{SimError, StepError, Unsolved};

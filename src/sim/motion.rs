@@ -2,16 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::door::Door;
-use super::drive::Drive;
-use super::knob::Knob;
 use crate::math::grid::Grid;
 
 /// Travelled ways and the time since the last disturbance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Motion {
-    /// Step in nodes at U.
-    pub(super) nodes: f64,
     /// Way of body 1 and 2, in a.
     pub(super) travelled: [f64; 2],
     /// η0/(p_h × film unit), s/m: shear stress per sliding speed.
@@ -36,9 +31,8 @@ pub(super) struct Way {
 
 impl Motion {
     /// Bodies at their origin.
-    pub(super) fn new(nodes: f64) -> Self {
+    pub(super) fn new() -> Self {
         Self {
-            nodes,
             travelled: [0.0; 2],
             shear_rate: 0.0,
             launched_at: None,
@@ -49,11 +43,7 @@ impl Motion {
 
     /// Whether a motion that was saved is of the same make as this one.
     pub(super) fn fits(&self, saved: &Self) -> bool {
-        // A scene may go on from a contact that was marched in other steps.
-        (saved.nodes > 0.0 && saved.nodes < 1e3)
-            && self.shear_rate == saved.shear_rate
-            && saved.unsettled >= 0.0
-            && saved.lead.1 >= 0.0
+        self.shear_rate == saved.shear_rate && saved.unsettled >= 0.0 && saved.lead.1 >= 0.0
     }
 
     /// Moves both bodies by a step of `nodes` nodes at slide-to-roll ratio `s`.
@@ -90,11 +80,6 @@ impl Motion {
             travelled: self.travelled[body],
             in_passage: self.launched_at.map(|at| self.travelled[body] - at[body]),
         })
-    }
-
-    /// Time of a full step, s.
-    pub(super) fn dt_s(&self, grid: &Grid, door: &Door, drive: &Drive) -> f64 {
-        self.nodes * grid.dx * door.a_m / drive.get(Knob::EntrainmentMS).now
     }
 
     /// Something changed: `time` (a/U) to be steady again.

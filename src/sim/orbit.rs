@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Metrics;
 use super::frame::{Repeat, Rhythm};
+use crate::solve::life::Window;
 
 /// Longest period that is looked for, in a.
 pub(super) const LONGEST: f64 = 16.0;
@@ -143,6 +144,14 @@ impl Orbit {
             }
         };
         true
+    }
+
+    /// What the mean of the life is taken over.
+    pub(super) fn life_window(&self, passage: f64) -> Window {
+        Window {
+            period: self.window(passage),
+            is_open: self.rhythm == Rhythm::Statistics,
+        }
     }
 
     /// Way over which means are taken: whole periods where there are some, at least `passage` long where

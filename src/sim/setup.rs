@@ -19,9 +19,10 @@ use super::stepping::Attempted;
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
 use super::totals::Totals;
+use super::yielded::Yielded;
 use super::{Grounds, Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::strength;
+use crate::physics::strength::{self, Strength};
 use crate::plan::Plan;
 use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
 use crate::solve::march::{Flow, Shape, Solver};
@@ -58,12 +59,15 @@ impl Simulation {
         let regime = Regime::new(&plan, flow, speed_m_s, |flow| {
             tolerance_of(scene, flow, &door)
         });
+        let mut terrain = Terrain::new(&fine, scene.surfaces(), door.a_m, door.heading);
+        let (hardness, yielded) = yielded_of(scene, &fine, &mut terrain);
         let state = State {
             nodes: first,
             contact,
             drive,
             wanted,
             motion: motion_of(scene, &door),
+            yielded,
             watched: [0.0; 2],
             counting: stages.counting,
             life: stages.life,
@@ -85,7 +89,7 @@ impl Simulation {
         let mut this = Self {
             work: Work {
                 solver,
-                terrain: Terrain::new(&fine, scene.surfaces(), door.a_m, door.heading),
+                terrain,
                 stress: stages.stress,
                 traction: vec![0.0; fine.len()],
                 row_sums: vec![RowSums::default(); fine.ny],
@@ -96,6 +100,7 @@ impl Simulation {
             stress_error: stress_error(&plan, [1.0; 2]),
             law: traction_law(scene, &door),
             composite: scene.surfaces().map(rms_share),
+            hardness: hardness.map_or(f64::INFINITY, |pa| door.p_from_pa(pa)),
             grounds: grounds_of(scene),
             plan,
             door,
@@ -154,6 +159,21 @@ fn shape_of(plan: &Plan, door: &Door) -> Shape {
     }
 }
 
+/// Hardness of the softer body, Pa, and what has yielded so far: nothing. `None`: both bodies are elastic.
+fn yielded_of(scene: &Scene, grid: &Grid, terrain: &mut Terrain) -> (Option<f64>, Option<Yielded>) {
+    let Some(hardness) = scene.hardness_pa() else {
+        return (None, None);
+    };
+    let repeats = [0, 1].map(|body: usize| terrain.repeat(body));
+    let yielded = Yielded::new(grid, scene.softer(), repeats);
+    for body in [0, 1] {
+        if yielded.yields(body) {
+            terrain.make_heights(grid, body);
+        }
+    }
+    (Some(hardness), Some(yielded))
+}
+
 /// The knobs as the scene wants them, and as the start-up begins: smooth, and without sliding.
 fn drives(scene: &Scene, plan: &Plan) -> (Drive, Drive) {
     let wanted = Drive::new(|knob| initial(scene, plan, knob));
@@ -165,7 +185,7 @@ fn drives(scene: &Scene, plan: &Plan) -> (Drive, Drive) {
 }
 
 fn motion_of(scene: &Scene, door: &Door) -> Motion {
-    let mut motion = Motion::new(scene.time.step_nodes);
+    let mut motion = Motion::new();
     motion.shear_rate = scene.lubricant.as_ref().map_or(0.0, |oil| {
         oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
     });
@@ -285,7 +305,11 @@ fn counting_spec(scene: &Scene, plan: &Plan, heading: Heading, depths: usize) ->
 fn grounds_of(scene: &Scene) -> Grounds {
     Grounds {
         measure: scene.stress.as_ref().map(|stress| stress.measure),
-        strength: [&scene.body_1, &scene.body_2].map(|body| strength::by_young(body.young_pa)),
+        strength: [&scene.body_1, &scene.body_2].map(|body| match body.hardness_pa {
+            Some(hardness_pa) if hardness_pa.is_finite() => Some(Strength::of(hardness_pa)),
+            _ => strength::by_young(body.young_pa),
+        }),
+        hardness_pa: scene.hardness_pa(),
         has_life: scene.life.is_some(),
         ..Grounds::default()
     }

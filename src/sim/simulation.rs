@@ -57,6 +57,8 @@ pub struct Simulation {
     pub(super) iso_load_ratio: Option<f64>,
     pub(super) stress_error: f64,
     pub(super) composite: [f64; 2],
+    /// Hardness of the softer body over p_h; infinite: both are elastic.
+    pub(super) hardness: f64,
     /// Steps that the summary may have to average over.
     pub(super) most_steps: usize,
     pub(super) pool: Arc<ThreadPool>,
@@ -125,7 +127,7 @@ impl Simulation {
     /// Counts and phases seen so far belong to other conditions. The next step is looked at.
     fn forget_passage(&mut self) {
         self.state.orbit.restart();
-        let window = self.averaged();
+        let window = self.state.orbit.life_window(self.plan.passage_a);
         if let Some(life) = &mut self.state.life {
             life.restart(window);
         }
@@ -152,14 +154,15 @@ impl Simulation {
     fn passage_step(&mut self) -> Result<(), StepError> {
         self.step_smooth()?;
         let before = self.state.way;
-        let held =
-            matches!(self.plan.march, Marching::Steady { .. }) && self.state.motion.is_flushed();
+        // Where a body yields at rest, what enters is flattened anew.
+        let held = matches!(self.plan.march, Marching::Steady { .. })
+            && self.state.motion.is_flushed()
+            && self.door.p_from_pa(self.state.metrics.p_max_pa) < self.hardness * (1.0 - 1e-9);
         if held {
+            let speed = self.state.drive.get(Knob::EntrainmentMS).now;
             self.state.time_s +=
-                self.state
-                    .motion
-                    .dt_s(&self.work.solver.grid, &self.door, &self.state.drive);
-            let held = Attempted::held(&self.state.metrics, self.state.motion.nodes);
+                self.stepping.usual() * self.work.solver.grid.dx * self.door.a_m / speed;
+            let held = Attempted::held(&self.state.metrics, self.stepping.usual());
             // The contact rests, the bodies do not: material points cross it.
             let s = self.state.drive.get(Knob::SlideRoll).now;
             let grid = &self.work.solver.grid;
@@ -185,6 +188,9 @@ impl Simulation {
             self.state.motion.is_flushed(),
         );
         let transforms = self.work.solver.transforms();
+        // The smooth contact that all lives are compared with is elastic.
+        let is_smooth = matches!(self.state.phase, Phase::Smooth { .. });
+        let yielded = self.state.yielded.as_mut().filter(|_| !is_smooth);
         let attempted = self.pool.install(|| {
             Mover {
                 state: &mut self.state.contact,
@@ -196,6 +202,7 @@ impl Simulation {
                 law: &self.law,
                 regime: self.regime,
                 stepping,
+                yielding: yielded.map(|yielded| (self.hardness, yielded)),
             }
             .advance(nodes)
         });
@@ -218,13 +225,13 @@ impl Simulation {
     /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
     fn next_step(&self) -> (Stepping, f64) {
         if let Phase::Settle { coarse: 1.., .. } = self.state.phase {
-            let nodes = super::follow::COARSE * self.state.motion.nodes;
+            let nodes = super::follow::COARSE * self.stepping.usual();
             return (Stepping::Fixed(nodes), nodes);
         }
         if self.state.phase != Phase::Passage {
             return (
-                Stepping::Fixed(self.state.motion.nodes),
-                self.state.motion.nodes,
+                Stepping::Fixed(self.stepping.usual()),
+                self.stepping.usual(),
             );
         }
         let crests = self

@@ -117,7 +117,7 @@ impl Simulation {
             nodes,
             contact,
             drive,
-            motion: Motion::new(self.state.motion.nodes),
+            motion: Motion::new(),
             at,
             left: self.smooth_steps(nodes, self.flows_at(at)),
         }
@@ -136,7 +136,7 @@ impl Simulation {
         let grid = grid_of(&self.plan, nodes, self.door.b_over_a);
         let smooth = Surface::Smooth {};
         let terrain = Terrain::new(&grid, [&smooth, &smooth], self.door.a_m, self.door.heading);
-        let usual = self.state.motion.nodes;
+        let usual = self.stepping.usual();
         let (shape, flow) = (&self.shape, self.flow);
         let solver = self.pool.install(|| Solver::new(grid, shape, usual, flow));
         SmoothWork { solver, terrain }
@@ -152,7 +152,7 @@ impl Simulation {
 
     fn advance_smooth(&mut self, smooth: &mut Smooth) -> Result<(), StepError> {
         let mut work = self.smooth_work(smooth.nodes);
-        let usual = self.state.motion.nodes;
+        let usual = self.stepping.usual();
         let before = work.solver.transforms();
         let attempted = self.pool.install(|| {
             Mover {
@@ -165,6 +165,7 @@ impl Simulation {
                 law: &self.law,
                 regime: self.regime,
                 stepping: Stepping::Fixed(usual),
+                yielding: None,
             }
             .advance(usual)
         });

@@ -74,7 +74,7 @@ impl Simulation {
     }
 
     fn steps_of(&self, time: f64) -> u64 {
-        (time / (self.state.motion.nodes * self.work.solver.grid.dx)).ceil() as u64
+        (time / (self.stepping.usual() * self.work.solver.grid.dx)).ceil() as u64
     }
 
     /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, the
@@ -90,7 +90,7 @@ impl Simulation {
             0.75
         };
         let dx = length / (nodes - 1) as f64;
-        (share * length / (self.state.motion.nodes * dx)).ceil() as u64
+        (share * length / (self.stepping.usual() * dx)).ceil() as u64
     }
 
     /// Way of both bodies, in a, in the smooth part of the start-up.
@@ -99,7 +99,7 @@ impl Simulation {
         climb(&self.plan)
             .map(|nodes| {
                 let dx = length / (nodes - 1) as f64;
-                self.smooth_steps(nodes, self.plan.has_flow()) as f64 * self.state.motion.nodes * dx
+                self.smooth_steps(nodes, self.plan.has_flow()) as f64 * self.stepping.usual() * dx
             })
             .sum()
     }
@@ -109,6 +109,6 @@ impl Simulation {
             .map(|nodes| self.smooth_steps(nodes, self.plan.has_flow()))
             .sum();
         let dx = self.plan.domain.dx_a();
-        smooth + (DEVELOP / (self.state.motion.nodes * dx)).ceil() as u64
+        smooth + (DEVELOP / (self.stepping.usual() * dx)).ceil() as u64
     }
 }

@@ -23,6 +23,7 @@ use super::stepping::place_surfaces;
 use super::stress_stage::StressStage;
 use super::terrain::Terrain;
 use super::totals::Totals;
+use super::yielded::Yielded;
 use super::{MeshErrors, Metrics, SimError, Stats};
 use crate::solve::march::{self, Solver};
 
@@ -36,6 +37,9 @@ pub struct State {
     /// The knobs as they were asked for; in the smooth start-up the drive does not follow yet.
     pub(super) wanted: Drive,
     pub(super) motion: Motion,
+    /// What both bodies have yielded; `None`: they are elastic.
+    #[serde(default)]
+    pub(super) yielded: Option<Yielded>,
     /// Where both bodies were when they were looked at last, in a.
     pub(super) watched: [f64; 2],
     pub(super) counting: Option<Counting>,
@@ -103,7 +107,7 @@ impl Simulation {
     pub(super) fn solve_on(&mut self, nodes: usize) {
         if nodes != self.work.solver.grid.nx {
             let grid = grid_of(&self.plan, nodes, self.door.b_over_a);
-            let usual = self.state.motion.nodes;
+            let usual = self.stepping.usual();
             let (shape, flow) = (&self.shape, self.flow);
             self.work.solver = self.pool.install(|| Solver::new(grid, shape, usual, flow));
         }
@@ -118,6 +122,9 @@ impl Simulation {
         }
         if let Some(life) = &mut state.life {
             life.make_room();
+        }
+        if !matches!(state.phase, Phase::Smooth { .. }) {
+            self.work.solver.yield_at(self.hardness);
         }
     }
 
@@ -154,6 +161,7 @@ impl Simulation {
             &self.state.drive,
             &self.state.motion,
             &self.door,
+            self.state.yielded.as_ref(),
         );
         self.slice_again();
     }

@@ -17,6 +17,7 @@ use super::motion::Motion;
 use super::pace::{Judgement, Stepping};
 use super::regime::Regime;
 use super::terrain::Terrain;
+use super::yielded::Yielded;
 use super::{StepError, Unsolved};
 use crate::solve::march::{Conditions, Flow, Guess, Solver, State};
 use crate::solve::newton::{NewtonReport, Verdict};
@@ -133,6 +134,7 @@ pub(super) fn place_surfaces(
     drive: &Drive,
     motion: &Motion,
     door: &Door,
+    yielded: Option<&Yielded>,
 ) {
     let grid = &solver.grid;
     // Roughness is made for the finest grid; on the coarser ones of the start-up there is none yet.
@@ -148,6 +150,9 @@ pub(super) fn place_surfaces(
     let amplitude = rough.map(|knob| door.h_from_m(drive.get(knob).now));
     for (body, (way, amplitude)) in motion.ways().into_iter().zip(amplitude).enumerate() {
         terrain.place(grid, body, way, amplitude);
+        if let Some(yielded) = yielded {
+            yielded.lower(grid, body, way, &mut terrain.heights[body]);
+        }
     }
     terrain.gap_into(&solver.macroscopic, &mut solver.gap);
 }
@@ -164,6 +169,8 @@ pub(super) struct Mover<'a> {
     pub(super) law: &'a TractionLaw,
     pub(super) regime: Regime,
     pub(super) stepping: Stepping,
+    /// Hardness of the softer body over p_h, and what has yielded; `None`: elastic.
+    pub(super) yielding: Option<(f64, &'a mut Yielded)>,
 }
 
 impl Mover<'_> {
@@ -217,19 +224,21 @@ impl Mover<'_> {
     /// All that comes after the first rung; a step that fails leaves everything as it was `before`, its first parts too.
     fn in_parts(&mut self, nodes: f64, before: (Drive, Motion), done: &mut Attempted) {
         let contact = self.state.clone();
+        let yielded = self.yielded().cloned();
         (*self.drive, *self.motion) = before.clone();
         self.in_halves(nodes, 1, done);
         if done.failure.is_some() {
             *self.state = contact;
             (*self.drive, *self.motion) = before;
-            place_surfaces(
-                self.solver,
-                self.terrain,
-                self.drive,
-                self.motion,
-                self.door,
-            );
+            if let (Some((_, now)), Some(yielded)) = (&mut self.yielding, yielded) {
+                **now = yielded;
+            }
+            self.place_surfaces();
         }
+    }
+
+    fn yielded(&self) -> Option<&Yielded> {
+        self.yielding.as_ref().map(|(_, yielded)| &**yielded)
     }
 
     /// Second rung: two parts of half the length, each from the first rung on.
@@ -303,6 +312,12 @@ impl Mover<'_> {
             done.overlap = done.overlap.max(overlap);
         }
         self.solver.commit(self.state, nodes);
+        if let (Some((_, yielded)), Some(depth)) = (&mut self.yielding, self.solver.yielded())
+            && yielded.take(&self.solver.grid, depth, self.motion.ways())
+        {
+            // The surfaces are seen as the step leaves them.
+            self.place_surfaces();
+        }
         done.nodes += nodes;
         done.dt_s +=
             nodes * self.solver.grid.dx * self.door.a_m / self.drive.get(Knob::EntrainmentMS).now;
@@ -314,12 +329,18 @@ impl Mover<'_> {
         self.drive.walk(nodes * grid.dx);
         self.motion
             .travel(grid, nodes, self.drive.get(Knob::SlideRoll).now);
+        self.place_surfaces();
+    }
+
+    fn place_surfaces(&mut self) {
+        let yielded = self.yielding.as_ref().map(|(_, yielded)| &**yielded);
         place_surfaces(
             self.solver,
             self.terrain,
             self.drive,
             self.motion,
             self.door,
+            yielded,
         );
     }
 
@@ -351,6 +372,8 @@ impl Mover<'_> {
             tolerance: self.regime.tolerance(flow),
         };
         self.solver.flow = flow;
+        let hardness = self.yielding.as_ref().map(|(hardness, _)| *hardness);
+        self.solver.yield_at(hardness.unwrap_or(f64::INFINITY));
         solve(self.solver, self.state, &conditions)
     }
 }

@@ -66,6 +66,16 @@ pub struct Summary {
     pub mass_error: f64,
     /// Friction force over load.
     pub friction_coefficient: f64,
+    /// What body 1 has yielded since the roughness came up, m³ (of a line m³ per metre of length); `None`: both bodies are
+    /// elastic.
+    #[serde(default)]
+    pub yielded_body_1_m3: Option<f64>,
+    /// Same of body 2.
+    #[serde(default)]
+    pub yielded_body_2_m3: Option<f64>,
+    /// Part of both that has flowed in the last passage (or period): near 0 where the bodies are run in; `None`: nothing has.
+    #[serde(default)]
+    pub yielded_last_share: Option<f64>,
     /// Contacts per loading cycle of body 1 by formula.
     pub n_body_1: Option<f64>,
     /// Same for body 2.

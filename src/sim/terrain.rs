@@ -98,8 +98,25 @@ impl Terrain {
         match &mut self.reliefs[body] {
             Some(Relief::Waves(waves)) => waves.heights(grid, way.travelled, amplitude, out),
             Some(Relief::Map(drawn)) => drawn.heights(grid, way, amplitude, out),
-            None => {}
+            None => out.fill(0.0),
         }
+    }
+
+    /// Length after which the relief of body `body` repeats along x, in a; infinite: it is the same all along; `None`: it
+    /// does not repeat, or there is none.
+    pub(super) fn repeat(&self, body: usize) -> Option<f64> {
+        let [one, two] = self.wavenumbers(body).map(f64::abs);
+        let repeats = match self.reliefs[body].as_ref()? {
+            Relief::Waves(_) => one == two,
+            Relief::Map(drawn) => drawn.map.beyond() == Beyond::Repeated,
+        };
+        // 2π/0 is a wave without end.
+        repeats.then(|| std::f64::consts::TAU / one)
+    }
+
+    /// Makes room for the heights of a body that is smooth as long as nothing of it has flowed.
+    pub(super) fn make_heights(&mut self, grid: &Grid, body: usize) {
+        self.heights[body].resize(grid.len(), 0.0);
     }
 
     /// `gap = macroscopic − z1 − z2`.

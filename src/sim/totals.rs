@@ -21,6 +21,9 @@ struct Entry {
     values: [f64; 9],
     /// Greatest effective stress: value, depth, x.
     stress: Option<[f64; 3]>,
+    /// What both bodies have yielded up to its end, m³.
+    #[serde(default)]
+    yielded_m3: f64,
 }
 
 /// What the summary averages over the last passage or period, each step by its length.
@@ -76,6 +79,7 @@ impl Totals {
                 m.contact_load_ratio,
             ],
             stress,
+            yielded_m3: m.yielded_m3.map_or(0.0, |[one, two]| one + two),
         });
         self.not_converged += u64::from(!m.converged);
     }
@@ -98,7 +102,15 @@ impl Totals {
     pub(super) fn ground(&self, grounds: &mut Grounds) {
         grounds.steps_not_converged = self.not_converged;
         grounds.p_max_greatest_pa = self.greatest(2);
+        grounds.yielded_last_share = self.yielded_last_share();
         grounds.sigma_eff_greatest_pa = self.greatest_stress().map(|stress| stress[0]);
+    }
+
+    /// Part of all that has flowed that did so after the first of these steps; `None`: nothing has.
+    fn yielded_last_share(&self) -> Option<f64> {
+        let (first, last) = self.recent.front().zip(self.recent.back())?;
+        let lately = last.yielded_m3 - first.yielded_m3;
+        (last.yielded_m3 > 0.0).then(|| lately / last.yielded_m3)
     }
 
     fn least(&self, k: usize) -> f64 {
@@ -111,7 +123,7 @@ impl Totals {
     }
 }
 
-/// The summary of a simulation.
+/// The summary of a simulation. What only its run knows (name, clock, steps planned, discretisation error) is left out.
 pub(super) fn summary(
     sim: &Simulation,
     totals: &Totals,
@@ -123,14 +135,9 @@ pub(super) fn summary(
     let stress = totals.greatest_stress();
     let stage = sim.state.life.as_ref();
     Summary {
-        scene: String::new(),
         converged: totals.not_converged == 0,
-        stopped: false,
         steps: sim.passage_steps(),
-        steps_planned: None,
         steps_not_converged: totals.not_converged,
-        wall_s: 0.0,
-        steps_per_s: None,
         a_m: sim.plan.hertz.a_m * size,
         p_hertz_pa: sim.plan.hertz.p_max_pa * size,
         h_central_m: totals.mean(0),
@@ -147,6 +154,9 @@ pub(super) fn summary(
         load_error: totals.greatest(5),
         mass_error: totals.greatest(6),
         friction_coefficient: totals.mean(4),
+        yielded_body_1_m3: m.yielded_m3.map(|both| both[0]),
+        yielded_body_2_m3: m.yielded_m3.map(|both| both[1]),
+        yielded_last_share: totals.yielded_last_share(),
         n_body_1: m.n_body_1,
         n_body_2: m.n_body_2,
         n_counted_body_1: m.n_counted_body_1,
@@ -191,15 +201,7 @@ pub(super) fn summary(
         period_s: m.repeat.map(|r| r.period_s),
         period_drift: m.repeat.and_then(|r| r.drift),
         periodic: m.repeat.map(|r| r.repeats),
-        error_h_central_m: None,
-        error_h_min_m: None,
-        error_p_max_pa: None,
-        error_contact_ratio: None,
-        error_contact_load_ratio: None,
-        error_friction_coefficient: None,
-        error_ln_life: None,
-        life_extrapolated: None,
-        h_central_extrapolated_m: None,
+        ..Summary::default()
     }
 }
 

@@ -9,7 +9,7 @@ use crate::physics::fatigue::LifeLaw;
 use crate::physics::life_models::LifeModel;
 use crate::scene::{Life, Spread, VolumeIntegral};
 use crate::solve::critical::shares_of_slice;
-use crate::solve::life::{LifeMeter, Shares, Sweep};
+use crate::solve::life::{LifeMeter, Shares, Sweep, Window};
 use crate::solve::stress::{Loading, StressLaw};
 
 /// A model with its accumulators: plain data, all of it state.
@@ -44,12 +44,12 @@ impl Variant {
         model: LifeModel,
         law: Option<usize>,
         depths: usize,
-        (period, capacity): (f64, usize),
+        (window, capacity): (Window, usize),
     ) -> Self {
         Self {
             model,
             law,
-            meter: LifeMeter::new(depths, period, capacity),
+            meter: LifeMeter::new(depths, window, capacity),
             swept: Shares::new(depths),
             reference: vec![f64::NEG_INFINITY; 4],
             base: vec![f64::NEG_INFINITY; 4],
@@ -95,9 +95,9 @@ impl Variant {
         self.meter.make_room();
     }
 
-    /// Takes the mean over a way of `period` (in a) from now on.
-    pub(super) fn set_period(&mut self, period: f64) {
-        self.meter.set_period(period);
+    /// Takes the mean over `window` (in a) from now on.
+    pub(super) fn set_window(&mut self, window: Window) {
+        self.meter.set_window(window);
     }
 
     /// Whether a variant that was saved is of the same make as this one.

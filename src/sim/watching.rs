@@ -5,6 +5,7 @@ use super::fatigue_stage::Now;
 use super::measure::{Fields, Measured, measure};
 use super::simulation::{Phase, Simulation};
 use super::stepping::Attempted;
+use super::yielded::Yielded;
 use super::{Follow, Knob, LifeEstimate};
 use crate::physics::cycles::BodyId;
 
@@ -41,7 +42,7 @@ impl Simulation {
         };
         let (p, q) = (&self.state.contact.pressure, &self.work.traction);
         let every = self.plan.life.map_or(f64::INFINITY, |life| {
-            life.volume_every_steps as f64 * self.state.motion.nodes * self.work.solver.grid.dx
+            life.volume_every_steps as f64 * self.stepping.usual() * self.work.solver.grid.dx
         });
         // By the way at the step's beginning, so that the first step of a passage is looked at.
         let due =
@@ -98,7 +99,7 @@ impl Simulation {
         if self.state.orbit.listen(frequencies, passage)
             && let Some(life) = &mut self.state.life
         {
-            life.set_period(self.state.orbit.window(passage));
+            life.set_window(self.state.orbit.life_window(passage));
         }
         if self.state.motion.is_flushed() {
             let contact = &self.state.contact;
@@ -161,6 +162,8 @@ impl Simulation {
         m.entrainment_m_s = door.heading.sign() * self.state.drive.get(Knob::EntrainmentMS).now;
         m.p_max_pa = door.pa_from_p(measured.p_max);
         m.friction_coefficient = measured.friction.abs();
+        let volumes = self.state.yielded.as_ref().map(Yielded::volumes);
+        m.yielded_m3 = volumes.map(|both| both.map(|volume| door.m3_from_volume(volume)));
         if let Some(stress) = self.work.stress.as_ref().filter(|_| has_stress) {
             let peak = stress.slice.peak;
             m.sigma_eff_max_pa = Some(door.pa_from_p(peak.value));

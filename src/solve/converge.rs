@@ -72,6 +72,34 @@ pub struct NewtonReport {
     pub worst_node: usize,
 }
 
+impl NewtonReport {
+    /// Nothing done yet.
+    pub(super) fn nothing() -> Self {
+        Self {
+            verdict: Verdict::Stalled,
+            iterations: 0,
+            linear_iterations: 0,
+            evaluations: 0,
+            change: f64::INFINITY,
+            left: f64::INFINITY,
+            film_error: 0.0,
+            mass_error: 0.0,
+            load_error: 0.0,
+            overlap: 0.0,
+            worst_node: 0,
+        }
+    }
+
+    /// Takes what a further solution reached and adds what it took.
+    pub(super) fn add(&mut self, further: &Self) {
+        let before = *self;
+        *self = *further;
+        self.iterations += before.iterations;
+        self.linear_iterations += before.linear_iterations;
+        self.evaluations += before.evaluations;
+    }
+}
+
 /// Estimate of the pressure's error after an iteration that changed it by `change` and the merit by the factor
 /// `reduction`.
 pub(super) fn left_of(change: f64, reduction: f64) -> f64 {

@@ -1,16 +1,17 @@
 //! Dry contact: constrained conjugate gradients on the pressure.
 //!
 //! ```text
-//! find P ≥ 0, H0   with   H = H0 + G + K P ≥ 0,   P H = 0,   ∬P = load
-//! i.e. minimise ½ PᵀKP + GᵀP over P ≥ 0 of that load; −H0 is the multiplier of the load
-//! contact set   C = {P > 0} ∪ {H < 0}
+//! find 0 ≤ P ≤ P_H, H0   with   H = H0 + G + K P ≥ 0 where P < P_H,   P H = 0,   H ≤ 0 where P = P_H,   ∬P = load
+//! i.e. minimise ½ PᵀKP + GᵀP over 0 ≤ P ≤ P_H of that load; −H0 is the multiplier of the load
+//! contact set   C = {0 < P < P_H} ∪ {P = 0, H < 0} ∪ {P = P_H, H > 0}
 //! residual      r = H on C, H0 such that ∬_C r = 0
 //! direction     t = z + β t_old on C,   z = Π M⁻¹ r,   M⁻¹ = F⁻¹[F[·]/K̂] cut to C, Π takes the mean off
-//! step          P ← max(P − τ t, 0) scaled to the load,   τ = rᵀz/tᵀKt
+//! step          P ← max(P − τ t, 0), at most P_H, brought to the load,   τ = rᵀz/tᵀKt
 //! ```
 //! | symbol | meaning | shape |
 //! |---|---|---|
 //! | P, H, G | pressure, gap, undeformed gap without H0 | ny × nx |
+//! | P_H | hardness of the softer body; ∞: both are elastic | scalar |
 //! | K | influence of a cell (`film.rs`), K̂ its symbol | |
 //! | M⁻¹ | elastic inverse on the unpadded periodic grid, single precision | |
 //!
@@ -18,6 +19,7 @@
 //! contact set, pressures below zero cut off, overlapping nodes let in, the search begun anew when the
 //! set changes. What is added is the preconditioner: without it the iterations grow as √N, because the
 //! condition of K on the set grows as N; with it they hardly do. It costs a quarter of a padded pair.
+//! An overlap where P = P_H is the depth by which the softer body gives way for good (`yielding.rs`, source there).
 //! `K P` is carried along (`K P − τ K t`, single precision for `K t`, whose error shrinks with the step)
 //! and made anew in double precision before the result is believed.
 //!
@@ -26,6 +28,8 @@
 //! units of K00, the film that a pressure of 1 on one node makes. Sums run in fixed order: the result is the same
 //! on any number of threads. Order of the discretisation: 2 in the mean, 1.5 in the maximum at a node,
 //! where the sampled edge of the contact rules. Tests: `tests/hertz_dry.rs`, `tests/dry_periodic.rs`.
+
+mod bounds;
 
 use super::film::{Edge, Elastic};
 use super::newton::{Iterate, NewtonReport, Tolerance, Verdict};
@@ -62,6 +66,10 @@ pub struct Dry {
     image: Vec<f32>,
     z: Vec<f32>,
     edge: Edge,
+    /// P_H; infinite: elastic.
+    hardness: f64,
+    /// P and K P before a step between two bounds.
+    before: [Vec<f64>; 2],
 }
 
 /// Sums over the contact set.
@@ -94,6 +102,8 @@ impl Dry {
             image: vec![0.0; n],
             z: vec![0.0; n],
             edge: elastic.edge(),
+            hardness: f64::INFINITY,
+            before: [Vec::new(), Vec::new()],
         }
     }
 
@@ -102,7 +112,7 @@ impl Dry {
         self.inverse.transforms()
     }
 
-    /// Solves from the pressure given, which is the warm start; leaves P, H and H0.
+    /// Solves from the pressure given, which is the warm start; leaves P, H and H0. H is below zero where the body yields.
     ///
     /// `film_error` of the report is the greatest gap or overlap on the contact set, max |r|/K00.
     /// `linear_iterations` of the report counts directions (a deflection in single precision and a
@@ -122,6 +132,7 @@ impl Dry {
         loop {
             fresh_search |= self.judge(problem, iterate);
             self.precondition(grid);
+            self.turn_from_bounds(grid, iterate.p);
             report.change = self.size_of_step(grid) / problem.load;
             report.left = report.change;
             if !report.change.is_finite() {
@@ -141,6 +152,7 @@ impl Dry {
                 break;
             }
             if small || since >= REFRESH {
+                self.bring_back(problem, iterate.p);
                 self.refresh(elastic, iterate.p, &mut report);
                 since = 0;
                 continue;
@@ -156,9 +168,8 @@ impl Dry {
                 self.turn(grid, true);
                 tau = self.line(elastic, grid);
             }
-            fresh_search = self.walk(problem, iterate, tau);
+            fresh_search = self.walk_down(elastic, problem, iterate, tau, &mut report);
             if fresh_search {
-                self.refresh(elastic, iterate.p, &mut report);
                 since = 0;
             }
         }
@@ -201,6 +212,7 @@ impl Dry {
         }
         let scale = problem.load / load;
         iterate.p.iter_mut().for_each(|p| *p *= scale);
+        self.bring_back(problem, iterate.p);
     }
 
     fn total(&self, grid: &Grid, p: &[f64]) -> f64 {
@@ -219,39 +231,26 @@ impl Dry {
     /// H0, contact set and residual; whether the set has changed.
     fn judge(&mut self, problem: &DryProblem, iterate: &mut Iterate) -> bool {
         let grid = problem.grid;
-        let (rows, columns) = (self.rows(grid), self.columns(grid));
+        let hardness = self.hardness;
         // H0 from the loaded nodes, then again with those that overlap.
-        let mut sums = Sums::default();
-        for j in rows.clone() {
-            let mut row = Sums::default();
-            for n in columns.clone().map(|i| j * grid.nx + i) {
-                if iterate.p[n] > 0.0 {
-                    row.area += 1.0;
-                    row.gap += problem.gap[n] + self.deflection[n];
-                }
-            }
-            sums.area += row.area * grid.weight(j);
-            sums.gap += row.gap * grid.weight(j);
-        }
-        let first = -sums.gap / sums.area;
+        let first = self.level(problem, |n, _| {
+            iterate.p[n] > 0.0 && iterate.p[n] < hardness
+        });
+        let first = first.unwrap_or_else(|| -self.least_pressed(problem, iterate.p));
         let mut changed = false;
-        let mut sums = Sums::default();
-        for j in rows.clone() {
-            let mut row = Sums::default();
-            for n in columns.clone().map(|i| j * grid.nx + i) {
-                let gap = problem.gap[n] + self.deflection[n];
-                let inside = iterate.p[n] > 0.0 || gap + first < 0.0;
-                changed |= inside != self.in_contact[n];
-                self.in_contact[n] = inside;
-                if inside {
-                    row.area += 1.0;
-                    row.gap += gap;
-                }
-            }
-            sums.area += row.area * grid.weight(j);
-            sums.gap += row.gap * grid.weight(j);
+        let (rows, columns) = (self.rows(grid), self.columns(grid));
+        for n in rows.flat_map(|j| columns.clone().map(move |i| j * grid.nx + i)) {
+            let film = problem.gap[n] + self.deflection[n] + first;
+            let inside = if iterate.p[n] < hardness {
+                iterate.p[n] > 0.0 || film < 0.0
+            } else {
+                film > 0.0
+            };
+            changed |= inside != self.in_contact[n];
+            self.in_contact[n] = inside;
         }
-        *iterate.h0 = -sums.gap / sums.area;
+        let of_set = self.level(problem, |_, inside| inside);
+        *iterate.h0 = of_set.unwrap_or(first);
         std::mem::swap(&mut self.residual, &mut self.residual_old);
         for (n, r) in self.residual.iter_mut().enumerate() {
             *r = if self.in_contact[n] {
@@ -263,9 +262,32 @@ impl Dry {
         changed
     }
 
+    /// H0 that closes the mean gap of the nodes asked for; `None`: there are none.
+    fn level(&self, problem: &DryProblem, counts: impl Fn(usize, bool) -> bool) -> Option<f64> {
+        let grid = problem.grid;
+        let columns = self.columns(grid);
+        let mut sums = Sums::default();
+        for j in self.rows(grid) {
+            let mut row = Sums::default();
+            for n in columns.clone().map(|i| j * grid.nx + i) {
+                if counts(n, self.in_contact[n]) {
+                    row.area += 1.0;
+                    row.gap += problem.gap[n] + self.deflection[n];
+                }
+            }
+            sums.area += row.area * grid.weight(j);
+            sums.gap += row.gap * grid.weight(j);
+        }
+        (sums.area > 0.0).then(|| -sums.gap / sums.area)
+    }
+
     /// z = Π M⁻¹ r.
     fn precondition(&mut self, grid: &Grid) {
         self.inverse.apply(&self.residual, &mut self.z);
+        self.take_mean_off(grid);
+    }
+
+    fn take_mean_off(&mut self, grid: &Grid) {
         let (mut mean, mut area) = (0.0, 0.0);
         for j in self.rows(grid) {
             let range = j * grid.nx..(j + 1) * grid.nx;
@@ -279,7 +301,11 @@ impl Dry {
             mean += sum * grid.weight(j);
             area += count * grid.weight(j);
         }
-        let mean = (mean / area) as f32;
+        let mean = if area > 0.0 {
+            (mean / area) as f32
+        } else {
+            0.0
+        };
         for (z, &inside) in self.z.iter_mut().zip(&self.in_contact) {
             *z = if inside { *z - mean } else { 0.0 };
         }
@@ -330,9 +356,9 @@ impl Dry {
         slope / curvature
     }
 
-    /// P − τ t, cut at zero and scaled to the load; whether anything was cut.
+    /// P − τ t, cut at its bounds and brought to the load; whether anything was cut.
     fn walk(&mut self, problem: &DryProblem, iterate: &mut Iterate, tau: f64) -> bool {
-        let mut cut = false;
+        let (mut cut, hardness) = (false, self.hardness);
         for ((p, u), (&t, &image)) in iterate
             .p
             .iter_mut()
@@ -344,9 +370,16 @@ impl Dry {
                 if *p < 0.0 {
                     *p = 0.0;
                     cut = true;
+                } else if *p > hardness {
+                    *p = hardness;
+                    cut = true;
                 }
             }
             *u -= tau * f64::from(image);
+        }
+        if hardness.is_finite() {
+            // What is at the bound cannot be scaled, so K P is not scaled with it.
+            return cut;
         }
         let scale = problem.load / self.total(problem.grid, iterate.p);
         for (p, u) in iterate.p.iter_mut().zip(&mut self.deflection) {
@@ -363,33 +396,5 @@ impl Dry {
         }
         let load = self.total(problem.grid, iterate.p);
         report.load_error = (load / problem.load - 1.0).abs();
-    }
-}
-
-impl NewtonReport {
-    /// Nothing done yet.
-    pub(super) fn nothing() -> Self {
-        Self {
-            verdict: Verdict::Stalled,
-            iterations: 0,
-            linear_iterations: 0,
-            evaluations: 0,
-            change: f64::INFINITY,
-            left: f64::INFINITY,
-            film_error: 0.0,
-            mass_error: 0.0,
-            load_error: 0.0,
-            overlap: 0.0,
-            worst_node: 0,
-        }
-    }
-
-    /// Takes what a further solution reached and adds what it took.
-    pub(super) fn add(&mut self, further: &Self) {
-        let before = *self;
-        *self = *further;
-        self.iterations += before.iterations;
-        self.linear_iterations += before.linear_iterations;
-        self.evaluations += before.evaluations;
     }
 }

@@ -69,6 +69,36 @@ impl Jacobian {
         std::array::from_fn(|k| &self.lines[(STENCILS * j + k) * size..][..size])
     }
 
+    /// Makes the film of the held nodes an unknown in place of their pressure (`yielding.rs`): their columns of A_P become
+    /// K00 A_H, those of A_H zero.
+    pub fn exchange(&mut self, grid: &Grid, held: &[bool], k00: f64) {
+        let (nx, size) = (self.nx, STENCIL * self.nx);
+        let row_len = self.row_len();
+        let interior = grid.interior_rows();
+        let rows = self.lines.par_chunks_exact_mut(row_len).enumerate();
+        rows.filter(|(j, _)| interior.contains(j))
+            .for_each(|(j, row)| {
+                let [here, south, north] = around(grid, held, j);
+                let (a_p, rest) = row.split_at_mut(size);
+                let (a_h, local) = rest.split_at_mut(size);
+                let mut turn = |line: usize, i: usize, is_held: bool| {
+                    let n = line * nx + i;
+                    if is_held {
+                        a_p[n] = k00 as f32 * a_h[n];
+                        a_h[n] = 0.0;
+                        local[n] = a_p[n];
+                    }
+                };
+                for i in 1..nx - 1 {
+                    turn(0, i, here[i]);
+                    turn(1, i, here[i - 1]);
+                    turn(2, i, here[i + 1]);
+                    turn(3, i, south[i]);
+                    turn(4, i, north[i]);
+                }
+            });
+    }
+
     /// `out = A_P v + A_H (w + h0)`.
     pub fn apply(&self, grid: &Grid, v: &[f32], w: &[f32], h0: f32, out: &mut [f32]) {
         let nx = grid.nx;
@@ -126,7 +156,7 @@ impl Jacobian {
 }
 
 /// Row `j` of a field and the rows below and above it.
-fn around<'a>(grid: &Grid, field: &'a [f32], j: usize) -> [&'a [f32]; 3] {
+fn around<'a, T>(grid: &Grid, field: &'a [T], j: usize) -> [&'a [T]; 3] {
     let row = |j: usize| &field[j * grid.nx..(j + 1) * grid.nx];
     [row(j), row(grid.row_below(j)), row(grid.row_above(j))]
 }

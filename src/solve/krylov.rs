@@ -44,6 +44,35 @@ pub struct Krylov {
     rhs: Vec<f64>,
     /// wᵀy and the flag that the border is made.
     border_load: f64,
+    pressure: Pressure,
+}
+
+/// The part of a vector that is pressure: at held nodes the unknown is the film (`yielding.rs`).
+#[derive(Default)]
+struct Pressure {
+    held: Vec<bool>,
+    part: Vec<f32>,
+    /// Whether any node is held.
+    parted: bool,
+}
+
+impl Pressure {
+    fn part(&mut self, held: Option<&[bool]>) {
+        self.parted = held.is_some();
+        if let Some(held) = held {
+            self.held.copy_from_slice(held);
+        }
+    }
+
+    fn of<'a>(&'a mut self, v: &'a [f32]) -> &'a [f32] {
+        if !self.parted {
+            return v;
+        }
+        for ((part, &v), &held) in self.part.iter_mut().zip(v).zip(&self.held) {
+            *part = if held { 0.0 } else { v };
+        }
+        &self.part
+    }
 }
 
 impl Krylov {
@@ -62,11 +91,25 @@ impl Krylov {
             rotations: vec![(1.0, 0.0); MAX_ITERATIONS],
             rhs: vec![0.0; MAX_ITERATIONS + 1],
             border_load: 0.0,
+            pressure: Pressure::default(),
         }
     }
 
-    /// Makes the border for a new linearisation: `y = M⁻¹ A_H 1`.
-    pub fn prepare(&mut self, grid: &Grid, jacobian: &Jacobian, precondition: &mut Preconditioner) {
+    /// Makes room for vectors whose entries are not all pressures.
+    pub(super) fn make_room(&mut self, n: usize) {
+        self.pressure.held.resize(n, false);
+        self.pressure.part.resize(n, 0.0);
+    }
+
+    /// Makes the border for a new linearisation: `y = M⁻¹ A_H 1`; `held`: nodes whose unknown is the film.
+    pub fn prepare(
+        &mut self,
+        grid: &Grid,
+        jacobian: &Jacobian,
+        precondition: &mut Preconditioner,
+        held: Option<&[bool]>,
+    ) {
+        self.pressure.part(held);
         self.deflection.fill(0.0);
         self.work.fill(0.0);
         jacobian.apply(
@@ -77,7 +120,7 @@ impl Krylov {
             &mut self.work,
         );
         precondition.apply(grid, jacobian, &self.work, &mut self.border);
-        self.border_load = load_of(grid, &self.border);
+        self.border_load = load_of(grid, self.pressure.of(&self.border));
     }
 
     /// Solves for `v` and the change of H0; `r` is the right-hand side (rows over D, zero on inactive
@@ -98,7 +141,7 @@ impl Krylov {
         let h0_start = -g / self.border_load;
         v.fill(0.0);
         subtract(h0_start as f32, &self.border, v);
-        elastic.deflect_single(v, &mut self.deflection);
+        elastic.deflect_single(self.pressure.of(v), &mut self.deflection);
         jacobian.apply(grid, v, &self.deflection, h0_start as f32, &mut self.work);
         self.basis[0].copy_from_slice(r);
         subtract(1.0, &self.work, &mut self.basis[0]);
@@ -117,7 +160,8 @@ impl Krylov {
         let target = reduction * norm(r).max(start * 1e-3);
         for k in 0..most.min(MAX_ITERATIONS) {
             self.h0s[k] = self.direction(grid, jacobian, precondition, k);
-            elastic.deflect_single(&self.directions[k], &mut self.deflection);
+            let pressure = self.pressure.of(&self.directions[k]);
+            elastic.deflect_single(pressure, &mut self.deflection);
             jacobian.apply(
                 grid,
                 &self.directions[k],
@@ -146,7 +190,7 @@ impl Krylov {
     ) -> f64 {
         let direction = &mut self.directions[k];
         precondition.apply(grid, jacobian, &self.basis[k], direction);
-        let h0 = load_of(grid, direction) / self.border_load;
+        let h0 = load_of(grid, self.pressure.of(direction)) / self.border_load;
         subtract(h0 as f32, &self.border, direction);
         h0
     }

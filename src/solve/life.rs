@@ -10,7 +10,8 @@
 //! every track the greatest stress that passes over it, which is what a material point sees once S ≠ 0, and is
 //! the bound. Integrals are kept and added as logarithms. τ is the length of the step in whatever the period
 //! is given in (time, or distance at U); of the oldest sample counts what lies within the period, so that the mean
-//! of what repeats with the period stands still. Memory is bounded: when the samples of one period do not fit,
+//! of what repeats with the period stands still. What never repeats has no such period: an open window goes on from the
+//! last restart, and its mean comes to rest as 1/way. Memory is bounded: when the samples of one period do not fit,
 //! neighbours are merged in pairs, which leaves the mean as it is. How far ln J has moved of late is kept at marks
 //! an eighth of a period apart. A warm `push` allocates nothing.
 
@@ -74,10 +75,37 @@ struct Phase {
     shares: Shares,
 }
 
-/// Mean over the last period.
+/// Which samples a mean is taken over.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Window {
+    /// Way after which a mean says something; a closed window is as long.
+    pub period: f64,
+    /// Whether older samples stay in the mean: those of what never repeats.
+    pub is_open: bool,
+}
+
+impl Window {
+    /// The last `period`.
+    pub fn closed(period: f64) -> Self {
+        Self {
+            period,
+            is_open: false,
+        }
+    }
+
+    /// All since the last restart, from `period` on.
+    pub fn open(period: f64) -> Self {
+        Self {
+            period,
+            is_open: true,
+        }
+    }
+}
+
+/// Mean over a window.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LifeMeter {
-    period: f64,
+    window: Window,
     phases: VecDeque<Phase>,
     /// Phases that are not in use.
     spare: Vec<Phase>,
@@ -99,15 +127,15 @@ const MARKS: f64 = 8.0;
 const MARKS_KEPT: usize = 17;
 
 impl LifeMeter {
-    /// Meter of `depths` depths over `period`, with memory for `capacity` samples (at least 16).
-    pub fn new(depths: usize, period: f64, capacity: usize) -> Self {
+    /// Meter of `depths` depths over `window`, with memory for `capacity` samples (at least 16).
+    pub fn new(depths: usize, window: Window, capacity: usize) -> Self {
         let capacity = capacity.max(16);
         let empty = Phase {
             span: 0.0,
             shares: Shares::new(depths),
         };
         Self {
-            period,
+            window,
             phases: VecDeque::with_capacity(capacity + 1),
             spare: vec![empty; capacity + 1],
             capacity,
@@ -128,7 +156,7 @@ impl LifeMeter {
         self.capacity == saved.capacity
             && saved.phases.len() + saved.spare.len() == self.capacity + 1
             && saved.phases.iter().all(|phase| phase.span > 0.0)
-            && saved.period > 0.0
+            && saved.window.period > 0.0
             && shares.all(|shares| shares.is_sound(depths))
             && saved.marks.len() <= 2 * MARKS_KEPT
             && saved.marks.len().is_multiple_of(2)
@@ -144,10 +172,10 @@ impl LifeMeter {
             .reserve_exact(marks.saturating_sub(self.marks.len()));
     }
 
-    /// Takes the mean over `period` from now on.
-    pub fn set_period(&mut self, period: f64) {
-        if period != self.period {
-            self.period = period;
+    /// Takes the mean over `window` from now on.
+    pub fn set_window(&mut self, window: Window) {
+        if window != self.window {
+            self.window = window;
             self.forget_marks();
         }
     }
@@ -179,8 +207,9 @@ impl LifeMeter {
         self.total += span;
         self.way += span;
         self.samples = self.samples.saturating_add(1);
-        while let Some(first) = self.phases.front()
-            && self.total - first.span >= self.period * (1.0 - 1e-9)
+        while !self.window.is_open
+            && let Some(first) = self.phases.front()
+            && self.total - first.span >= self.window.period * (1.0 - 1e-9)
         {
             self.total -= first.span;
             self.spare.extend(self.phases.pop_front());
@@ -195,7 +224,7 @@ impl LifeMeter {
     }
 
     fn mark(&mut self) {
-        self.next_mark = self.way + self.period / MARKS;
+        self.next_mark = self.way + self.window.period / MARKS;
         if self.marks.len() == 2 * MARKS_KEPT {
             self.marks.drain(..2);
         }
@@ -208,15 +237,12 @@ impl LifeMeter {
     pub fn moved(&self, periods: f64) -> Option<f64> {
         let back = 2 * (MARKS * periods).round() as usize;
         let recent = self.marks.get(self.marks.len().checked_sub(back + 2)?..)?;
-        let range = |body: usize| {
-            let ln = recent.iter().skip(body).step_by(2);
-            let (low, high) = ln.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), ln| {
-                (low.min(*ln), high.max(*ln))
-            });
-            // Nothing at any time has not moved.
-            if low == high { 0.0 } else { high - low }
-        };
-        Some(range(0).max(range(1)))
+        Some(range(recent))
+    }
+
+    /// Same since the mean first covered a period, two periods back at most; 0 where it has not.
+    pub fn wandered(&self) -> f64 {
+        range(&self.marks)
     }
 
     fn merge_pairs(&mut self) {
@@ -237,7 +263,11 @@ impl LifeMeter {
 
     fn take_mean(&mut self) {
         let all: f64 = self.phases.iter().map(|p| p.span).sum();
-        let beyond = (all - self.period).max(0.0);
+        let beyond = if self.window.is_open {
+            0.0
+        } else {
+            (all - self.window.period).max(0.0)
+        };
         for (i, mean) in self.mean.logs.iter_mut().enumerate() {
             let terms = self.phases.iter().enumerate().map(|(k, phase)| {
                 let outside = if k == 0 { beyond } else { 0.0 };
@@ -247,7 +277,7 @@ impl LifeMeter {
         }
     }
 
-    /// Mean shares of the last period; `None` before the first sample.
+    /// Mean shares over the window; `None` before the first sample.
     pub fn mean(&self) -> Option<&Shares> {
         (!self.phases.is_empty()).then_some(&self.mean)
     }
@@ -260,8 +290,21 @@ impl LifeMeter {
     /// Whether the mean covers a period.
     pub fn covers(&self) -> bool {
         let span: f64 = self.phases.iter().map(|p| p.span).sum();
-        span >= self.period * (1.0 - 1e-9)
+        span >= self.window.period * (1.0 - 1e-9)
     }
+}
+
+/// Greatest difference between marks of one body, the greater of both bodies.
+fn range(marks: &[f64]) -> f64 {
+    let of = |body: usize| {
+        let ln = marks.iter().skip(body).step_by(2);
+        let (low, high) = ln.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), ln| {
+            (low.min(*ln), high.max(*ln))
+        });
+        // Nothing at any time has not moved.
+        if low < high { high - low } else { 0.0 }
+    };
+    of(0).max(of(1))
 }
 
 /// The greatest of every row, or of every depth, over all samples since the last restart.
@@ -356,7 +399,7 @@ mod tests {
     #[test]
     fn mean_is_of_the_integral_over_the_last_period() {
         let law = LifeLaw::default();
-        let mut meter = LifeMeter::new(2, 4.0, 64);
+        let mut meter = LifeMeter::new(2, Window::closed(4.0), 64);
         assert!(meter.mean().is_none());
         for (i, value) in [100.0, 1.0, 2.0, 3.0, 6.0].into_iter().enumerate() {
             meter.push(1.0, &shares(value, 2.0 * value));
@@ -378,8 +421,9 @@ mod tests {
         // 6.4 samples a period: 2 + sin, whose mean is 2 wherever the period begins.
         let period = 6.4;
         let at = |way: f64| 2.0 + (std::f64::consts::TAU * way / period).sin();
-        let (mut still, mut drifting) =
-            (LifeMeter::new(2, period, 64), LifeMeter::new(2, period, 64));
+        let (mut still, mut drifting) = [1, 2]
+            .map(|_| LifeMeter::new(2, Window::closed(period), 64))
+            .into();
         for step in 0..60 {
             let way = f64::from(step) + 0.5;
             still.push(1.0, &shares(at(way), at(way)));
@@ -396,6 +440,37 @@ mod tests {
         assert!(still < 0.02, "{still}");
         let expected = 0.01 * 0.5 * period;
         assert!((drifting - expected).abs() < 0.02, "{drifting} {expected}");
+    }
+
+    #[test]
+    fn the_mean_of_what_never_repeats_comes_to_rest_in_an_open_window() {
+        // Two waves whose lengths have no common multiple, a window of 4: neither fits into it.
+        let at = |way: f64| 2.0 + (1.1 * way).sin() * (1.1 * 2.0_f64.sqrt() * way).sin();
+        let (mut open, mut closed) = (
+            LifeMeter::new(2, Window::open(4.0), 64),
+            LifeMeter::new(2, Window::closed(4.0), 64),
+        );
+        let far = |meter: &LifeMeter| {
+            (meter.mean().expect("sampled").ln(FULL).exp() / 2.0)
+                .ln()
+                .abs()
+        };
+        let (mut most_open, mut most_closed) = (0.0_f64, 0.0_f64);
+        for step in 0..2000 {
+            let way = 0.1 * (f64::from(step) + 0.5);
+            open.push(0.1, &shares(at(way), at(way)));
+            closed.push(0.1, &shares(at(way), at(way)));
+            if way > 12.0 {
+                // What is shown as its error holds the mean of all times, and shrinks.
+                assert!(far(&open) <= open.wandered(), "{way}");
+                most_closed = most_closed.max(far(&closed));
+            }
+            if way > 100.0 {
+                most_open = most_open.max(open.wandered());
+            }
+        }
+        println!("open wanders {most_open:.4}, closed is off by {most_closed:.4}");
+        assert!(most_open < 0.02 && most_closed > 0.1);
     }
 
     #[test]
@@ -419,7 +494,9 @@ mod tests {
 
     #[test]
     fn merging_keeps_the_mean() {
-        let (mut small, mut large) = (LifeMeter::new(2, 1e9, 16), LifeMeter::new(2, 1e9, 4096));
+        let (mut small, mut large) = [16, 4096]
+            .map(|room| LifeMeter::new(2, Window::closed(1e9), room))
+            .into();
         for i in 0..1000 {
             let s = shares(1.0 + f64::from(i % 7), 2.0 + f64::from(i % 5));
             small.push(0.5 + f64::from(i % 3), &s);

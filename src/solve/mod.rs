@@ -25,3 +25,4 @@ pub mod stress;
 mod tally;
 pub mod tangential;
 pub mod traction;
+pub mod yielding;

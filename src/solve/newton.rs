@@ -7,15 +7,20 @@
 //! update    P ← max(P + t v, 0), H0 ← H0 + t h0,  t halved until the natural residual falls
 //! natural residual  φ = min(P, F/D): zero exactly at the solution
 //! ```
+//! Where the softer body yields, P is bounded from above too, and nodes at that bound have their film for unknown
+//! (`yielding.rs`).
 //! Converged when the error that is left in the pressure (estimated, `converge.rs`), the film error
 //! Σ|F|/Σρ̄H over the pressurised nodes, the mass error and the load error are below their tolerances. What is left of F up to
 //! [`CARRIED`] of the film is not lost: the next step takes it over (`march.rs`), so the mass error counts
 //! only what lies beyond. Not converging is a verdict, never a panic; nothing is committed by this file.
 
+mod follow;
+mod judge;
+
 use rayon::prelude::*;
 
 pub use super::converge::{CARRIED, NewtonReport, OVERLAP, Tolerance, Verdict};
-use super::converge::{FIRST_FORCING, Sums, forcing_after, left_of, sum_row};
+use super::converge::{FIRST_FORCING, Sums, forcing_after, left_of};
 use super::film::Elastic;
 use super::jacobian::Jacobian;
 use super::krylov::Krylov;
@@ -24,7 +29,9 @@ use super::precondition::Preconditioner;
 use super::reynolds::{Linearisation, Medium, Reynolds};
 use super::tangential::Shear;
 pub use super::tangential::Sheared;
+use super::yielding::Yielding;
 use crate::math::grid::Grid;
+use judge::Evaluation;
 
 /// Most halvings of the line search.
 const MAX_HALVINGS: u32 = 4;
@@ -69,6 +76,8 @@ pub struct Newton {
     pub precondition: Preconditioner,
     /// Deflection by traction; `None`: the bodies are alike.
     pub shear: Option<Shear>,
+    /// What the softer body yields; `None`: both are elastic.
+    pub yielding: Option<Yielding>,
     jacobian: Jacobian,
     krylov: Krylov,
     active: Vec<bool>,
@@ -83,30 +92,6 @@ pub struct Newton {
     rows: Vec<Sums>,
 }
 
-/// Errors of an evaluation.
-fn note(problem: &Problem, now: &Evaluation, report: &mut NewtonReport) {
-    // Dry: there is no flow whose mass could be lost.
-    (report.film_error, report.mass_error) = if problem.medium.lambda.is_finite() {
-        (now.film_error, now.mass_error)
-    } else {
-        (0.0, 0.0)
-    };
-    report.load_error = (now.load / problem.load - 1.0).abs();
-    report.overlap = now.overlap;
-}
-
-struct Evaluation {
-    merit: f64,
-    /// Merit over that before the iteration.
-    reduction: f64,
-    film_error: f64,
-    mass_error: f64,
-    load: f64,
-    overlap: f64,
-    worst_row: usize,
-    finite: bool,
-}
-
 impl Newton {
     /// Makes all buffers; `s` is the usual effective step, for the preconditioner's symbols.
     pub fn new(grid: &Grid, kappa: f64, s: f64) -> Self {
@@ -118,6 +103,7 @@ impl Newton {
             reynolds: Reynolds::new(grid),
             precondition,
             shear: None,
+            yielding: None,
             jacobian: Jacobian::new(grid),
             krylov: Krylov::new(grid),
             active: vec![false; n],
@@ -133,6 +119,19 @@ impl Newton {
         }
     }
 
+    /// No pressure above `hardness` from now on; infinite: elastic.
+    pub fn yield_at(&mut self, hardness: f64) {
+        let len = self.active.len();
+        if hardness.is_finite() {
+            self.krylov.make_room(len);
+            let yielding = &mut self.yielding;
+            let yielding = yielding.get_or_insert_with(|| Yielding::new(len, hardness));
+            yielding.hardness = hardness;
+        } else {
+            self.yielding = None;
+        }
+    }
+
     /// Transforms made so far.
     pub fn transforms(&self) -> u64 {
         let shear = self.shear.as_ref().map_or(0, Shear::transforms);
@@ -145,16 +144,15 @@ impl Newton {
         if let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) {
             shear.begin(sheared.deflection);
         }
-        self.evaluate(problem, iterate, &mut report);
-        if let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared) {
-            shear.aim(&sheared, iterate.p, iterate.h, problem.tolerance.least_film);
-            shear.follow(iterate.h);
-            self.balance(problem, iterate);
+        if let Some(yielding) = &mut self.yielding {
+            yielding.begin(iterate.p);
         }
+        self.evaluate(problem, iterate, &mut report);
+        self.begin_traction(problem, iterate);
         let mut now = self.judge_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
         loop {
-            note(problem, &now, &mut report);
+            now.note(problem, &mut report);
             report.worst_node = self.worst_node(problem.grid, iterate.p, now.worst_row);
             if !now.finite {
                 report.verdict = Verdict::NotFinite;
@@ -198,42 +196,10 @@ impl Newton {
         if let Some(shear) = &self.shear {
             shear.add_to(iterate.h);
         }
-        self.balance(problem, iterate);
-    }
-
-    /// Lets the deflection by traction follow pressure and film, unless the iterate is solved as it stands but for a small
-    /// part of the film; the evaluation of what then is.
-    fn follow_traction(
-        &mut self,
-        problem: &Problem,
-        iterate: &mut Iterate,
-        (held, base): (Evaluation, f64),
-        report: &mut NewtonReport,
-    ) -> Evaluation {
-        let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared) else {
-            return held;
-        };
-        let tolerance = &problem.tolerance;
-        let way = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
-        let mut new = held;
-        note(problem, &new, report);
-        report.film_error += way;
-        if Self::is_converged(tolerance, report) {
-            new.film_error += way;
-            return new;
+        if let Some(yielding) = &mut self.yielding {
+            yielding.add_to(iterate.p, iterate.h);
         }
-        shear.follow(iterate.h);
-        let lacking = shear.lacking(way);
         self.balance(problem, iterate);
-        let held = new.merit;
-        new = self.judge(problem, iterate);
-        new.film_error += lacking;
-        new.reduction = new.merit / base;
-        report.left = left_of(report.change, new.reduction);
-        if let Some(shear) = &mut self.shear {
-            shear.pace(base, held, new.merit);
-        }
-        new
     }
 
     /// Properties, F and D of pressure and film.
@@ -250,66 +216,6 @@ impl Newton {
             problem.c_star,
             problem.s,
         );
-    }
-
-    /// [`Self::judge`] with the D of this evaluation.
-    fn judge_anew(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
-        self.reference.copy_from_slice(&self.reynolds.diagonal);
-        self.judge(problem, iterate)
-    }
-
-    /// Sums of the evaluation; the merit uses the frozen D in `reference`.
-    fn judge(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
-        let (grid, nx) = (problem.grid, problem.grid.nx);
-        let interior = grid.interior_rows();
-        let (reynolds, reference) = (&self.reynolds, &self.reference);
-        let (p, h): (&[f64], &[f64]) = (iterate.p, iterate.h);
-        let rows = self.rows.par_iter_mut().enumerate().with_min_len(8);
-        rows.filter(|(j, _)| interior.contains(j))
-            .for_each(|(j, row)| {
-                // The boundary has no equation; whether surfaces overlap there is asked by `march.rs`.
-                let here = j * nx + 1..(j + 1) * nx - 1;
-                *row = sum_row(
-                    &reynolds.residual[here.clone()],
-                    &p[here.clone()],
-                    &reference[here.clone()],
-                    &reynolds.densities()[here.clone()],
-                    &h[here],
-                    problem.tolerance.least_film,
-                );
-            });
-        let mut total = Sums::default();
-        let (mut worst_row, mut largest) = (0, 0.0);
-        for j in grid.interior_rows() {
-            let row = &self.rows[j];
-            if row.largest > largest {
-                (worst_row, largest) = (j, row.largest);
-            }
-            total.add(row, grid.weight(j));
-        }
-        let mass = total.mass.max(f64::MIN_POSITIVE);
-        Evaluation {
-            merit: total.merit,
-            reduction: 1.0,
-            film_error: total.film / mass,
-            mass_error: total.lost / mass,
-            load: total.load,
-            overlap: total.overlap,
-            worst_row,
-            finite: total.merit.is_finite() && total.load.is_finite(),
-        }
-    }
-
-    /// Node of the largest |φ|.
-    fn worst_node(&self, grid: &Grid, p: &[f64], row: usize) -> usize {
-        let phi = |n: usize| {
-            p[n].min(self.reynolds.residual[n] / self.reference[n])
-                .abs()
-        };
-        let nodes = row * grid.nx + 1..(row + 1) * grid.nx - 1;
-        nodes
-            .max_by(|&a, &b| phi(a).total_cmp(&phi(b)))
-            .unwrap_or_default()
     }
 
     /// Marks the active nodes, P − F/D > 0 (where a step has lifted the bodies apart those with pressure: an
@@ -329,6 +235,10 @@ impl Newton {
         if !self.active.contains(&true) {
             (0..p.len()).for_each(|n| self.active[n] = p[n] > 0.0);
             self.fixed.fill(0.0);
+        }
+        if let Some(yielding) = &mut self.yielding {
+            let k00 = self.elastic.k00;
+            yielding.split((p, f, d), k00, &self.active, &mut self.fixed);
         }
         self.fixed.iter().any(|&v| v != 0.0)
     }
@@ -360,10 +270,14 @@ impl Newton {
             &self.active,
             &mut self.rhs,
         );
+        let held = self.yielding.as_ref().and_then(Yielding::held);
         let mut missing = problem.load - load;
         if any_fixed {
             self.elastic
                 .deflect_single(&self.fixed, &mut self.fixed_deflection);
+            if let Some(held) = held {
+                clear(held, &mut self.fixed_deflection);
+            }
             self.jacobian.apply(
                 grid,
                 &self.fixed,
@@ -376,16 +290,23 @@ impl Newton {
             }
             missing -= grid.integrate(|n| f64::from(self.fixed[n]));
         }
+        if let Some(held) = held {
+            self.jacobian.exchange(grid, held, self.elastic.k00);
+        }
+        let pressed = self
+            .yielding
+            .as_ref()
+            .map_or(&self.active[..], Yielding::pressed);
         self.precondition.prepare(
             grid,
             &self.jacobian,
             &self.reynolds.row_scale,
             &self.reynolds.conductance,
-            &self.active,
+            (pressed, held),
             self.elastic.k00,
         );
         self.krylov
-            .prepare(grid, &self.jacobian, &mut self.precondition);
+            .prepare(grid, &self.jacobian, &mut self.precondition, held);
         let linear = self.krylov.solve(
             grid,
             &mut self.elastic,
@@ -398,6 +319,9 @@ impl Newton {
             &mut self.v,
         );
         report.linear_iterations += linear.iterations as u32;
+        if let Some(held) = held {
+            clear(held, &mut self.fixed);
+        }
         for (v, &fixed) in self.v.iter_mut().zip(&self.fixed) {
             *v += fixed;
         }
@@ -413,11 +337,19 @@ impl Newton {
         report: &mut NewtonReport,
     ) -> Evaluation {
         self.old_p.copy_from_slice(iterate.p);
+        if let Some(yielding) = &mut self.yielding {
+            yielding.accept(iterate.h);
+        }
         let base = self.judge_anew(problem, iterate).merit;
         let old_h0 = *iterate.h0;
         let mut t = 1.0;
         for halving in 0..=MAX_HALVINGS {
-            let (moved, total) = move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
+            let (mut moved, mut total) =
+                move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
+            if let Some(yielding) = &mut self.yielding {
+                let films = (&self.v[..], self.elastic.k00);
+                (moved, total) = yielding.bound(&self.old_p, films, t, iterate.p);
+            }
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
             self.evaluate(problem, iterate, report);
@@ -430,5 +362,12 @@ impl Newton {
             t *= 0.5;
         }
         unreachable!("the last halving returns")
+    }
+}
+
+/// Zero at the nodes that are held.
+fn clear(held: &[bool], values: &mut [f32]) {
+    for (value, &held) in values.iter_mut().zip(held) {
+        *value = if held { 0.0 } else { *value };
     }
 }

@@ -91,14 +91,15 @@ impl Preconditioner {
         }
     }
 
-    /// Takes a new linearisation: line factors, bin weights, scales.
+    /// Takes a new linearisation: line factors, bin weights, scales; `active`: nodes whose pressure is unknown, `held`:
+    /// those whose film is (`yielding.rs`).
     pub fn prepare(
         &mut self,
         grid: &Grid,
         jacobian: &Jacobian,
         diagonal: &[f64],
         conductance: &[f64],
-        active: &[bool],
+        (active, held): (&[bool], Option<&[bool]>),
         k00: f64,
     ) {
         let nx = grid.nx;
@@ -113,6 +114,10 @@ impl Preconditioner {
                 extra,
                 scale,
             );
+        }
+        // There the film is the unknown, and no deformation rules it.
+        for (extra, &held) in self.extra.iter_mut().zip(held.unwrap_or_default()) {
+            *extra = if held { 0.0 } else { *extra };
         }
         let bins = self.bins.len();
         let (first, last) = (self.bins[1], self.bins[bins - 1]);

@@ -241,6 +241,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
     let peak_factor = 0.2 + 0.6 * (1.0 - settling);
     let life_relative = cycle_factor * peak_factor * 0.9;
     Metrics {
+        yielded_m3: None,
         converged: true,
         residual: 4e-4 * (1.5 + wobble),
         newton_iterations: 3 + u32::from(wobble > 0.5),

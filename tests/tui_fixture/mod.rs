@@ -290,6 +290,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
     Metrics {
         converged: state.converged,
         residual: if state.converged { 3.1e-4 } else { 4.7e-2 },
+        yielded_m3: None,
         newton_iterations: 4,
         linear_iterations: 31,
         retries: if state.converged { 0 } else { 3 },

@@ -8,7 +8,7 @@ mod drawing;
 mod npz;
 mod png;
 
-use std::fs::File;
+use std::fs::{File, TryLockError};
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,6 +33,8 @@ pub enum Format {
 #[derive(Debug)]
 pub struct Export {
     folder: PathBuf,
+    /// Held while it is written into. Where the system knows no locks there is none to respect.
+    _lock: Option<File>,
     /// The folder was not there before.
     is_new: bool,
     overwrite: Overwrite,
@@ -57,6 +59,12 @@ impl Export {
         let is_new = !folder.exists();
         std::fs::create_dir_all(folder)
             .map_err(|error| failed(format!("the folder cannot be made: {error}")))?;
+        let lock = File::open(folder).ok().filter(|_| cfg!(unix));
+        if let Some(Err(TryLockError::WouldBlock)) = lock.as_ref().map(File::try_lock) {
+            let reason =
+                "another run is writing into it; wait for its end or choose another folder";
+            return Err(failed(reason.to_owned()));
+        }
         let mut entries = std::fs::read_dir(folder)
             .map_err(|error| failed(format!("the folder cannot be read: {error}")))?;
         if overwrite == Overwrite::Refuse && entries.next().is_some() {
@@ -71,6 +79,7 @@ impl Export {
         overwrite.check(&scene)?;
         Ok(Self {
             folder: folder.to_owned(),
+            _lock: lock,
             is_new,
             overwrite,
             formats: formats.to_vec(),

@@ -14,6 +14,8 @@ use rerun::external::re_log_encoding::{CrateVersion, DecoderApp, Encoder, Encodi
 use rerun::log::Chunk;
 use rerun::{ComponentIdentifier, EntityPath, SizeBytes as _};
 
+use super::text::REACH;
+
 /// A chunk has so many bytes, by its entity's first row ...
 const CHUNK_BYTES: u64 = 1024 * 1024;
 /// ... and so many rows at most: the library's own bound.
@@ -62,6 +64,7 @@ fn write(from: &Path, to: &Path, more: Vec<Chunk>) -> Result<(), String> {
         store: None,
         strands: Vec::new(),
         places: HashMap::new(),
+        reach: None,
     };
     for message in messages {
         binder.take(&message.map_err(|error| words(&error))?)?;
@@ -94,6 +97,8 @@ struct Binder {
     /// In the order of their first rows, so that files are made alike.
     strands: Vec<Strand>,
     places: HashMap<Kind, usize>,
+    /// How far the recording goes, as it was told last.
+    reach: Option<LogMsg>,
 }
 
 impl Binder {
@@ -121,6 +126,10 @@ impl Binder {
         }
         self.store.get_or_insert_with(|| store.clone());
         let chunk = Chunk::from_arrow_msg(arrow).map_err(|error| error.to_string())?;
+        if chunk.entity_path().to_string().trim_start_matches('/') == REACH {
+            self.reach = Some(message.clone());
+            return Ok(());
+        }
         if chunk.is_static() || chunk.num_rows() == 0 {
             return self.append(message);
         }
@@ -167,7 +176,10 @@ impl Binder {
     }
 
     fn end(&mut self) -> Result<(), String> {
-        (0..self.strands.len()).try_for_each(|place| self.send(place))
+        (0..self.strands.len()).try_for_each(|place| self.send(place))?;
+        self.reach
+            .take()
+            .map_or(Ok(()), |reach| self.append(&reach))
     }
 }
 

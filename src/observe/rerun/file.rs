@@ -122,7 +122,10 @@ impl RecordingFile {
 
     /// A step is in it: from now on it is worth its name.
     pub(super) fn hold(&self) {
-        self.lock().placed.hold();
+        let mut state = self.lock();
+        if let Err(error) = state.placed.hold() {
+            state.fail(&error.to_string());
+        }
     }
 
     /// Where it is written.

@@ -13,6 +13,16 @@ use rerun::log::{Chunk, ChunkError, ChunkId};
 use rerun::{ComponentDescriptor, EntityPath, LineStrips2D, Mesh3D, SerializedComponentColumn};
 
 use super::moment::{Moment, time_columns};
+use super::weight::Density;
+
+/// What a row adds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Added {
+    /// Bytes in memory.
+    pub(super) bytes: usize,
+    /// What they will take of the finished file.
+    pub(super) weight: f64,
+}
 
 /// Values, and where each row ends.
 #[derive(Debug)]
@@ -101,6 +111,7 @@ pub(super) struct Images<T> {
     rows: Rows,
     buffer: ComponentDescriptor,
     pixels: Column<T>,
+    density: Density,
 }
 
 impl<T: ArrowNativeType> Images<T> {
@@ -110,16 +121,22 @@ impl<T: ArrowNativeType> Images<T> {
             rows: Rows::of(entity),
             buffer,
             pixels: Column::default(),
+            density: Density::default(),
         }
     }
 
-    /// Adds a picture; how many bytes it has.
-    pub(super) fn push(&mut self, at: Moment, fill: impl FnOnce(&mut Vec<T>)) -> usize {
-        let before = self.pixels.values.len();
+    /// Adds a picture.
+    pub(super) fn push(&mut self, at: Moment, fill: impl FnOnce(&mut Vec<T>)) -> Added {
         self.rows.moments.push(at);
-        fill(self.pixels.values());
+        let pixels = self.pixels.values();
+        let before = pixels.len();
+        fill(pixels);
         self.pixels.end_row();
-        (self.pixels.values.len() - before) * size_of::<T>()
+        let row = &self.pixels.values[before..];
+        Added {
+            bytes: size_of_val(row),
+            weight: self.density.weigh(row),
+        }
     }
 
     /// Takes what is there as a chunk.
@@ -148,6 +165,7 @@ pub(super) struct Sheets {
     /// x, y and z of each vertex; none for a mesh that stays where it is.
     positions: Column<f32>,
     colours: Column<u32>,
+    densities: [Density; 2],
 }
 
 impl Sheets {
@@ -157,21 +175,29 @@ impl Sheets {
             rows: Rows::of(entity),
             positions: Column::default(),
             colours: Column::default(),
+            densities: Default::default(),
         }
     }
 
-    /// Adds an update; how many bytes it has. All of an entity's either have positions or have none.
+    /// Adds an update. All of an entity's either have positions or have none.
     pub(super) fn push(
         &mut self,
         at: Moment,
         fill: impl FnOnce(&mut Vec<f32>, &mut Vec<u32>),
-    ) -> usize {
-        let before = self.positions.values.len() + self.colours.values.len();
+    ) -> Added {
         self.rows.moments.push(at);
-        fill(self.positions.values(), self.colours.values());
+        let (positions, colours) = (self.positions.values(), self.colours.values());
+        let before = (positions.len(), colours.len());
+        fill(positions, colours);
         self.positions.end_row();
         self.colours.end_row();
-        4 * (self.positions.values.len() + self.colours.values.len() - before)
+        let positions = &self.positions.values[before.0..];
+        let colours = &self.colours.values[before.1..];
+        let [of_positions, of_colours] = &mut self.densities;
+        Added {
+            bytes: size_of_val(positions) + size_of_val(colours),
+            weight: of_positions.weigh(positions) + of_colours.weigh(colours),
+        }
     }
 
     /// Takes what is there as a chunk.
@@ -205,6 +231,7 @@ pub(super) struct Strips {
     pen: Pen,
     /// Curves up to the end of each row.
     ends: Vec<usize>,
+    density: Density,
 }
 
 /// Draws curves.
@@ -246,17 +273,22 @@ impl Strips {
                 points: Column::default(),
             },
             ends: Vec::new(),
+            density: Density::default(),
         }
     }
 
-    /// Adds the curves of a moment; how many bytes they have.
-    pub(super) fn push(&mut self, at: Moment, fill: impl FnOnce(&mut Pen)) -> usize {
+    /// Adds the curves of a moment.
+    pub(super) fn push(&mut self, at: Moment, fill: impl FnOnce(&mut Pen)) -> Added {
         let before = self.pen.points.values().len();
         self.rows.moments.push(at);
         fill(&mut self.pen);
         self.pen.lift();
         self.ends.push(self.pen.points.ends.len());
-        size_of::<f32>() * (self.pen.points.values.len() - before)
+        let row = &self.pen.points.values[before..];
+        Added {
+            bytes: size_of_val(row),
+            weight: self.density.weigh(row),
+        }
     }
 
     /// Takes what is there as a chunk.
@@ -326,10 +358,10 @@ mod tests {
         let component = SegmentationImage::descriptor_buffer();
         let mut images = Images::new(entity(), component.clone());
         for (step, picture) in (1..).zip(pictures) {
-            let bytes = images.push(moment(step), |pixels| {
+            let added = images.push(moment(step), |pixels| {
                 pixels.extend(picture.iter().map(|pixel| pixel.to_le()));
             });
-            assert_eq!(bytes, 2 * picture.len());
+            assert_eq!(added.bytes, 2 * picture.len());
         }
         let chunk = images.take().expect("pictures").expect("a chunk");
         assert_eq!((chunk.num_rows(), chunk.timelines().len()), (3, 3));

@@ -21,6 +21,8 @@ pub(super) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
 pub(super) const FILM: &str = "kymograph/film_y0_um";
 /// Most rows of the picture; longer runs keep every 2nd, 3rd, … step.
 const ROWS: usize = 512;
+/// Part of the recording's budget for the picture as it grows; its last state comes at the end.
+const ON_THE_WAY: f64 = 0.05;
 
 /// What a kymograph shows.
 #[derive(Debug, Clone, Copy)]
@@ -83,6 +85,8 @@ pub(super) struct Kymograph {
     axes_for: u64,
     step_s: f64,
     first_step: Option<u64>,
+    /// Rows that may still be written before the end.
+    spare_rows: usize,
 }
 
 impl Kymograph {
@@ -93,6 +97,7 @@ impl Kymograph {
         shown: Shown,
         expected_steps: f64,
         step_s: f64,
+        budget_bytes: f64,
     ) -> Result<Self, ObserveError> {
         let steps = expected_steps.clamp(1.0, 1e6).ceil() as usize;
         let every = steps.div_ceil(ROWS).max(1);
@@ -128,7 +133,13 @@ impl Kymograph {
             axes_for: 0,
             step_s,
             first_step: None,
+            spare_rows: (ON_THE_WAY * budget_bytes / (2 * geometry.nx) as f64) as usize,
         })
+    }
+
+    /// Bytes of the picture when it is full.
+    pub(super) fn full_bytes(&self) -> usize {
+        2 * self.geometry.nx * self.most_rows
     }
 
     pub(super) fn plot(&self) -> &PlotBox {
@@ -173,7 +184,12 @@ impl Kymograph {
         let due = self.rows_logged == 0
             || self.rows >= self.rows_logged + self.most_rows.div_ceil(8)
             || (self.rows == self.most_rows && self.rows > self.rows_logged);
-        if due { self.log(stream) } else { Ok(()) }
+        if due && self.rows <= self.spare_rows {
+            self.spare_rows -= self.rows;
+            self.log(stream)
+        } else {
+            Ok(())
+        }
     }
 
     /// Logs the picture as it is now.

@@ -25,7 +25,9 @@ mod layout;
 mod live;
 mod maps;
 mod mesh;
+mod message;
 mod moment;
+mod note;
 mod plot;
 mod properties;
 mod raster;
@@ -38,6 +40,7 @@ mod stream;
 mod text;
 mod trace;
 mod waiting;
+mod weight;
 
 pub use live::Live;
 pub use properties::note_summary;

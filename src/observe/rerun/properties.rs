@@ -79,7 +79,7 @@ pub(super) fn log_scene(stream: &Stream, context: &RunContext) -> Result<(), Obs
 
 /// The scalars of the last frame; a frame itself goes back to where it is filled again.
 pub(super) struct Last {
-    step: u64,
+    pub(super) step: u64,
     p_hertz_pa: f64,
     metrics: Metrics,
 }

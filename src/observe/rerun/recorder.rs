@@ -19,6 +19,9 @@ use crate::observe::{
 use crate::scene::{Record, Scene};
 use crate::sim::{Frame, Stage};
 
+/// Steps that did not converge that are listed one by one.
+const MOST_UNCONVERGED: u64 = 200;
+
 /// Writes a recording.
 pub struct Recorder {
     stream: Stream,
@@ -30,6 +33,12 @@ pub struct Recorder {
     early: Vec<RunEvent>,
     program: String,
     last: Option<properties::Last>,
+    /// Knobs turned so far.
+    turns: u64,
+    /// Steps that did not converge so far.
+    unconverged: u64,
+    /// What the file was told last of how far it goes: steps and turns.
+    told: (u64, u64),
     frames: u64,
     /// Where the last frame was: events come between frames.
     passages: f64,
@@ -75,6 +84,9 @@ impl Recorder {
             early: Vec::new(),
             program: String::new(),
             last: None,
+            turns: 0,
+            unconverged: 0,
+            told: (0, 0),
             frames: 0,
             passages: 0.0,
             unsent: 0,
@@ -111,9 +123,15 @@ impl Recorder {
             views.series.follow(frame);
         }
         views.follow(frame);
+        let before = stream.weight();
         if due.fields {
             views.log(stream, frame)?;
             text::log_now(stream, frame, &self.caption, &views.beyond())?;
+            views.cadence.took(stream.weight() - before);
+        }
+        let weight = stream.weight() + views.series.weight();
+        if let Some(note) = views.cadence.watch(frame.step, weight) {
+            text::log_line(stream, &note, TextLogLevel::WARN)?;
         }
         Ok(())
     }
@@ -123,9 +141,36 @@ impl Recorder {
         let first = format!("recorded by {}; {}", self.program, text::CAUTION);
         text::log_line(&self.stream, &first, TextLogLevel::INFO)?;
         for event in std::mem::take(&mut self.early) {
-            text::log_event(&self.stream, &event)?;
+            self.log_event(&event)?;
         }
         Ok(())
+    }
+
+    fn log_event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        if let RunEventKind::NotConverged { .. } = event.kind {
+            self.unconverged += 1;
+            if self.unconverged > MOST_UNCONVERGED {
+                return Ok(());
+            }
+        }
+        text::log_event(&self.stream, event, self.turns)?;
+        self.turns += u64::from(matches!(event.kind, RunEventKind::Set { .. }));
+        if self.unconverged == MOST_UNCONVERGED {
+            let rest = "further steps that do not converge are in the series and not in this log";
+            self.unconverged += 1;
+            return text::log_line(&self.stream, rest, TextLogLevel::WARN);
+        }
+        Ok(())
+    }
+
+    /// Tells how far it goes, after what it goes through.
+    fn log_reach(&mut self, ended: bool) -> Result<(), ObserveError> {
+        let now = (self.last.as_ref().map_or(0, |last| last.step), self.turns);
+        if self.stream.is_live() || (now == self.told && !ended) {
+            return Ok(());
+        }
+        self.told = now;
+        text::log_reach(&self.stream, now.0, now.1, ended)
     }
 }
 
@@ -144,7 +189,8 @@ impl Recorder {
         if let Some(views) = &mut self.views {
             views.series.send(&self.stream)?;
         }
-        self.stream.send_on()
+        self.stream.send_on()?;
+        self.log_reach(false)
     }
 }
 
@@ -174,19 +220,11 @@ impl Observer for Recorder {
         if self.stream.is_due() || self.views.as_ref().is_some_and(full) {
             self.send_on()?;
         }
-        self.stream.check()?;
         if let Some(file) = self.stream.to().file() {
             file.hold();
         }
+        self.stream.check()?;
         self.frames += 1;
-        let on_disk = self.stream.bytes();
-        let thinned = self
-            .views
-            .as_mut()
-            .and_then(|views| views.cadence.watch(frame.step, on_disk));
-        if let Some(note) = thinned {
-            text::log_line(&self.stream, &note, TextLogLevel::WARN)?;
-        }
         Ok(())
     }
 
@@ -207,7 +245,7 @@ impl Observer for Recorder {
         }
         let now = Moment::new(event.step, event.time_s, self.passages);
         self.stream.set_time(now);
-        text::log_event(&self.stream, event)
+        self.log_event(event)
     }
 
     /// A run that pauses keeps nothing back.
@@ -229,8 +267,8 @@ impl Observer for Recorder {
         if let Some(views) = &mut self.views
             && !self.stream.is_gone()
         {
-            if let Some(last) = self.last.take() {
-                properties::log_result(&self.stream, &last, clipped)?;
+            if let Some(last) = &self.last {
+                properties::log_result(&self.stream, last, clipped)?;
             }
             for kymograph in &mut views.kymographs {
                 kymograph.log(&self.stream)?;
@@ -242,6 +280,9 @@ impl Observer for Recorder {
                 let told = format!("values that could not be stored as they are: {clipped_words}");
                 text::log_line(&self.stream, &told, TextLogLevel::WARN)?;
             }
+        }
+        if !self.stream.is_gone() {
+            self.log_reach(true)?;
         }
         self.stream.close()?;
         let (stream, frames) = (&self.stream, self.frames);
@@ -274,6 +315,7 @@ impl Drop for Recorder {
         {
             // Nobody is left to tell; `finish` was the place to see errors.
             drop(views.series.send(&self.stream));
+            drop(self.log_reach(false));
         }
     }
 }

@@ -1,67 +1,16 @@
 //! Reads back from a recording what repeats its run: the scene, the knobs turned by hand with the number of
 //! steps made before each, and the last step.
 //!
-//! A file that breaks off (a killed run) is read up to there.
+//! A file that breaks off (a killed run) is read up to there. One that the recorder had closed says so at its end, so
+//! that what was cut off or damaged afterwards is no killed run.
 
 use std::path::Path;
 
-use rerun::external::re_log_encoding::DecoderApp;
-use rerun::log::{Chunk, LogMsg};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::moment::STEP;
-use super::text::{COMMANDS, ORIGIN, SCENE_TOML};
+use super::message::{self, Ends};
+use super::note::Note;
 use crate::observe::{Began, SetBy};
-
-/// Version of what a recording holds for repeating its run; those before it was counted are 0.
-const FORMAT: u32 = 1;
-
-/// What a recording says of itself.
-#[derive(Debug, Serialize, Deserialize)]
-struct Head<T> {
-    #[serde(default)]
-    format: u32,
-    #[serde(flatten)]
-    origin: T,
-}
-
-/// How a run began, as the recording holds it.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Origin {
-    pub(super) program: String,
-    pub(super) began: Began,
-}
-
-/// A knob that was turned, as the recording holds it.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct CommandLine {
-    pub(super) steps_made: u64,
-    pub(super) key: String,
-    pub(super) value: f64,
-    pub(super) by: SetBy,
-}
-
-impl Origin {
-    pub(super) fn to_text(&self) -> String {
-        let format = FORMAT;
-        to_json(&Head {
-            format,
-            origin: self,
-        })
-    }
-}
-
-impl CommandLine {
-    pub(super) fn to_text(&self) -> String {
-        to_json(self)
-    }
-}
-
-/// Strings, numbers and unit variants: nothing that JSON could not hold.
-fn to_json(value: &impl Serialize) -> String {
-    serde_json::to_string(value).unwrap_or_default()
-}
 
 /// A knob turned by hand.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,6 +34,10 @@ pub struct Recorded {
     pub turns: Vec<RecordedTurn>,
     /// The last step that the file holds.
     pub last_step: u64,
+    /// Where and why the file breaks off, in words; `None`: its recorder closed it.
+    pub broken_off: Option<String>,
+    /// Messages that cannot be read; nothing that repeats the run is in them.
+    pub unreadable: u64,
 }
 
 /// A recording that cannot be repeated.
@@ -101,105 +54,109 @@ impl Recorded {
     /// Reads a recording of a run or of the explorer.
     ///
     /// # Errors
-    /// [`RereadError`] when the file cannot be read, is no recording of this program, holds no step, or
-    /// began from a saved state, which it does not hold.
+    /// [`RereadError`] when the file cannot be read, is no recording of this program, is damaged where it matters, holds
+    /// no step, or began from a saved state, which it does not hold.
     pub fn read(path: &Path) -> Result<Self, RereadError> {
         let refused = |reason: String| RereadError {
             path: path.display().to_string(),
             reason,
         };
-        let file = crate::files::open_plain(path)
-            .map_err(|error| refused(format!("cannot be read: {error}")))?;
-        let found = Found::read(std::io::BufReader::new(file)).map_err(refused)?;
-        let (Some(scene_toml), Some(origin)) = (found.scene_toml, found.origin) else {
-            return Err(refused("no recording that asperity made".to_owned()));
-        };
-        let Head { format, origin } = serde_json::from_str::<Head<Origin>>(&origin)
-            .map_err(|error| refused(format!("its origin cannot be read: {error}")))?;
-        if format > FORMAT {
-            return Err(refused(format!(
-                "a later version made it, {}",
-                origin.program
-            )));
-        }
-        if origin.began == Began::FromState {
-            let reason = "it went on from a saved state, which a recording does not hold; repeat it with \
-                          --from-state";
-            return Err(refused(reason.to_owned()));
-        }
-        if found.last_step == 0 {
-            return Err(refused("it holds no step".to_owned()));
-        }
-        let mut turns = Vec::with_capacity(found.commands.len());
-        for text in &found.commands {
-            let line: CommandLine = serde_json::from_str(text)
-                .map_err(|error| refused(format!("a command cannot be read: {error}")))?;
-            if line.by == SetBy::Hand {
-                turns.push(RecordedTurn {
-                    steps_made: line.steps_made,
-                    key: line.key,
-                    value: line.value,
-                });
-            }
-        }
-        Ok(Self {
-            program: origin.program,
-            scene_toml,
-            turns,
-            last_step: found.last_step,
+        let unread = |error: std::io::Error| refused(format!("cannot be read: {error}"));
+        let file = crate::files::open_plain(path).map_err(unread)?;
+        let bytes = file.metadata().map_err(unread)?.len();
+        let mut found = Found::default();
+        let file = std::io::BufReader::new(file);
+        let (ends, unreadable) = message::read(file, bytes, |data| {
+            Note::all_in(data, |note| found.take_up(note));
         })
+        .map_err(refused)?;
+        found.judge(&ends, bytes, unreadable).map_err(refused)
     }
 }
 
-/// What is in the file, as it is there.
+/// What is in the file.
 #[derive(Default)]
 struct Found {
-    scene_toml: Option<String>,
-    origin: Option<String>,
-    commands: Vec<String>,
-    last_step: u64,
+    origin: Option<(String, Began, String)>,
+    /// By the number turned before it.
+    turns: Vec<(u64, SetBy, RecordedTurn)>,
+    /// Last step, knobs turned, whether it was closed.
+    reach: Option<(u64, u64, bool)>,
 }
 
 impl Found {
-    fn read(reader: impl std::io::BufRead) -> Result<Self, String> {
-        let mut found = Self::default();
-        let messages = DecoderApp::decode_eager(reader)
-            .map_err(|error| format!("no Rerun recording: {error}"))?;
-        for message in messages {
-            // From where the file breaks off nothing more can be read.
-            let Ok(message) = message else { break };
-            if let LogMsg::ArrowMsg(store, message) = message
-                && store.is_recording()
-            {
-                let chunk = Chunk::from_arrow_msg(&message).map_err(|error| error.to_string())?;
-                found.take_up(&chunk);
+    fn take_up(&mut self, note: Note) {
+        match note {
+            Note::Origin {
+                program,
+                began,
+                scene_toml,
+            } => self.origin = Some((program, began, scene_toml)),
+            Note::Turn {
+                n,
+                steps_made,
+                key,
+                value,
+                by,
+            } => {
+                let turn = RecordedTurn {
+                    steps_made,
+                    key,
+                    value,
+                };
+                self.turns.push((n, by, turn));
             }
+            Note::Reach {
+                last_step,
+                turns,
+                ended,
+            } => self.reach = Some((last_step, turns, ended)),
         }
-        Ok(found)
     }
 
-    fn take_up(&mut self, chunk: &Chunk) {
-        let entity = chunk.entity_path().to_string();
-        let document = rerun::TextDocument::descriptor_text().component;
-        match entity.trim_start_matches('/') {
-            SCENE_TOML => self.scene_toml = strings(chunk, document).pop(),
-            ORIGIN => self.origin = strings(chunk, document).pop(),
-            COMMANDS => {
-                let text = rerun::TextLog::descriptor_text().component;
-                self.commands.extend(strings(chunk, text));
+    /// The run, or why it cannot be repeated.
+    fn judge(mut self, ends: &Ends, bytes: u64, unreadable: u64) -> Result<Recorded, String> {
+        let damage = match ends {
+            Ends::Early { at, reason } => {
+                format!("; it can be read up to byte {at} of {bytes} ({reason})")
             }
-            _ => {}
+            Ends::WithTheFile if unreadable > 0 => {
+                format!("; {unreadable} of its messages cannot be read")
+            }
+            Ends::WithTheFile => String::new(),
+        };
+        let Some((program, began, scene_toml)) = self.origin else {
+            return Err(format!(
+                "holds nothing that repeats a run: not recorded by this version of asperity, or damaged{damage}"
+            ));
+        };
+        if began == Began::FromState {
+            let reason = "it went on from a saved state, which a recording does not hold; repeat it with \
+                          --from-state";
+            return Err(reason.to_owned());
         }
-        let steps = chunk.timelines().get(&STEP.into());
-        let last = steps.and_then(|steps| steps.times_raw().iter().copied().max());
-        let last = last.and_then(|step| u64::try_from(step).ok()).unwrap_or(0);
-        self.last_step = self.last_step.max(last);
+        let Some((last_step, turned, ended)) = self.reach.filter(|(last_step, ..)| *last_step > 0)
+        else {
+            return Err(format!("it holds no step, or has lost its end{damage}"));
+        };
+        // Of a run that was killed a turn may be there whose steps are not.
+        self.turns.retain(|(n, ..)| *n < turned);
+        self.turns.sort_by_key(|(n, ..)| *n);
+        if self.turns.len() as u64 != turned || (0..).zip(&self.turns).any(|(k, turn)| turn.0 != k)
+        {
+            let there = self.turns.len();
+            return Err(format!(
+                "damaged: of {turned} knobs that were turned it holds {there}{damage}"
+            ));
+        }
+        let by_hand = self.turns.into_iter().filter(|turn| turn.1 == SetBy::Hand);
+        Ok(Recorded {
+            program,
+            scene_toml,
+            turns: by_hand.map(|turn| turn.2).collect(),
+            last_step,
+            broken_off: (!ended).then(|| format!("breaks off after step {last_step}{damage}")),
+            unreadable,
+        })
     }
-}
-
-fn strings(chunk: &Chunk, component: rerun::ComponentIdentifier) -> Vec<String> {
-    chunk
-        .iter_slices::<String>(component)
-        .flat_map(|row| row.iter().map(ToString::to_string).collect::<Vec<_>>())
-        .collect()
 }

@@ -5,10 +5,14 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use re_log_types::LogMsg;
+use rerun::external::arrow::array::Array as _;
 use rerun::log::{Chunk, ChunkBatcherConfig, PendingRow};
 use rerun::sink::LogSink as _;
 use rerun::time::TimePoint;
-use rerun::{AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars};
+use rerun::{
+    AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars,
+    SerializedComponentBatch,
+};
 
 use super::destination::Destination;
 use super::file::RecordingFile;
@@ -16,6 +20,7 @@ use super::gathered::{Pen, chunk_of};
 use super::live::{self, Live};
 use super::moment::Moment;
 use super::waiting::{ClassImage, Curves, LevelImage, Sheet, Waiting};
+use super::weight::{MESSAGE, TEXT};
 use crate::observe::{ObserveError, Overwrite};
 
 /// Name under which viewers group recordings and remember layouts.
@@ -59,6 +64,8 @@ pub(super) struct Stream {
     now: Cell<Moment>,
     timepoint: RefCell<TimePoint>,
     waiting: RefCell<Waiting>,
+    /// What holds always, in the finished file, bytes.
+    always: Cell<f64>,
 }
 
 impl Stream {
@@ -115,6 +122,7 @@ impl Stream {
             now: Cell::default(),
             timepoint: RefCell::default(),
             waiting: RefCell::default(),
+            always: Cell::default(),
         }
     }
 
@@ -270,7 +278,24 @@ impl Stream {
         entity: impl Into<EntityPath>,
         data: &(impl AsComponents + ?Sized),
     ) -> Result<(), ObserveError> {
-        let row = PendingRow::from_iter(TimePoint::default(), data.as_serialized_batches());
+        let batches = data.as_serialized_batches();
+        let bytes: usize = batches
+            .iter()
+            .map(|batch| batch.array.get_buffer_memory_size())
+            .sum();
+        self.always
+            .update(|always| always + MESSAGE + TEXT * bytes as f64);
+        self.log_for_now(entity, batches)
+    }
+
+    /// Logs what holds for the whole recording until it is logged again: the finished file has the last of them alone,
+    /// which weighs nothing.
+    pub(super) fn log_for_now(
+        &self,
+        entity: impl Into<EntityPath>,
+        batches: Vec<SerializedComponentBatch>,
+    ) -> Result<(), ObserveError> {
+        let row = PendingRow::from_iter(TimePoint::default(), batches);
         let chunk = row.into_chunk(entity.into());
         self.send(chunk.map_err(|error| self.failed(&error.to_string()))?)
     }
@@ -324,9 +349,13 @@ impl Stream {
         error.map_or(Ok(()), |reason| Err(self.failed(&reason)))
     }
 
-    /// Bytes in the file by now; a viewer has its own limit and forgets the oldest, so nothing is counted.
-    pub(super) fn bytes(&self) -> u64 {
-        self.to.file().map_or(0, RecordingFile::bytes)
+    /// What was logged so far will take of the finished file, bytes, but for columns of scalars; a viewer has its own
+    /// limit and forgets the oldest, so nothing is counted.
+    pub(super) fn weight(&self) -> f64 {
+        match &self.to {
+            Destination::File { .. } => self.always.get() + self.waiting.borrow().weight(),
+            Destination::Live(_) => 0.0,
+        }
     }
 
     /// Writes what waits and binds the file.

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use rerun::components::MediaType;
-use rerun::{TextDocument, TextLog, TextLogLevel};
+use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
 
+use super::note::Note;
 use super::raster::{Beyond, Scale};
-use super::reread::{CommandLine, Origin};
 use super::stream::Stream;
 use crate::math::number::{seconds, sig, sig_or_dash};
 use crate::observe::scales::number;
@@ -24,6 +24,8 @@ pub(super) const LOG: &str = "log";
 pub(super) const ORIGIN: &str = "text/origin";
 /// Knobs that were turned, for programs.
 pub(super) const COMMANDS: &str = "commands";
+/// How far the recording goes, for programs: the last one holds.
+pub(super) const REACH: &str = "text/reach";
 
 /// What no reader of the numbers should forget.
 pub(super) const CAUTION: &str =
@@ -53,9 +55,10 @@ pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), O
     stream.log_static(ABOUT, &TextDocument::from_markdown(about))?;
     let toml = TextDocument::new(context.scene_toml.as_str());
     stream.log_static(SCENE_TOML, &toml)?;
-    let origin = Origin {
+    let origin = Note::Origin {
         program: context.program.clone(),
         began: context.began,
+        scene_toml: context.scene_toml.clone(),
     };
     stream.log_static(ORIGIN, &TextDocument::new(origin.to_text()))?;
     let plan = TextDocument::new(context.plan_text.as_str());
@@ -232,8 +235,24 @@ fn push_table(text: &mut String, frame: &Frame) {
     }
 }
 
-/// Something that happened.
-pub(super) fn log_event(stream: &Stream, event: &RunEvent) -> Result<(), ObserveError> {
+/// How far the recording goes; `ended`: nothing comes after.
+pub(super) fn log_reach(
+    stream: &Stream,
+    last_step: u64,
+    turns: u64,
+    ended: bool,
+) -> Result<(), ObserveError> {
+    let reach = Note::Reach {
+        last_step,
+        turns,
+        ended,
+    };
+    let reach = TextDocument::new(reach.to_text());
+    stream.log_for_now(REACH, reach.as_serialized_batches())
+}
+
+/// Something that happened, after so many knobs had been turned.
+pub(super) fn log_event(stream: &Stream, event: &RunEvent, turns: u64) -> Result<(), ObserveError> {
     let (text, level) = match &event.kind {
         RunEventKind::Set { key, value, .. } => (
             format!("step {}: {key} set to {value}", event.step),
@@ -256,7 +275,8 @@ pub(super) fn log_event(stream: &Stream, event: &RunEvent) -> Result<(), Observe
         steps_made,
     } = &event.kind
     {
-        let line = CommandLine {
+        let line = Note::Turn {
+            n: turns,
             steps_made: *steps_made,
             key: key.clone(),
             value: *value,

@@ -10,8 +10,9 @@ use rerun::log::{Chunk, ChunkError, PendingRow};
 use rerun::time::TimePoint;
 use rerun::{AsComponents, DepthImage, EntityPath, SegmentationImage};
 
-use super::gathered::{Images, Pen, Sheets, Strips};
+use super::gathered::{Added, Images, Pen, Sheets, Strips};
 use super::moment::Moment;
+use super::weight::{ROW, TEXT};
 
 /// Rows of a chunk at most where times are out of order, as the library has it.
 const MOST_UNSORTED: u64 = 256;
@@ -47,6 +48,8 @@ pub(super) struct Waiting {
     sheets: Vec<Sheets>,
     curves: Vec<Strips>,
     bytes: usize,
+    /// Of all rows so far in the finished file.
+    weight: f64,
 }
 
 impl Waiting {
@@ -61,7 +64,9 @@ impl Waiting {
         let bytes = batches
             .iter()
             .map(|batch| batch.array.get_buffer_memory_size());
-        self.bytes += bytes.sum::<usize>();
+        let bytes = bytes.sum();
+        let weight = ROW + TEXT * bytes as f64;
+        self.add(Added { bytes, weight });
         let place = self.places.get(entity).copied().unwrap_or_else(|| {
             let place = self.entities.len();
             self.entities.push((EntityPath::from(entity), Vec::new()));
@@ -71,6 +76,16 @@ impl Waiting {
         self.entities[place]
             .1
             .push(PendingRow::from_iter(at, batches));
+    }
+
+    fn add(&mut self, added: Added) {
+        self.bytes += added.bytes;
+        self.weight += added.weight;
+    }
+
+    /// What all rows so far will take of the finished file, bytes.
+    pub(super) fn weight(&self) -> f64 {
+        self.weight
     }
 
     pub(super) fn class_image(&mut self, entity: EntityPath) -> ClassImage {
@@ -96,7 +111,8 @@ impl Waiting {
     }
 
     pub(super) fn push_curves(&mut self, curves: Curves, at: Moment, fill: impl FnOnce(&mut Pen)) {
-        self.bytes += self.curves[curves.0].push(at, fill);
+        let added = self.curves[curves.0].push(at, fill);
+        self.add(added);
     }
 
     pub(super) fn push_classes(
@@ -105,7 +121,8 @@ impl Waiting {
         at: Moment,
         fill: impl FnOnce(&mut Vec<u8>),
     ) {
-        self.bytes += self.classes[image.0].push(at, fill);
+        let added = self.classes[image.0].push(at, fill);
+        self.add(added);
     }
 
     pub(super) fn push_levels(
@@ -114,7 +131,8 @@ impl Waiting {
         at: Moment,
         fill: impl FnOnce(&mut Vec<u16>),
     ) {
-        self.bytes += self.levels[image.0].push(at, fill);
+        let added = self.levels[image.0].push(at, fill);
+        self.add(added);
     }
 
     pub(super) fn push_sheet(
@@ -123,7 +141,8 @@ impl Waiting {
         at: Moment,
         fill: impl FnOnce(&mut Vec<f32>, &mut Vec<u32>),
     ) {
-        self.bytes += self.sheets[sheet.0].push(at, fill);
+        let added = self.sheets[sheet.0].push(at, fill);
+        self.add(added);
     }
 
     /// Whether so much waits that it should be sent.

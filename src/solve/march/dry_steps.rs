@@ -13,6 +13,7 @@ impl Solver {
         let mut whole = NewtonReport::nothing();
         let (dry, newton, trial) = (&mut self.dry, &mut self.newton, &mut self.trial);
         let gap = &mut self.c_star;
+        let yielding = &mut newton.yielding;
         for pass in 0..=PASSES {
             gap.copy_from_slice(&self.gap);
             let shear = newton.shear.as_mut().zip(conditions.law);
@@ -44,6 +45,9 @@ impl Solver {
             if settled || report.verdict != Verdict::Converged {
                 break;
             }
+        }
+        if let Some(yielding) = yielding {
+            yielding.take_overlap(&trial.pressure, &mut trial.film);
         }
         whole
     }

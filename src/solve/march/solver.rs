@@ -5,6 +5,7 @@ use super::super::film::macroscopic_gap;
 use super::super::history::History;
 use super::super::newton::{CARRIED, Iterate, Newton, NewtonReport, OVERLAP, Problem, Sheared};
 use super::super::tangential::{Shear, Tangential};
+use super::super::yielding::Yielding;
 use super::{Conditions, Flow, Guess, Shape, State};
 use crate::math::grid::Grid;
 
@@ -113,6 +114,17 @@ impl Solver {
     /// Whether the bodies are of different materials: traction deflects them.
     pub fn is_unlike(&self) -> bool {
         self.newton.shear.is_some()
+    }
+
+    /// No pressure above `hardness` (P_H, over p_h) from now on; infinite: the bodies are elastic.
+    pub fn yield_at(&mut self, hardness: f64) {
+        self.newton.yield_at(hardness);
+        self.dry.yield_at(hardness);
+    }
+
+    /// Depth by which the softer body has given way for good in the last attempt, film units; `None`: elastic.
+    pub fn yielded(&self) -> Option<&[f64]> {
+        self.newton.yielding.as_ref().map(Yielding::depth)
     }
 
     /// Transforms made so far by all filters of this solver.

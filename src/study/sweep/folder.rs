@@ -189,6 +189,7 @@ impl Folder {
             scene: scene.to_toml(),
             n_events_played: 0,
             n_unconverged: 0,
+            n_turned_by_hand: 0,
             sim: state.clone(),
         };
         self.write_by(&self.state_path(chain, case), |temporary| {
@@ -200,9 +201,8 @@ impl Folder {
 
     /// The state after a case; `None`: there is none, or none that fits.
     pub(super) fn read_state(&self, at: (usize, usize), scene: &Scene) -> Option<State> {
-        let checkpoint = Checkpoint::read(&self.state_path(at.0, at.1)).ok()?;
-        checkpoint.fits(scene).ok()?;
-        Some(checkpoint.sim)
+        let saved = Checkpoint::read_for(&self.state_path(at.0, at.1), scene);
+        saved.ok().map(|saved| saved.sim)
     }
 
     /// Takes a state away that is not needed any more.

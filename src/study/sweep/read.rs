@@ -97,13 +97,7 @@ pub(super) fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep,
         return Err(SceneError::value(key, "a value", "nothing: the key varies"));
     }
     sort(&mut axes);
-    let set_values = set_text.iter().filter_map(|text| text.split_once('='));
-    let set_files = set_values
-        .filter(|(key, _)| is_map(key))
-        .map(|(_, file)| file.trim_matches('"'));
-    let varied = axes.iter().filter(|axis| is_map(&axis.key));
-    let varied_files = varied.flat_map(|axis| axis.values.iter().filter_map(Value::as_str));
-    let files: Vec<PathBuf> = set_files.chain(varied_files).map(PathBuf::from).collect();
+    let files = map_files(&set_text, &axes);
     let maps = files.iter().map(|file| digest(file)).collect();
     let mut inputs = files;
     inputs.extend(inputs_of(&root, folder));
@@ -127,6 +121,17 @@ pub(super) fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep,
         maps,
         inputs,
     })
+}
+
+/// The height maps that a sweep names outside of its scene.
+fn map_files(set_text: &[String], axes: &[Axis]) -> Vec<PathBuf> {
+    let set_values = set_text.iter().filter_map(|text| text.split_once('='));
+    let set_files = set_values
+        .filter(|(key, _)| is_map(key))
+        .map(|(_, file)| file.trim_matches('"'));
+    let varied = axes.iter().filter(|axis| is_map(&axis.key));
+    let varied_files = varied.flat_map(|axis| axis.values.iter().filter_map(Value::as_str));
+    set_files.chain(varied_files).map(PathBuf::from).collect()
 }
 
 /// Whether a key names a height map.

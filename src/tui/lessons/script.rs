@@ -98,7 +98,7 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "Its ridges cross with it: pressure peaks stand on them, but they stay the same peaks. Not modelled: heat, yield, wear; the bodies are elastic.",
+                caption: "Its ridges cross with it: pressure peaks stand on them, but they stay the same peaks. Not modelled: heat, wear; yield is left out here.",
                 map: Some(Pressure),
                 passages: 2.0,
                 claims: &[claim(Counted1, 0.8, 1.2), claim(PeakPressure, 1.1, 3.0)],
@@ -197,7 +197,7 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "Now they slide, S = 1: oil drawn over the slow ridges presses them flatter still, a tenth is left. Not modelled: heat and yield.",
+                caption: "Now they slide, S = 1: oil drawn over the slow ridges presses them flatter still, a tenth is left. Not modelled: heat; no yield here.",
                 sets: &[(S, To(1.0))],
                 map: Some(Film),
                 passages: 2.0,

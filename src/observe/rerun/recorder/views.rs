@@ -14,6 +14,7 @@ use super::super::space::{Space, Tops};
 use super::super::stream::Stream;
 use super::super::text;
 use super::super::trace::Trace;
+use super::super::weight::TEXT;
 use crate::math::number::sig;
 use crate::observe::ObserveError;
 use crate::observe::scales::{Ranges, ToCome};
@@ -73,10 +74,11 @@ impl Views {
             .map(|_| Trace::new(stream, geometry, tops.pressure_pa))
             .transpose()?;
         let steps = expected_steps(scene, first);
+        let budget = record.budget_mb * 1e6;
         let step_s = scene.map_or(0.0, |scene| {
             scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
         });
-        let kymograph = |shown| Kymograph::new(stream, geometry, shown, steps, step_s);
+        let kymograph = |shown| Kymograph::new(stream, geometry, shown, steps, step_s, budget);
         let kymographs = [
             kymograph(kymograph::Shown::Pressure {
                 top_pa: tops.pressure_pa,
@@ -85,7 +87,10 @@ impl Views {
                 top_m: maps.film_top_m(),
             })?,
         ];
-        let cadence = Cadence::new(record, steps, frame_bytes(geometry));
+        // Both are written once more at the end.
+        let last: usize = kymographs.iter().map(Kymograph::full_bytes).sum();
+        let spent = [stream.weight(), TEXT * last as f64];
+        let cadence = Cadence::new(record, steps, frame_bytes(geometry), spent);
         let exaggeration = space.as_ref().map(Space::note).unwrap_or_default();
         let below = slice.iter().flat_map(Slice::rasters);
         let scales = maps.rasters().chain(below);

@@ -44,6 +44,7 @@ fn name(caution: &Caution) -> &'static str {
     match caution.code {
         CautionCode::NotConverged => "not converged",
         CautionCode::BeyondYield => "beyond yield",
+        CautionCode::StillYielding => "still yields",
         CautionCode::Dry => "dry",
         CautionCode::FilmBelowMolecule => "film < molecule",
         CautionCode::MeshFilm => "coarse mesh",

@@ -1,0 +1,265 @@
+//! What has flowed for good: the depth that each body's surface has given way by, material-fixed.
+//!
+//! ```text
+//! z_i(x, t) = relief − w_i(x − X_i(t), y)        X_i: way of body i;  w_i ≥ 0 in columns of its own material
+//! after a step   w_i += share_i w                the step's w (`solve/yielding.rs`) at the places of the columns
+//! share          the softer body's 1; bodies of one hardness 1/2 each
+//! ```
+//! *Extent.* A body whose relief repeats along x (or is the same all along it) has a ring of so many whole waves as fill
+//! the domain: what flowed leaves at the outlet and comes back one round later, as a tooth or a race comes back after a
+//! revolution, so that the second round finds the crests that the first has left. A body without a repeat (smooth, a
+//! map that stands once, waves that are oblique, or one longer than [`LONGEST`] domains) keeps what flowed while it is
+//! in the domain; what enters is virgin.
+//!
+//! Columns and nodes are interpolated by cubics, not below zero; a column keeps its material, so nothing is worn down by
+//! being moved. What the interpolation misses, some 1e-3 of the depth, flows in the steps that follow. A knob that turns
+//! an amplitude scales the virgin relief; what has flowed stays.
+
+use serde::{Deserialize, Serialize};
+
+use super::motion::Way;
+use crate::math::grid::Grid;
+use crate::physics::height_map::HeightMap;
+
+/// Longest ring, in domains.
+const LONGEST: f64 = 8.0;
+
+/// What both bodies have yielded; a body that is harder than the other has nothing.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Yielded {
+    skins: [Option<Skin>; 2],
+}
+
+/// One body's.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Skin {
+    /// Length of the ring, in a.
+    length: f64,
+    /// Whether material that has left comes back as it left; else what enters is virgin.
+    returns: bool,
+    columns: usize,
+    /// w_i, film units, shape ny × columns.
+    depth: Vec<f64>,
+    /// Its share of what flows.
+    share: f64,
+    /// What has flowed since the start, ∬ w.
+    volume: f64,
+    /// Way of the body when it was looked at last.
+    way: f64,
+}
+
+impl Yielded {
+    /// Nothing yet; `softer`: which bodies yield; `repeats`: length after which a relief repeats, in a (infinite: it is
+    /// the same all along; `None`: it does not).
+    pub(super) fn new(grid: &Grid, softer: [bool; 2], repeats: [Option<f64>; 2]) -> Self {
+        let share = if softer == [true; 2] { 0.5 } else { 1.0 };
+        let skins =
+            [0, 1].map(|body: usize| softer[body].then(|| Skin::new(grid, repeats[body], share)));
+        Self { skins }
+    }
+
+    /// Whether body `body` (0 or 1) yields.
+    pub(super) fn yields(&self, body: usize) -> bool {
+        self.skins[body].is_some()
+    }
+
+    /// What body 1 and 2 have yielded since the start, ∬ w in film units times a².
+    pub(super) fn volumes(&self) -> [f64; 2] {
+        let volume = |skin: &Option<Skin>| skin.as_ref().map_or(0.0, |skin| skin.volume);
+        [volume(&self.skins[0]), volume(&self.skins[1])]
+    }
+
+    /// Whether a saved one is of the same make.
+    pub(super) fn fits(&self, saved: &Self) -> bool {
+        let pairs = self.skins.iter().zip(&saved.skins);
+        pairs.into_iter().all(|pair| match pair {
+            (None, None) => true,
+            (Some(own), Some(saved)) => own.fits(saved),
+            _ => false,
+        })
+    }
+
+    /// Lowers the heights of body `body` by what has flowed.
+    pub(super) fn lower(&self, grid: &Grid, body: usize, way: Way, heights: &mut [f64]) {
+        if let Some(skin) = &self.skins[body]
+            && skin.volume > 0.0
+        {
+            skin.lower(grid, way.travelled, heights);
+        }
+    }
+
+    /// Takes what a step has yielded, with the bodies where the step has brought them; whether anything has.
+    pub(super) fn take(&mut self, grid: &Grid, yielded: &[f64], ways: [Way; 2]) -> bool {
+        let volume = grid.integrate(|n| yielded[n]);
+        for (skin, way) in self.skins.iter_mut().zip(ways) {
+            let Some(skin) = skin else { continue };
+            skin.renew(grid, way.travelled);
+            if volume > 0.0 {
+                skin.volume += skin.share * volume;
+                skin.deepen(grid, yielded);
+            }
+        }
+        volume > 0.0
+    }
+}
+
+impl Skin {
+    fn new(grid: &Grid, repeat: Option<f64>, share: f64) -> Self {
+        let domain = grid.dx * (grid.nx - 1) as f64;
+        let ring = match repeat {
+            Some(wave) if wave.is_finite() => wave * (domain / wave).ceil(),
+            _ => domain,
+        };
+        let returns = repeat.is_some() && ring <= LONGEST * domain;
+        // What is virgin at the inlet must not be the outlet's last column.
+        let length = if returns {
+            ring
+        } else {
+            domain + 2.0 * grid.dx
+        };
+        let columns = (length / grid.dx).round().max(4.0) as usize;
+        Self {
+            length,
+            returns,
+            columns,
+            depth: vec![0.0; grid.ny * columns],
+            share,
+            volume: 0.0,
+            way: 0.0,
+        }
+    }
+
+    fn fits(&self, saved: &Self) -> bool {
+        let Self {
+            length,
+            returns,
+            columns,
+            depth,
+            share,
+            volume,
+            way: _,
+        } = saved;
+        (*length, *returns, *columns, *share)
+            == (self.length, self.returns, self.columns, self.share)
+            && depth.len() == self.depth.len()
+            && *volume >= 0.0
+            && depth.iter().all(|w| *w >= 0.0)
+    }
+
+    fn spacing(&self) -> f64 {
+        self.length / self.columns as f64
+    }
+
+    /// The four columns around a place of the ring, and their weights.
+    fn around(&self, place: f64) -> ([usize; 4], [f64; 4]) {
+        let n = self.columns;
+        let middle = 0.5 * (n - 1) as f64;
+        let (first, weights) = HeightMap::stencil(place / self.spacing() - middle, n);
+        let wrapped = |k: usize| (first + k as i64).rem_euclid(n as i64) as usize;
+        ([0, 1, 2, 3].map(wrapped), weights)
+    }
+
+    fn lower(&self, grid: &Grid, way: f64, heights: &mut [f64]) {
+        let n = self.columns;
+        for i in 0..grid.nx {
+            let (columns, weights) = self.around(grid.x(i) - way);
+            for (j, row) in heights.chunks_exact_mut(grid.nx).enumerate() {
+                let depth = &self.depth[j * n..(j + 1) * n];
+                let pairs = columns.iter().zip(weights);
+                let w: f64 = pairs.map(|(&k, weight)| weight * depth[k]).sum();
+                row[i] -= w.max(0.0);
+            }
+        }
+    }
+
+    /// The body has come to `way`: what has left the domain is forgotten where it does not come back.
+    fn renew(&mut self, grid: &Grid, way: f64) {
+        let n = self.columns;
+        let (before, spacing) = (self.way, self.spacing());
+        self.way = way;
+        if self.returns {
+            return;
+        }
+        let round =
+            |c: usize, way: f64| ((c as f64 * spacing + way - grid.x_min) / self.length).floor();
+        for c in (0..n).filter(|&c| round(c, way) != round(c, before)) {
+            self.depth
+                .iter_mut()
+                .skip(c)
+                .step_by(n)
+                .for_each(|w| *w = 0.0);
+        }
+    }
+
+    /// Adds its share of what a step has yielded, at the places of its columns.
+    fn deepen(&mut self, grid: &Grid, yielded: &[f64]) {
+        let (n, nx) = (self.columns, grid.nx);
+        let middle = 0.5 * (nx - 1) as f64;
+        for c in 0..n {
+            let place = c as f64 * self.spacing() + self.way - grid.x_min;
+            let node = place.rem_euclid(self.length) / grid.dx;
+            let (first, weights) = HeightMap::stencil(node - middle, nx);
+            let Some(first) = usize::try_from(first).ok().filter(|first| first + 4 <= nx) else {
+                continue;
+            };
+            for (j, row) in yielded.chunks_exact(nx).enumerate() {
+                let near = row[first..first + 4].iter().zip(weights);
+                let w: f64 = near.map(|(w, weight)| weight * w).sum();
+                self.depth[j * n + c] += self.share * w.max(0.0);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::grid::Symmetry;
+
+    fn way(travelled: f64) -> Way {
+        Way {
+            travelled,
+            in_passage: None,
+        }
+    }
+
+    /// A smooth spot at `x`.
+    fn spot(grid: &Grid, x: f64) -> Vec<f64> {
+        let depth = |n: usize| {
+            let r2 = (grid.x(n % grid.nx) - x).powi(2) + grid.y(n / grid.nx).powi(2);
+            1e-3 * (1.0 - 4.0 * r2).max(0.0).powi(2)
+        };
+        (0..grid.len()).map(depth).collect()
+    }
+
+    #[test]
+    fn what_flows_moves_with_its_body() {
+        let grid = Grid::new(65, -3.0, 2.0, 2.0, Symmetry::MirrorY);
+        for (repeats, back) in [(Some(0.7), true), (None, false)] {
+            let mut yielded = Yielded::new(&grid, [true, false], [repeats; 2]);
+            yielded.take(&grid, &spot(&grid, -1.0), [way(0.33); 2]);
+            let round = yielded.skins[0].as_ref().map_or(0.0, |skin| skin.length);
+            let seen = |yielded: &Yielded, travelled: f64, x: f64| {
+                let mut heights = vec![0.0; grid.len()];
+                yielded.lower(&grid, 0, way(travelled), &mut heights);
+                let there = spot(&grid, x);
+                let off = heights.iter().zip(&there).map(|(z, w)| (z + w).abs());
+                off.fold(0.0, f64::max) / 1e-3
+            };
+            // Interpolated twice: 2 % of the spot, whose half-width is six nodes.
+            assert!(seen(&yielded, 0.33, -1.0) < 0.02);
+            assert!(seen(&yielded, 1.07, -0.26) < 0.02);
+            // Out of the domain, and round again.
+            let nothing = vec![0.0; grid.len()];
+            for k in 1..=40 {
+                let travelled = 0.33 + round * f64::from(k) / 40.0;
+                yielded.take(&grid, &nothing, [way(travelled); 2]);
+            }
+            let off = seen(&yielded, 0.33 + round, -1.0);
+            assert_eq!(off < 0.02, back, "{off}");
+            let [one, two] = yielded.volumes();
+            let whole = grid.integrate(|n| spot(&grid, -1.0)[n]);
+            assert!((one / whole - 1.0).abs() < 1e-12 && two == 0.0);
+        }
+    }
+}

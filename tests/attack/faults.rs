@@ -1,0 +1,361 @@
+//! Faults: whatever breaks off a run, what was there stays or is replaced by something whole.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use asperity::observe::rerun::Recorded;
+use asperity::run::Checkpoint;
+
+use super::child::{self, Ended, Place};
+use super::report::Tally;
+
+const SMALL: [&str; 8] = [
+    "run",
+    "demonstration",
+    "--set=grid.nodes=33",
+    "--set=body_1.surface.wavelength_x_m=4e-4",
+    "--set=body_2.surface.wavelength_x_m=4e-4",
+    "--set=body_2.surface.wavelength_y_m=4e-4",
+    "--set=numerics.error_estimate=none",
+    "--threads=1",
+];
+/// Outputs, by the option that asks for them.
+const OUTPUTS: [(&str, &str); 4] = [
+    ("--out", "run.rrd"),
+    ("--table", "run.csv"),
+    ("--summary", "run.json"),
+    ("--save-state", "run.state"),
+];
+const MINE: &str = "mine, and a day's work: ";
+const NONE: &str = "true";
+
+fn args(passages: &str, more: &[String]) -> Vec<String> {
+    let own = SMALL.map(str::to_owned).into_iter();
+    let own = own.chain([format!("--passages={passages}")]);
+    let recorded = more.iter().any(|arg| arg.starts_with("--out"));
+    let unrecorded = (!recorded).then(|| "--no-record".to_owned());
+    own.chain(unrecorded).chain(more.iter().cloned()).collect()
+}
+
+fn refs(args: &[String]) -> Vec<&str> {
+    args.iter().map(String::as_str).collect()
+}
+
+fn all_outputs() -> Vec<String> {
+    OUTPUTS
+        .map(|(option, name)| format!("{option}={name}"))
+        .to_vec()
+}
+
+fn put_mine(place: &Place) {
+    for (_, name) in OUTPUTS {
+        place.put(name, format!("{MINE}{name}").as_bytes());
+    }
+}
+
+fn is_mine(path: &Path) -> bool {
+    let name = path.file_name().unwrap().to_string_lossy();
+    std::fs::read_to_string(path).is_ok_and(|text| text == format!("{MINE}{name}"))
+}
+
+/// Whether a file is what its name says, from beginning to end.
+fn is_whole(path: &Path) -> bool {
+    let text = || std::fs::read_to_string(path).unwrap_or_default();
+    match path.extension().unwrap().to_string_lossy().as_ref() {
+        "rrd" => Recorded::read(path).is_ok_and(|run| run.broken_off.is_none()),
+        "csv" => text().lines().count() > 1 && text().ends_with('\n'),
+        "json" => serde_json::from_str::<serde_json::Value>(&text()).is_ok(),
+        _ => Checkpoint::read(path).is_ok(),
+    }
+}
+
+/// What was lost of the outputs, if anything. `replaced`: all of them must be new ones.
+fn lost(place: &Place, replaced: bool) -> Option<String> {
+    OUTPUTS.iter().find_map(|(_, name)| {
+        let path = place.folder().join(name);
+        let good = (is_mine(&path) && !replaced) || is_whole(&path);
+        (!good).then(|| format!("{name} is lost"))
+    })
+}
+
+struct Faults {
+    tally: Tally,
+}
+
+impl Faults {
+    /// Takes up how a drill ended.
+    fn judge(&mut self, drill: &str, fault: Option<String>) {
+        self.tally.count(drill);
+        let repeat = "`cargo test --release --test attack faults`";
+        self.tally
+            .failures
+            .extend(fault.map(|fault| format!("{repeat}: {drill}: {fault}")));
+    }
+
+    /// A short run with all outputs over files that are there, with something taken from it.
+    fn deprived(&mut self, drill: &str, limit: &str, codes: &[i32]) {
+        let place = Place::new();
+        put_mine(&place);
+        let more = [all_outputs(), vec!["--force".to_owned()]].concat();
+        let ended = place.run(limit, &refs(&args("0.1", &more)));
+        // With too little memory an allocation that fails ends a process by a signal, after it was told.
+        let by_memory = codes.is_empty() && ended.err.contains("memory");
+        let fault = if by_memory {
+            None
+        } else {
+            ended.fault(if codes.is_empty() {
+                &[0, 2, 3, 4]
+            } else {
+                codes
+            })
+        };
+        self.judge(drill, fault.or_else(|| lost(&place, false)));
+    }
+
+    /// One output in a place that does not take it.
+    fn misplaced(
+        &mut self,
+        drill: &str,
+        option: &str,
+        at: &str,
+        force: bool,
+        prepare: impl Fn(&Place),
+    ) {
+        let place = Place::new();
+        put_mine(&place);
+        prepare(&place);
+        let mut more = vec![format!("{option}={at}")];
+        more.extend(force.then(|| "--force".to_owned()));
+        let before = place.names();
+        let ended = place.run(NONE, &refs(&args("0.1", &more)));
+        let fault = ended.fault(&[1, 4]);
+        let stub = (place.names() != before).then(|| format!("leaves {:?}", place.names()));
+        let gone = OUTPUTS
+            .iter()
+            .find(|(_, name)| !is_mine(&place.folder().join(name)));
+        let gone = gone.map(|(_, name)| format!("{name} is lost"));
+        self.judge(
+            drill,
+            fault
+                .or(stub)
+                .or(gone)
+                .map(|fault| format!("{option}={at}: {fault}")),
+        );
+    }
+
+    fn signalled(&mut self, signal: &str) {
+        let place = Place::new();
+        put_mine(&place);
+        let more = [all_outputs(), vec!["--force".to_owned()]].concat();
+        let child = child::start(
+            &place.folder(),
+            &place.words(),
+            NONE,
+            &refs(&args("10000", &more)),
+        );
+        let rows = || {
+            let names = place.names().into_iter();
+            let part = names.filter(|name| name.contains(".part-")).find(|name| {
+                Path::new(name)
+                    .extension()
+                    .is_some_and(|ending| ending == "csv")
+            });
+            let text = part.map(|name| std::fs::read_to_string(place.folder().join(name)));
+            text.and_then(Result::ok)
+                .map_or(0, |text| text.lines().count())
+        };
+        let began = Instant::now();
+        while rows() < 8 && began.elapsed() < child::PATIENCE {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let sent = std::process::Command::new("kill")
+            .args([signal, &child.id().to_string()])
+            .status();
+        assert!(sent.unwrap().success());
+        let ended = child::end(child, &place.words());
+        let killed = signal == "-KILL";
+        let fault = if killed {
+            ended.status.is_none().then(|| "lives on".to_owned())
+        } else {
+            ended.fault(&[5])
+        };
+        let all_mine = OUTPUTS
+            .iter()
+            .all(|(_, name)| is_mine(&place.folder().join(name)));
+        let touched =
+            (killed && !all_mine).then(|| "a killed run has touched what was there".to_owned());
+        self.judge(
+            &format!("signal {signal}"),
+            fault.or(touched).or_else(|| lost(&place, !killed)),
+        );
+    }
+
+    fn two_writers(&mut self) {
+        let place = Place::new();
+        put_mine(&place);
+        let more = [all_outputs(), vec!["--force".to_owned()]].concat();
+        let first = child::start(
+            &place.folder(),
+            &place.words(),
+            NONE,
+            &refs(&args("10000", &more)),
+        );
+        std::thread::sleep(Duration::from_millis(700));
+        for option in ["--out=run.rrd", "--table=run.csv"] {
+            let words = tempfile::tempdir().unwrap();
+            let second = args("0.1", &[option.to_owned(), "--force".to_owned()]);
+            let ended = child::run(&place.folder(), words.path(), NONE, &refs(&second));
+            self.judge("two writers", ended.fault(&[4]));
+        }
+        let sent = std::process::Command::new("kill")
+            .args(["-TERM", &first.id().to_string()])
+            .status();
+        assert!(sent.unwrap().success());
+        let ended = child::end(first, &place.words());
+        self.judge(
+            "two writers",
+            ended.fault(&[5]).or_else(|| lost(&place, true)),
+        );
+    }
+
+    /// Nobody reads what it prints.
+    fn unread(&mut self) {
+        let place = Place::new();
+        let script = "\"$0\" \"$@\" | true";
+        let args = args("0.1", &["--summary=-".to_owned()]);
+        let output = std::process::Command::new("sh")
+            .args(["-c", script, &child::program()])
+            .args(&args)
+            .current_dir(place.folder())
+            .output()
+            .unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        self.judge("closed pipe", (!told.is_empty()).then_some(told));
+    }
+
+    /// A sweep that is killed, runs out of disk, meets another: its table is that of one that met nothing.
+    fn sweeps(&mut self) {
+        const SWEEP: &str = include_str!("../cluster/tiny.toml");
+        let place = Place::new();
+        place.put("tiny.toml", SWEEP.replace("n = 16", "n = 6").as_bytes());
+        let sweep = |out: &str, more: &[&str], limit: &str| -> Ended {
+            let out = format!("--out={out}");
+            let own = ["sweep", "tiny.toml", "--threads=1", &out];
+            place.run(limit, &[&own[..], more].concat())
+        };
+        let table = |folder: &str| std::fs::read(place.folder().join(folder).join("table.csv"));
+        let whole = sweep("whole", &[], NONE);
+        self.judge("sweep", whole.fault(&[0, 2]));
+        // Less than a case takes.
+        let full = sweep("full", &[], "ulimit -f 1; trap '' XFSZ");
+        self.judge("sweep on a full disk", full.fault(&[4]));
+        let child = child::start(
+            &place.folder(),
+            &place.words(),
+            NONE,
+            &["sweep", "tiny.toml", "--threads=1", "--out=killed"],
+        );
+        let cases = place.folder().join("killed/cases");
+        let began = Instant::now();
+        while std::fs::read_dir(&cases).map_or(0, Iterator::count) < 2
+            && began.elapsed() < child::PATIENCE
+        {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let words = tempfile::tempdir().unwrap();
+        let second = ["sweep", "tiny.toml", "--out=killed", "--force"];
+        let second = child::run(&place.folder(), words.path(), NONE, &second);
+        self.judge("two sweeps in one folder", second.fault(&[1, 4]));
+        let sent = std::process::Command::new("kill")
+            .args(["-KILL", &child.id().to_string()])
+            .status();
+        assert!(sent.unwrap().success());
+        drop(child::end(child, &place.words()));
+        for folder in ["killed", "full"] {
+            let again = sweep(folder, &["--resume"], NONE);
+            let same = table(folder).ok() == table("whole").ok();
+            let other = (!same).then(|| "another table".to_owned());
+            self.judge("sweep taken up again", again.fault(&[0, 2]).or(other));
+        }
+        place.put("notes.txt", b"mine");
+        std::fs::create_dir(place.folder().join("mine")).unwrap();
+        std::fs::write(place.folder().join("mine/table.csv"), MINE).unwrap();
+        let foreign = sweep("mine", &["--force"], NONE);
+        let kept = std::fs::read_to_string(place.folder().join("mine/table.csv"));
+        let gone =
+            (kept.ok().as_deref() != Some(MINE)).then(|| "somebody's table is lost".to_owned());
+        self.judge(
+            "sweep into somebody's folder",
+            foreign.fault(&[1, 4]).or(gone),
+        );
+    }
+
+    /// An export whose steps do not fit, and one that is killed.
+    fn exports(&mut self) {
+        let place = Place::new();
+        let more = ["--export=fields".to_owned(), "--export-every=1".to_owned()];
+        let full = place.run("ulimit -f 1; trap '' XFSZ", &refs(&args("0.1", &more)));
+        let names = std::fs::read_dir(place.folder().join("fields")).map_or(0, Iterator::count);
+        let half = (names > 0).then(|| format!("{names} files of a full disk"));
+        self.judge("export on a full disk", full.fault(&[4]).or(half));
+        let force = [&more[..], &["--force".to_owned()]].concat();
+        let whole = place.run(NONE, &refs(&args("0.1", &force)));
+        self.judge("export", whole.fault(&[0, 2]));
+    }
+}
+
+fn mkfifo(place: &Place) {
+    let made = std::process::Command::new("mkfifo")
+        .arg(place.folder().join("pipe"))
+        .status();
+    assert!(made.unwrap().success());
+}
+
+/// All drills.
+pub(crate) fn all() -> Vec<Tally> {
+    let mut faults = Faults {
+        tally: Tally::new("faults"),
+    };
+    for signal in ["-KILL", "-TERM", "-HUP", "-INT"] {
+        faults.signalled(signal);
+    }
+    for kb in [1, 8, 64, 512, 2048] {
+        let blocks = 2 * kb;
+        faults.deprived(
+            "full disk",
+            &format!("ulimit -f {blocks}; trap '' XFSZ"),
+            &[0, 2, 4],
+        );
+    }
+    for n in [6, 8, 12, 16, 20] {
+        faults.deprived(
+            "few descriptors",
+            &format!("ulimit -n {n}"),
+            &[0, 1, 2, 3, 4],
+        );
+    }
+    for kb in [60_000, 150_000, 300_000, 600_000] {
+        faults.deprived("low memory", &format!("ulimit -v {kb}"), &[]);
+    }
+    faults.deprived("closed stdin and stdout", "exec <&- >&-", &[0, 2, 4]);
+    faults.deprived("all closed", "exec <&- >&- 2>&-", &[0, 2, 4]);
+    for (option, name) in OUTPUTS {
+        faults.misplaced("existing", option, name, false, |_| {});
+        faults.misplaced("no folder", option, "nowhere/file", true, |_| {});
+        faults.misplaced("a folder", option, ".", true, |_| {});
+        faults.misplaced("read-only", option, "/proc/asperity.csv", true, |_| {});
+        faults.misplaced("/dev/full", option, "/dev/full", true, |_| {});
+        faults.misplaced("a pipe that nobody reads", option, "pipe", true, mkfifo);
+        faults.misplaced("a link to nothing", option, "link", true, |place| {
+            std::os::unix::fs::symlink("nothing", place.folder().join("link")).unwrap();
+        });
+        faults.misplaced("a link to a file", option, "link", false, |place| {
+            std::os::unix::fs::symlink("run.json", place.folder().join("link")).unwrap();
+        });
+    }
+    faults.two_writers();
+    faults.unread();
+    faults.exports();
+    faults.sweeps();
+    vec![faults.tally]
+}

@@ -1,0 +1,73 @@
+//! What was tried and what became of it.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// One kind of attack.
+#[derive(Debug)]
+pub(crate) struct Tally {
+    pub(crate) kind: String,
+    /// By how they ended: exit code, or what was observed.
+    pub(crate) ends: BTreeMap<String, u64>,
+    /// With the command that repeats each.
+    pub(crate) failures: Vec<String>,
+    pub(crate) slowest_s: f64,
+}
+
+impl Tally {
+    pub(crate) fn new(kind: &str) -> Self {
+        Self {
+            kind: kind.to_owned(),
+            ends: BTreeMap::new(),
+            failures: Vec::new(),
+            slowest_s: 0.0,
+        }
+    }
+
+    pub(crate) fn tried(&self) -> u64 {
+        self.ends.values().sum()
+    }
+
+    pub(crate) fn count(&mut self, end: impl Into<String>) {
+        *self.ends.entry(end.into()).or_insert(0) += 1;
+    }
+}
+
+/// As Markdown.
+pub(crate) fn table(tallies: &[Tally]) -> String {
+    let mut text = String::from(
+        "| attack | tried | survived | failed | how they ended | slowest, s |\n|---|---|---|---|---|---|\n",
+    );
+    for tally in tallies.iter().filter(|tally| tally.tried() > 0) {
+        let ends = tally.ends.iter().map(|(end, n)| format!("{end}: {n}"));
+        let failed = tally.failures.len() as u64;
+        writeln!(
+            text,
+            "| {} | {} | {} | {failed} | {} | {:.1} |",
+            tally.kind,
+            tally.tried(),
+            tally.tried().saturating_sub(failed),
+            ends.collect::<Vec<_>>().join(", "),
+            tally.slowest_s
+        )
+        .unwrap();
+    }
+    let tried: u64 = tallies.iter().map(Tally::tried).sum();
+    let failed: usize = tallies.iter().map(|tally| tally.failures.len()).sum();
+    writeln!(text, "\n{tried} tried, {failed} failed.").unwrap();
+    for failure in tallies.iter().flat_map(|tally| &tally.failures) {
+        writeln!(text, "* {failure}").unwrap();
+    }
+    text
+}
+
+pub(crate) fn write(tallies: &[Tally]) {
+    let head = "# Under attack\n\n\
+                Written by `cargo test --release --test attack -- --ignored --nocapture` (`tests/attack/`). Every input has a process \
+                and a folder of its own, 20 s and 3 GB of address space. Survived is: an exit code of the book, words with \
+                every one but 0, no panic, no signal, no hang, nothing written but what was asked for; in a fault besides: \
+                every file that was there is as it was or replaced by a whole one, and none half-written bears its name.\n\n";
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/reports/attack.md");
+    std::fs::write(path, format!("{head}{}", table(tallies))).unwrap();
+}
