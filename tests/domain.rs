@@ -47,7 +47,7 @@ fn films(case: &Case, inlet: usize, half: usize) -> (f64, f64) {
 }
 
 #[test]
-#[ignore = "a measurement of minutes, whose results stand in src/plan/domain.rs"]
+#[ignore = "a measurement of minutes, whose results stand in src/plan/truncation.rs"]
 fn errors_of_truncation() {
     for l in [2.0, 5.0, 10.0, 20.0] {
         for m in [5.0, 10.0, 20.0, 50.0, 100.0, 200.0] {

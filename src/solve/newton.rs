@@ -14,6 +14,7 @@
 //! [`CARRIED`] of the film is not lost: the next step takes it over (`march.rs`), so the mass error counts
 //! only what lies beyond. Not converging is a verdict, never a panic; nothing is committed by this file.
 
+mod follow;
 mod judge;
 
 use rayon::prelude::*;
@@ -147,18 +148,11 @@ impl Newton {
             yielding.begin(iterate.p);
         }
         self.evaluate(problem, iterate, &mut report);
-        self.follow_traction(problem, iterate);
+        self.begin_traction(problem, iterate);
         let mut now = self.judge_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
         loop {
-            // Dry: there is no flow whose mass could be lost.
-            (report.film_error, report.mass_error) = if problem.medium.lambda.is_finite() {
-                (now.film_error, now.mass_error)
-            } else {
-                (0.0, 0.0)
-            };
-            report.load_error = (now.load / problem.load - 1.0).abs();
-            report.overlap = now.overlap;
+            now.note(problem, &mut report);
             report.worst_node = self.worst_node(problem.grid, iterate.p, now.worst_row);
             if !now.finite {
                 report.verdict = Verdict::NotFinite;
@@ -206,16 +200,6 @@ impl Newton {
             yielding.add_to(iterate.p, iterate.h);
         }
         self.balance(problem, iterate);
-    }
-
-    /// Takes the deflection by the traction of the iterate into the film; whether there is any.
-    fn follow_traction(&mut self, problem: &Problem, iterate: &mut Iterate) -> bool {
-        let (Some(shear), Some(sheared)) = (&mut self.shear, problem.sheared) else {
-            return false;
-        };
-        shear.follow(&sheared, iterate.p, iterate.h);
-        self.balance(problem, iterate);
-        true
     }
 
     /// Properties, F and D of pressure and film.
@@ -373,12 +357,7 @@ impl Newton {
             new.reduction = new.merit / base;
             report.left = left_of(report.change, new.reduction);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
-                if new.finite && self.follow_traction(problem, iterate) {
-                    new = self.judge(problem, iterate);
-                    new.reduction = new.merit / base;
-                    report.left = left_of(report.change, new.reduction);
-                }
-                return new;
+                return self.follow_traction(problem, iterate, (new, base), report);
             }
             t *= 0.5;
         }

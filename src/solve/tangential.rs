@@ -63,7 +63,7 @@ impl Tangential {
 ///
 /// ```text
 /// in an iteration of Newton's   H = H_e + u^s,  u^s held          H_e: gap and deflection by pressure
-/// after it                      u^s ← S q(P, H)
+/// after it                      u^s ← u^s + ω (S q(P, H) − u^s)
 /// ```
 /// u^s belongs to the iterate (of a step that begins it is the last step's, which the state holds), so that what a step
 /// gives does not depend on what was evaluated before it. While pressure and film move, it is held: the flow holds the film
@@ -75,9 +75,16 @@ impl Tangential {
 pub struct Shear {
     tangential: Tangential,
     traction: Vec<f64>,
+    /// S q.
+    next: Vec<f64>,
     /// u^s of the iterate.
     deflection: Vec<f64>,
+    /// ω.
+    share: f64,
 }
+
+/// Least ω.
+const LEAST_SHARE: f64 = 0.125;
 
 /// What the deflection by traction follows from, beside the iterate.
 #[derive(Clone, Copy)]
@@ -97,7 +104,9 @@ impl Shear {
         Self {
             tangential,
             traction: zero.clone(),
+            next: zero.clone(),
             deflection: zero,
+            share: 1.0,
         }
     }
 
@@ -114,6 +123,18 @@ impl Shear {
     /// A step begins at the last one's u^s.
     pub(super) fn begin(&mut self, before: &[f64]) {
         self.deflection.copy_from_slice(before);
+        self.share = 1.0;
+    }
+
+    /// Follows less of the traction where an iteration changed the merit from `base` to `held`, and its traction then to
+    /// `followed`: all that it gained, or more; else more of it.
+    pub(super) fn pace(&mut self, base: f64, held: f64, followed: f64) {
+        let undone = followed > 0.5 * base && followed > 2.0 * held;
+        self.share = if undone {
+            (0.5 * self.share).max(LEAST_SHARE)
+        } else {
+            (1.4 * self.share).min(1.0)
+        };
     }
 
     /// Adds u^s to the gap of a dry contact, where the traction follows from the pressure alone.
@@ -133,18 +154,34 @@ impl Shear {
         }
     }
 
-    /// u^s of the traction that pressure and film make; the film takes the difference.
-    pub(super) fn follow(&mut self, sheared: &Sheared, p: &[f64], h: &mut [f64]) {
+    /// Finds u^s of the traction that pressure and film make; what the iterate lacks of it, over the film where there is
+    /// pressure (`least`: of films below it).
+    pub(super) fn aim(&mut self, sheared: &Sheared, p: &[f64], h: &[f64], least: f64) -> f64 {
         let law = sheared.law;
         for (n, q) in self.traction.iter_mut().enumerate() {
             *q = law.traction_of(p[n], h[n], sheared.film[n] <= law.contact_film);
         }
-        for (h, &u) in h.iter_mut().zip(&self.deflection) {
-            *h -= u;
+        self.tangential.deflect(&self.traction, &mut self.next);
+        let (mut way, mut film) = (0.0, f64::MIN_POSITIVE);
+        for n in (0..p.len()).filter(|&n| p[n] > 0.0) {
+            way += (self.next[n] - self.deflection[n]).abs();
+            film += h[n].max(least);
         }
-        self.tangential
-            .deflect(&self.traction, &mut self.deflection);
-        self.add_to(h);
+        way / film
+    }
+
+    /// Follows it, ω of the way, and takes the film along.
+    pub(super) fn follow(&mut self, h: &mut [f64]) {
+        for ((h, u), &next) in h.iter_mut().zip(&mut self.deflection).zip(&self.next) {
+            let step = self.share * (next - *u);
+            *u += step;
+            *h += step;
+        }
+    }
+
+    /// What is left of the way.
+    pub(super) fn lacking(&self, way: f64) -> f64 {
+        (1.0 - self.share) * way
     }
 }
 

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::super::converge::{Sums, sum_row};
-use super::{Iterate, Newton, Problem};
+use super::{Iterate, Newton, NewtonReport, Problem};
 use crate::math::grid::Grid;
 
 /// Sums of an evaluation.
@@ -17,6 +17,20 @@ pub(super) struct Evaluation {
     pub(super) overlap: f64,
     pub(super) worst_row: usize,
     pub(super) finite: bool,
+}
+
+impl Evaluation {
+    /// Tells its errors.
+    pub(super) fn note(&self, problem: &Problem, report: &mut NewtonReport) {
+        // Dry: there is no flow whose mass could be lost.
+        (report.film_error, report.mass_error) = if problem.medium.lambda.is_finite() {
+            (self.film_error, self.mass_error)
+        } else {
+            (0.0, 0.0)
+        };
+        report.load_error = (self.load / problem.load - 1.0).abs();
+        report.overlap = self.overlap;
+    }
 }
 
 impl Newton {

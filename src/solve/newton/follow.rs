@@ -1,0 +1,51 @@
+//! How the deflection by traction follows the iterate (`tangential.rs`).
+
+use super::super::converge::left_of;
+use super::judge::Evaluation;
+use super::{Iterate, Newton, NewtonReport, Problem};
+
+impl Newton {
+    /// A step begins with all of the deflection that the traction of its first guess makes.
+    pub(super) fn begin_traction(&mut self, problem: &Problem, iterate: &mut Iterate) {
+        if let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared) {
+            shear.aim(&sheared, iterate.p, iterate.h, problem.tolerance.least_film);
+            shear.follow(iterate.h);
+            self.balance(problem, iterate);
+        }
+    }
+
+    /// Lets the deflection by traction follow pressure and film, unless the iterate is solved as it stands but for a small
+    /// part of the film; the evaluation of what then is.
+    pub(super) fn follow_traction(
+        &mut self,
+        problem: &Problem,
+        iterate: &mut Iterate,
+        (held, base): (Evaluation, f64),
+        report: &mut NewtonReport,
+    ) -> Evaluation {
+        let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared) else {
+            return held;
+        };
+        let tolerance = &problem.tolerance;
+        let way = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
+        let mut new = held;
+        new.note(problem, report);
+        report.film_error += way;
+        if Self::is_converged(tolerance, report) {
+            new.film_error += way;
+            return new;
+        }
+        shear.follow(iterate.h);
+        let lacking = shear.lacking(way);
+        self.balance(problem, iterate);
+        let held = new.merit;
+        new = self.judge(problem, iterate);
+        new.film_error += lacking;
+        new.reduction = new.merit / base;
+        report.left = left_of(report.change, new.reduction);
+        if let Some(shear) = &mut self.shear {
+            shear.pace(base, held, new.merit);
+        }
+        new
+    }
+}
