@@ -234,11 +234,11 @@ fn steps_that_cannot_converge_are_named() {
     assert!(found.named > 0 || found.stalled.is_some(), "{found:?}");
 }
 
-/// Dry steps too, by the gaps that they leave, with what was asked: bodies so unlike, and so rough to each other, that the
-/// passes between pressure and traction do not settle. (Above 5 % the run ends, as wet ones do; `tests/hertz_dry.rs` shows
-/// that the gap error is there to be judged. No scene is known that leaves so much.)
+/// Dry steps that are called converged are so, by their gaps too, in the contacts that did not settle before: bodies as
+/// unlike as they can be, with as much friction as there is. No dry scene is known that does not converge now; that gaps
+/// are told where a solution is cut short is asserted in `tests/hertz_dry.rs`.
 #[test]
-fn dry_steps_that_cannot_converge_are_named() {
+fn dry_steps_of_unlike_bodies_converge_with_any_friction() {
     let dry = |more: &[&str]| {
         let sets = [
             "lubricant=none",
@@ -256,30 +256,27 @@ fn dry_steps_that_cannot_converge_are_named() {
         let sets: Vec<Override> = sets.map(|s| s.parse().unwrap()).collect();
         let scene = Scene::load_with("demonstration", &sets).unwrap();
         let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
-        let mut named = Vec::new();
         while sim.passage_steps() < 2 {
             sim.step().unwrap();
             let metrics = sim.metrics();
             assert_eq!(metrics.asked, [1e-6; 2], "of dry steps");
             let [residual, gap] = metrics.asked;
-            let is_within = metrics.residual <= residual && metrics.film_error <= gap;
-            // What is called converged is so, and the other way round.
-            assert_eq!(metrics.converged, is_within, "{metrics:?}");
-            if !metrics.converged {
-                named.push((metrics.residual, metrics.film_error));
-            }
+            println!(
+                "{more:?}: {:.1e}, {:.1e}",
+                metrics.residual, metrics.film_error
+            );
+            assert!(metrics.converged, "{metrics:?}");
+            assert!(metrics.residual <= residual && metrics.film_error <= gap);
         }
-        named
     };
-    assert_eq!(dry(&["friction.boundary=0.5"]), []);
-    let named = dry(&["friction.boundary=1"]);
-    println!("residual and gap error of the steps named: {named:?}");
-    // The change of pressure alone would not tell why.
-    assert!(
-        named
-            .iter()
-            .any(|(residual, gap)| *residual < 1e-6 && *gap > 1e-6)
-    );
+    dry(&["friction.boundary=0.5"]);
+    dry(&["friction.boundary=1"]);
+    dry(&["friction.boundary=1", "body_1.young_pa=1e9"]);
+    dry(&[
+        "friction.boundary=1",
+        "body_1.young_pa=1e9",
+        "body_1.poisson=0",
+    ]);
 }
 
 /// A load turned up by hand is taken as far as its contact stays within the domain, and refused beyond with the

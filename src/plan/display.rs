@@ -208,7 +208,7 @@ impl Plan {
         }
         if let Some(record) = self.record {
             lines.push(format!(
-                "recording: scalars every step, fields {} ({} frames, about {} of at most {})",
+                "recording: scalars every step as far as the budget goes, fields {} ({} frames, about {} of at most {})",
                 every(record.every_steps),
                 record.frames,
                 size(record.bytes),
