@@ -160,13 +160,13 @@ def main():
     parser.add_argument("--patience", type=float, default=300.0, help="seconds to wait for a screen (default: %(default)s)")
     arguments = parser.parse_args()
     program, patience = arguments.program.resolve(), arguments.patience
-    # The default scene, its orbit replayed, the curve of life against S filled in.
+    # The default scene, its period replayed, the curve of life against S filled in.
     swept = [([], "sweeping S", patience), ([], "sweeping S 15/18", patience)]
     shoot(program, arguments.folder, "explorer.png", (160, 48), swept)
-    # The second lesson at S = 0.5, its orbit replayed: the comb.
-    comb = [(["t"], "1/7", patience), (["n"], "2/7", patience), ([], "(3/4)", patience), ([], "orbit", patience)]
+    # The second lesson at S = 0.5, its period replayed: the comb.
+    comb = [(["t"], "1/7", patience), (["n"], "2/7", patience), ([], "(3/4)", patience), ([], "↻ replay", patience)]
     shoot(program, arguments.folder, "explorer_lesson.png", (160, 48), comb)
-    shoot(program, arguments.folder, "explorer_80x24.png", (80, 24), [([], "live", patience), (["e"], "another scene", patience)])
+    shoot(program, arguments.folder, "explorer_80x24.png", (80, 24), [([], "live", patience), (["e"], "change the scene", patience)])
 
 
 if __name__ == "__main__":
