@@ -26,18 +26,12 @@
 //! | 4 | 2 | 296 | 94.7 | 944 | 114 | 9.9e-5 | 0.044 | 0.42 |
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+mod stiff;
+
 use asperity::plan::Plan;
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Frame, Knob, SimError, Simulation, Stage, StepError};
-
-/// A stiff scene.
-#[derive(Debug, Clone, Copy)]
-struct Stiff {
-    p_hertz_pa: f64,
-    speed_m_s: f64,
-    slide_roll: f64,
-    nodes: usize,
-}
+use stiff::{Stiff, sets};
 
 /// How it went.
 #[derive(Debug, Default)]
@@ -55,34 +49,6 @@ struct Outcome {
     passage_steps: u64,
     /// Deepest overlap of the surfaces, nm.
     overlap_nm: f64,
-}
-
-/// The scene's overrides; the waves are 8 nodes long.
-fn sets(stiff: Stiff) -> Vec<String> {
-    let mut sets = vec![
-        "load.force_n=none".to_owned(),
-        format!("load.hertz_pressure_pa={:e}", stiff.p_hertz_pa),
-        "lubricant.viscosity_law=barus".to_owned(),
-        "lubricant.pressure_viscosity_per_pa=2.2e-8".to_owned(),
-        format!("motion.entrainment_m_s={:e}", stiff.speed_m_s),
-        format!("motion.slide_roll={}", stiff.slide_roll),
-        format!("grid.nodes={}", stiff.nodes),
-        "life=none".to_owned(),
-        "stress=none".to_owned(),
-    ];
-    let smooth = ["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"];
-    let all = sets.iter().map(String::as_str).chain(smooth);
-    let all: Vec<Override> = all.map(|s| s.parse().unwrap()).collect();
-    let plan = Plan::new(&Scene::load_with("demonstration", &all).unwrap()).unwrap();
-    let (wx, wy) = (8.0 * plan.dx_m, 8.0 * plan.dy_m);
-    sets.extend([
-        format!("body_1.surface.wavelength_x_m={wx:e}"),
-        format!("body_2.surface.wavelength_x_m={wx:e}"),
-        format!("body_2.surface.wavelength_y_m={wy:e}"),
-        "body_1.surface.amplitude_m=1.5e-6".to_owned(),
-        "body_2.surface.amplitude_m=1.5e-6".to_owned(),
-    ]);
-    sets
 }
 
 /// Runs the start-up and `steps` steps; judges every one.

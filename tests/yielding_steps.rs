@@ -1,9 +1,12 @@
 //! Steel that yields under oil and on the move: bounds in every step of the stiff set, shakedown of what comes back.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+mod stiff;
+
 use asperity::plan::Plan;
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Frame, Simulation, Stage};
+use stiff::Stiff;
 
 /// Hardness of steel of 60 HRC, Pa.
 const H_PA: f64 = 6.84e9;
@@ -14,31 +17,14 @@ fn simulation(preset: &str, sets: &[String]) -> Simulation {
     Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap()
 }
 
-/// The stiff set of `tests/ladder.rs`.
+/// The stiff set with a hardness of both bodies.
 fn stiff(p_hertz_pa: f64, speed_m_s: f64, slide_roll: f64, hardness: Option<f64>) -> Vec<String> {
-    let mut sets = vec![
-        "load.force_n=none".to_owned(),
-        format!("load.hertz_pressure_pa={p_hertz_pa:e}"),
-        "lubricant.viscosity_law=barus".to_owned(),
-        "lubricant.pressure_viscosity_per_pa=2.2e-8".to_owned(),
-        format!("motion.entrainment_m_s={speed_m_s:e}"),
-        format!("motion.slide_roll={slide_roll}"),
-        "grid.nodes=65".to_owned(),
-        "life=none".to_owned(),
-        "stress=none".to_owned(),
-    ];
-    let smooth = ["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"];
-    let all = sets.iter().map(String::as_str).chain(smooth);
-    let all: Vec<Override> = all.map(|s| s.parse().unwrap()).collect();
-    let plan = Plan::new(&Scene::load_with("demonstration", &all).unwrap()).unwrap();
-    let (wx, wy) = (8.0 * plan.dx_m, 8.0 * plan.dy_m);
-    sets.extend([
-        format!("body_1.surface.wavelength_x_m={wx:e}"),
-        format!("body_2.surface.wavelength_x_m={wx:e}"),
-        format!("body_2.surface.wavelength_y_m={wy:e}"),
-        "body_1.surface.amplitude_m=1.5e-6".to_owned(),
-        "body_2.surface.amplitude_m=1.5e-6".to_owned(),
-    ]);
+    let mut sets = stiff::sets(Stiff {
+        p_hertz_pa,
+        speed_m_s,
+        slide_roll,
+        nodes: 65,
+    });
     for body in [1, 2] {
         let given = hardness.map_or("none".to_owned(), |pa| format!("{pa:e}"));
         sets.push(format!("body_{body}.hardness_pa={given}"));

@@ -40,10 +40,8 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         None => (scenes::prepare(args)?, Vec::new(), 0),
         Some(repeated) => (repeated.prepared, repeated.turns, repeated.last_step),
     };
-    let path = args
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("{}.rrd", prepared.name)));
+    let usual = || PathBuf::from(format!("{}.rrd", prepared.name));
+    let path = args.out.clone().unwrap_or_else(usual);
     let recorded = prepared.scene.record.is_some();
     let plan = prepared.plan;
     let estimate_s = plan.cost.time_s;
@@ -94,10 +92,7 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
     };
     note_in_recording(&outcome, recorded.then_some(path.as_path()));
-    if matches!(outcome.end, End::Stopped) {
-        let note = report::stopped(&outcome);
-        tell(&format!("{note}; what was recorded is complete"));
-    }
+    tell_where_stopped(&outcome);
     // The state first: it is what a run that cannot tell its results is taken up from.
     let saved = headless
         .save_state
@@ -106,6 +101,13 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     let code = conclude(&prepared.scene, &outcome, Some(&errors), outputs)?;
     saved?;
     Ok(code)
+}
+
+fn tell_where_stopped(outcome: &Outcome) {
+    if matches!(outcome.end, End::Stopped) {
+        let note = report::stopped(outcome);
+        tell(&format!("{note}; what was recorded is complete"));
+    }
 }
 
 /// Writes what came out into the finished recording's properties. Without it the recording is as good.

@@ -86,15 +86,16 @@ impl Simulation {
             time_s: 0.0,
             start_up_steps: (0, 1),
         };
+        let work = Work {
+            solver,
+            terrain,
+            stress: stages.stress,
+            traction: vec![0.0; fine.len()],
+            row_sums: vec![RowSums::default(); fine.ny],
+            smooth: None,
+        };
         let mut this = Self {
-            work: Work {
-                solver,
-                terrain,
-                stress: stages.stress,
-                traction: vec![0.0; fine.len()],
-                row_sums: vec![RowSums::default(); fine.ny],
-                smooth: None,
-            },
+            work,
             cuts: cuts(scene),
             iso_load_ratio: scene.life.as_ref().and_then(|life| life.iso_load_ratio),
             stress_error: stress_error(&plan, [1.0; 2]),
@@ -112,14 +113,19 @@ impl Simulation {
             pool: Arc::new(pool),
             state,
         };
-        this.make_room();
-        this.state.phase = Phase::Smooth {
-            left: this.smooth_steps(first, this.plan.has_flow()),
-        };
-        this.state.start_up_steps.1 = this.all_start_up_steps();
-        let measured = this.measure();
-        this.publish(&Attempted::default(), &measured);
+        this.begin(first);
         Ok(this)
+    }
+
+    /// Before the first step, on a grid of `first` nodes per side.
+    fn begin(&mut self, first: usize) {
+        self.make_room();
+        self.state.phase = Phase::Smooth {
+            left: self.smooth_steps(first, self.plan.has_flow()),
+        };
+        self.state.start_up_steps.1 = self.all_start_up_steps();
+        let measured = self.measure();
+        self.publish(&Attempted::default(), &measured);
     }
 }
 

@@ -270,26 +270,11 @@ impl Newton {
             &self.active,
             &mut self.rhs,
         );
-        let held = self.yielding.as_ref().and_then(Yielding::held);
         let mut missing = problem.load - load;
         if any_fixed {
-            self.elastic
-                .deflect_single(&self.fixed, &mut self.fixed_deflection);
-            if let Some(held) = held {
-                clear(held, &mut self.fixed_deflection);
-            }
-            self.jacobian.apply(
-                grid,
-                &self.fixed,
-                &self.fixed_deflection,
-                0.0,
-                &mut self.scratch,
-            );
-            for (r, &c) in self.rhs.iter_mut().zip(&self.scratch) {
-                *r -= c;
-            }
-            missing -= grid.integrate(|n| f64::from(self.fixed[n]));
+            missing -= self.take_known(grid);
         }
+        let held = self.yielding.as_ref().and_then(Yielding::held);
         if let Some(held) = held {
             self.jacobian.exchange(grid, held, self.elastic.k00);
         }
@@ -326,6 +311,22 @@ impl Newton {
             *v += fixed;
         }
         linear.h0
+    }
+
+    /// Takes what known changes of pressure do off the right-hand side; gives the load that they carry.
+    fn take_known(&mut self, grid: &Grid) -> f64 {
+        self.elastic
+            .deflect_single(&self.fixed, &mut self.fixed_deflection);
+        if let Some(held) = self.yielding.as_ref().and_then(Yielding::held) {
+            clear(held, &mut self.fixed_deflection);
+        }
+        let (fixed, deflection) = (&self.fixed, &self.fixed_deflection);
+        self.jacobian
+            .apply(grid, fixed, deflection, 0.0, &mut self.scratch);
+        for (r, &c) in self.rhs.iter_mut().zip(&self.scratch) {
+            *r -= c;
+        }
+        grid.integrate(|n| f64::from(self.fixed[n]))
     }
 
     /// Takes the step, halved until the natural residual falls; leaves the new evaluation.

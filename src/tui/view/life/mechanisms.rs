@@ -22,13 +22,12 @@ pub(super) fn mechanisms(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
         ("traction", now.map(|now| now.traction), Role::Traction),
         ("load", now.map(|now| now.load / pinned), Role::Strong),
     ];
-    let decades = waterfall_decades(factors.map(|(_, factor, _)| factor));
     let mut from = 1.0;
     for (name, factor, role) in factors {
         let row = rows.take(1);
         let to = from * factor.unwrap_or(1.0);
         waterfall_value(app, row, (name, factor, role), buffer);
-        waterfall_bar(app, row, decades, [from, to], role, buffer);
+        waterfall_bar(app, row, [from, to], role, buffer);
         from = to;
     }
     let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
@@ -57,17 +56,8 @@ fn against(app: &App, row: Rect, buffer: &mut Buffer) {
     put(row, 0, &line, buffer);
 }
 
-/// Whole decades that hold every end of a bar.
-fn waterfall_decades(factors: [Option<f64>; 4]) -> [f64; 2] {
-    // Four decades, as the scale of the life has: bars that rescale with every value cannot be compared.
-    let (mut decade, mut low, mut high) = (0.0, -4.0_f64, 0.0_f64);
-    for factor in factors.into_iter().flatten() {
-        decade += factor.max(1e-12).log10();
-        low = low.min(decade.floor());
-        high = high.max(decade.ceil());
-    }
-    [low, high]
-}
+/// Decades of every bar: bars that rescale cannot be compared. What goes beyond them has an arrow at that end.
+const DECADES: [f64; 2] = [-4.0, 0.0];
 
 fn waterfall_value(
     app: &App,
@@ -82,14 +72,7 @@ fn waterfall_value(
     put_right(row, 0, &Line::styled(value, style), buffer);
 }
 
-fn waterfall_bar(
-    app: &App,
-    row: Rect,
-    decades: [f64; 2],
-    [from, to]: [f64; 2],
-    role: Role,
-    buffer: &mut Buffer,
-) {
+fn waterfall_bar(app: &App, row: Rect, [from, to]: [f64; 2], role: Role, buffer: &mut Buffer) {
     let theme = app.theme;
     let (before, after) = (9, 7);
     if row.is_empty() || row.width < before + after + 3 {
@@ -100,14 +83,19 @@ fn waterfall_bar(
         width: row.width - before - after,
         ..row
     };
-    let column = |value: f64| {
-        let part = (value.max(1e-300).log10() - decades[0]) / (decades[1] - decades[0]);
-        (part.clamp(0.0, 1.0) * f64::from(track.width - 1)).round() as u16
-    };
+    let last = track.width - 1;
+    let part = |value: f64| (value.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
+    let column = |value: f64| (part(value).clamp(0.0, 1.0) * f64::from(last)).round() as u16;
     let (a, b) = (column(from), column(to));
+    // Half a cell beyond the last decade is drawn there as it is.
+    let slack = 0.5 / f64::from(last);
+    let (least, most) = (part(from.min(to)), part(from.max(to)));
     for offset in 0..track.width {
-        let filled = offset >= a.min(b) && offset <= a.max(b);
-        let (symbol, role) = if filled {
+        let (symbol, role) = if offset == 0 && least < -slack {
+            (theme.pick("◂", "<"), role)
+        } else if offset == last && most > 1.0 + slack {
+            (theme.pick("▸", ">"), role)
+        } else if offset >= a.min(b) && offset <= a.max(b) {
             (theme.pick("█", "#"), role)
         } else {
             (theme.pick("·", "."), Role::Border)
