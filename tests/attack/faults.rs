@@ -29,7 +29,7 @@ const OUTPUTS: [(&str, &str); 4] = [
 const MINE: &str = "mine, and a day's work: ";
 const NONE: &str = "true";
 
-fn args(passages: &str, more: &[String]) -> Vec<String> {
+pub(super) fn args(passages: &str, more: &[String]) -> Vec<String> {
     let own = SMALL.map(str::to_owned).into_iter();
     let own = own.chain([format!("--passages={passages}")]);
     let recorded = more.iter().any(|arg| arg.starts_with("--out"));
@@ -37,7 +37,7 @@ fn args(passages: &str, more: &[String]) -> Vec<String> {
     own.chain(unrecorded).chain(more.iter().cloned()).collect()
 }
 
-fn refs(args: &[String]) -> Vec<&str> {
+pub(super) fn refs(args: &[String]) -> Vec<&str> {
     args.iter().map(String::as_str).collect()
 }
 
@@ -78,13 +78,13 @@ fn lost(place: &Place, replaced: bool) -> Option<String> {
     })
 }
 
-struct Faults {
+pub(super) struct Faults {
     tally: Tally,
 }
 
 impl Faults {
     /// Takes up how a drill ended.
-    fn judge(&mut self, drill: &str, fault: Option<String>) {
+    pub(super) fn judge(&mut self, drill: &str, fault: Option<String>) {
         self.tally.count(drill);
         let repeat = "`cargo test --release --test attack faults`";
         self.tally
@@ -357,5 +357,7 @@ pub(crate) fn all() -> Vec<Tally> {
     faults.unread();
     faults.exports();
     faults.sweeps();
+    #[cfg(target_os = "linux")]
+    faults.clock_jumps();
     vec![faults.tally]
 }
