@@ -1,14 +1,19 @@
-/* The wall clock of a machine that is set again and again: forward by ten years, back to before 1970. For LD_PRELOAD. */
+/* The wall clock of a machine that is set again and again, by up to thirty years; with BEFORE_1970 in the environment it
+   stands before 1970. For LD_PRELOAD. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <sys/time.h>
 #include <time.h>
 
 static atomic_uint readings;
 
 static time_t jump(void) {
-    static const time_t jumps[] = {0, 315360000, -1900000000, 3600, -86400, 946080000};
+    static const time_t jumps[] = {0, 315360000, -900000000, 3600, -86400, 946080000};
+    if (getenv("BEFORE_1970")) {
+        return -2200000000;
+    }
     return jumps[atomic_fetch_add(&readings, 1) % 6];
 }
 

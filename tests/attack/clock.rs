@@ -9,7 +9,7 @@ use re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
 
 use super::child::Place;
-use super::faults::{Faults, args, refs};
+use super::faults::{Faults, all_outputs, args, lost, put_mine, refs};
 
 const SWEEP: &str = include_str!("../cluster/tiny.toml");
 
@@ -107,6 +107,19 @@ impl Faults {
         );
         #[cfg(feature = "tui")]
         self.clock_jumps_in_the_explorer(&jumping);
+    }
+
+    /// Where no recording can begin a run is refused in words, and what was there stays.
+    fn before_1970(&mut self, jumping: &str) {
+        let place = Place::new();
+        put_mine(&place);
+        let more = [all_outputs(), vec!["--force".to_owned()]].concat();
+        let limit = format!("export BEFORE_1970=1; {jumping}");
+        let ended = place.run(&limit, &refs(&args("0.1", &more)));
+        self.judge(
+            "clock before 1970",
+            ended.fault(&[4]).or_else(|| lost(&place, false)),
+        );
     }
 
     /// The explorer hears keys and leaves a recording that is whole.

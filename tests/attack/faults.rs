@@ -41,13 +41,13 @@ pub(super) fn refs(args: &[String]) -> Vec<&str> {
     args.iter().map(String::as_str).collect()
 }
 
-fn all_outputs() -> Vec<String> {
+pub(super) fn all_outputs() -> Vec<String> {
     OUTPUTS
         .map(|(option, name)| format!("{option}={name}"))
         .to_vec()
 }
 
-fn put_mine(place: &Place) {
+pub(super) fn put_mine(place: &Place) {
     for (_, name) in OUTPUTS {
         place.put(name, format!("{MINE}{name}").as_bytes());
     }
@@ -70,7 +70,7 @@ fn is_whole(path: &Path) -> bool {
 }
 
 /// What was lost of the outputs, if anything. `replaced`: all of them must be new ones.
-fn lost(place: &Place, replaced: bool) -> Option<String> {
+pub(super) fn lost(place: &Place, replaced: bool) -> Option<String> {
     OUTPUTS.iter().find_map(|(_, name)| {
         let path = place.folder().join(name);
         let good = (is_mine(&path) && !replaced) || is_whole(&path);
