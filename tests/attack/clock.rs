@@ -105,6 +105,7 @@ impl Faults {
             "clock jumps: recording",
             difference(&at("a.rrd"), &at("b.rrd")),
         );
+        self.before_1970(&jumping);
         #[cfg(feature = "tui")]
         self.clock_jumps_in_the_explorer(&jumping);
     }
