@@ -19,7 +19,8 @@ mod faults;
 mod inputs;
 mod mutate;
 #[cfg(feature = "tui")]
-#[path = "../pty/mod.rs"]
+#[path = "../common/pty.rs"]
+#[expect(dead_code, reason = "each test uses its part")]
 mod pty;
 mod replay;
 mod report;
