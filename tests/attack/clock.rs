@@ -26,12 +26,14 @@ fn clock(folder: &Path) -> PathBuf {
     library
 }
 
-/// What a recording holds but the names of its rows, and the time that it began at.
+/// What a recording holds but its layout, whose parts have names of chance.
 fn chunks(path: &Path) -> Vec<Chunk> {
     let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
     let messages = DecoderApp::decode_eager(file).unwrap().map(Result::unwrap);
     let data = messages.filter_map(|message| match message {
-        LogMsg::ArrowMsg(_, data) => Some(Chunk::from_arrow_msg(&data).unwrap()),
+        LogMsg::ArrowMsg(store, data) if !store.is_blueprint() => {
+            Some(Chunk::from_arrow_msg(&data).unwrap())
+        }
         _ => None,
     });
     data.collect()
