@@ -229,8 +229,14 @@ fn push_life(text: &mut String, scene: &Scene, s: &Summary) {
 /// Both bodies, the choice of model, absolute cycles, and where pits start.
 fn push_life_beside(text: &mut String, s: &Summary) {
     if let (Some(model), Some(body)) = (&s.life_model, s.life_body) {
-        let what = format!("{model}, body {body} governs, in own loading cycles");
+        let unit = s.life_count.as_deref().unwrap_or_default();
+        let what = format!("{model}, body {body} governs, {unit}");
         line(text, "", &what);
+    }
+    if let (Some(global), Some(damage)) = (s.life_global, s.life_damage) {
+        let (global, damage) = (four(global), four(damage));
+        let what = format!("paper's count {global}, counted by damage {damage}");
+        line(text, "counts", &what);
     }
     if let (Some(one), Some(two)) = (s.life_body_1, s.life_body_2) {
         let system = s

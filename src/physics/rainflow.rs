@@ -94,6 +94,16 @@ impl Rainflow {
         self.turning.reset();
     }
 
+    /// Greatest less least of the reversals that are not counted yet: a cycle of that range will close.
+    pub fn open_range(&self) -> f64 {
+        let ends = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = self
+            .stack
+            .iter()
+            .fold(ends, |(low, high), v| (low.min(*v), high.max(*v)));
+        (high - low).max(0.0)
+    }
+
     /// Half cycles that were counted early for want of memory.
     pub fn forced(&self) -> u64 {
         self.forced

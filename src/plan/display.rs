@@ -239,6 +239,7 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
             asked.measure.name(),
             cycles_text(asked.cycles),
             match asked.volume {
+                VolumeIntegral::Material => "greatest stress that each material point meets",
                 VolumeIntegral::Snapshot => "mean of snapshots",
                 VolumeIntegral::Swept => "swept: greatest stress of every track",
             }
@@ -294,6 +295,7 @@ fn every(steps: u64) -> String {
 /// A cycle basis in words.
 fn cycles_text(cycles: CycleBasis) -> &'static str {
     match cycles {
+        CycleBasis::Damage => "counted by depth, each by its damage, in those of the faster body",
         CycleBasis::Global => "one n for the volume, an upper bound on damage",
         CycleBasis::Depth => "n by depth",
         CycleBasis::Peaks => "counted by depth, by peaks",

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::damage_count::DamageCount;
 use super::stress_stage::StressStage;
 use crate::math::grid::Grid;
 use crate::physics::cycles::{BodyId, Kinematics};
@@ -9,6 +10,7 @@ use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
 use crate::scene::CycleBasis;
 use crate::solve::damage::{BlockSpec, DamageMap, Pit};
+use crate::solve::stress::StressLaw;
 use crate::solve::material::{DamageBasis, Line, MaterialTracker, Sample, TrackerSpec};
 
 /// Depth, in a, at which the shown material point lies: shallow enough to feel single asperities.
@@ -34,6 +36,8 @@ pub(super) struct Counting {
     /// c: damage grows as its power with the size, and with it the pressure.
     exponent: f64,
     basis: DamageBasis,
+    /// Cycles by their damage, where a life integrates stress.
+    by_damage: Option<DamageCount>,
 }
 
 /// Counted and equivalent cycles of a body by depth, on one basis.
@@ -55,6 +59,10 @@ pub(super) struct CountingSpec {
     pub(super) basis: DamageBasis,
     /// Blocks of both bodies for which damage is mapped: length and way from a crest, a.
     pub(super) blocks: [Option<(f64, f64)>; 2],
+    /// How life integrates stress; empty: it does not.
+    pub(super) laws: Vec<StressLaw>,
+    /// Wavelengths of both bodies' crests along x, a.
+    pub(super) waves: [Option<f64>; 2],
 }
 
 impl Counting {
@@ -95,6 +103,8 @@ impl Counting {
             reference_size: 1.0,
             exponent: spec.exponent,
             basis: spec.basis,
+            by_damage: (!spec.laws.is_empty())
+                .then(|| DamageCount::new(grid, spec.depths, &spec.laws, spec.waves)),
         }
     }
 
@@ -135,6 +145,10 @@ impl Counting {
             && saved.shown_depth < depths.max(1)
             && saved.profiles.iter().flatten().all(whole)
             && trackers.all(|(own, saved)| own.fits(saved))
+            && match (&self.by_damage, &saved.by_damage) {
+                (Some(own), Some(saved)) => own.fits(saved),
+                (own, saved) => own.is_none() && saved.is_none(),
+            }
     }
 
     /// Forgets all counts; the bodies have moved by `travelled` (in a).
@@ -144,6 +158,9 @@ impl Counting {
         }
         for profile in self.profiles.iter_mut().flatten() {
             profile.is_known = false;
+        }
+        if let Some(by_damage) = &mut self.by_damage {
+            by_damage.restart();
         }
     }
 
@@ -174,6 +191,9 @@ impl Counting {
             let i = body.index();
             let before = self.trackers[i].crossings();
             self.trackers[i].step(travel[i], &line(body));
+            if let Some(by_damage) = &mut self.by_damage {
+                by_damage.step(body, travel[i], &line(body));
+            }
             if self.trackers[i].crossings() == before {
                 continue;
             }
@@ -182,6 +202,9 @@ impl Counting {
                 let (counted, equivalent) = (&mut profile.counted, &mut profile.equivalent);
                 profile.is_known = self.trackers[i].cycles_by_depth(basis, counted, equivalent);
             }
+        }
+        if let Some(by_damage) = &mut self.by_damage {
+            by_damage.take(travel, &self.trackers);
         }
         let shown = self.shown_body;
         self.shown = Some(self.trackers[shown.index()].shown(&line(shown)));
@@ -218,12 +241,21 @@ impl Counting {
         let basis = match basis {
             CycleBasis::Ranges => DamageBasis::Ranges,
             CycleBasis::Peaks => DamageBasis::Peaks,
+            CycleBasis::Damage => {
+                let cycles = self.by_damage.as_ref()?.cycles(body)?;
+                return Some(CycleProfile::Counted(cycles));
+            }
             CycleBasis::Global | CycleBasis::Depth => return None,
         };
         let profile = &self.profiles[body.index()][basis_index(basis)];
         profile
             .is_known
             .then_some(CycleProfile::Counted(&profile.equivalent))
+    }
+
+    /// ln of what the swept integral of a law becomes as the mean over material points, by depth.
+    pub(super) fn ln_ratios(&self, body: BodyId, law: usize) -> Option<&[f64]> {
+        Some(self.by_damage.as_ref()?.ln_ratios(body, law))
     }
 
     /// Counts of signed shear by depth; `None` until a crossing has been counted.

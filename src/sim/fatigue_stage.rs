@@ -1,9 +1,10 @@
 //! What the passage costs: mean life integrals of the scene's model and of the variants beside it.
 //!
 //! The reference is the same scene smooth, frictionless, with S = 0, at the load and speed of now (`reference.rs`);
-//! n_ref = 1. A body's life is counted in its own loading cycles, and the weaker body gives the life of the
-//! scene unless it names one. As a system both bodies are compared in time, as equal discs:
-//! `L = [½ Σ (N_i U/|U_i|)^{−e}]^{−1/e}` relative to the two bodies of the reference.
+//! n_ref = 1. A body's life is counted in its own loading cycles, by [`CycleBasis::Damage`] in those of the faster body
+//! ([`super::damage_count`]), and the weaker body gives the life of the scene unless it names one. As a system both
+//! bodies are compared in time, as equal discs: `L = [½ Σ (N_i U/|U_i|)^{−e}]^{−1/e}` relative to the two bodies of the
+//! reference (U_fast in place of U_i where N_i are its cycles).
 
 use serde::{Deserialize, Serialize};
 
@@ -14,11 +15,13 @@ use super::settling::Settling;
 use super::smooth::Conditions;
 use super::stress_stage::StressStage;
 use super::variant::{Shared, Variant, models};
+use crate::math::ln_sum::ln_sum;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::{LifeFactors, LifeLaw};
 use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
 use crate::scene::{BodyChoice, ContactKind, CycleBasis, Life, Scene, Spread, VolumeIntegral};
+use crate::solve::marks::Marks;
 use crate::solve::life::{Shares, Sweep, Window, factors};
 use crate::solve::stress::{Loading, StressLaw};
 
@@ -59,6 +62,8 @@ pub(super) struct LifeStage {
     /// Cycles of the smooth contact of that size.
     pub(super) reference_cycles: Option<f64>,
     settling: Settling,
+    /// How far ln of the damage of both bodies moved, where cycles count by it.
+    damage: Marks,
 }
 
 impl LifeStage {
@@ -109,6 +114,7 @@ impl LifeStage {
             reference_at: Conditions::default(),
             reference_cycles: None,
             settling: Settling::new(law, scene.numerics.tolerance),
+            damage: Marks::new(),
         })
     }
 
@@ -153,11 +159,18 @@ impl LifeStage {
         }
     }
 
+    /// How cycles are counted, and of whose loading cycles lives are.
+    pub(super) fn count_text(&self) -> String {
+        let basis = self.asked.cycles;
+        format!("{}, in {}", basis.name(), basis.unit())
+    }
+
     /// Makes the room again that a copy or a file does not keep.
     pub(super) fn make_room(&mut self) {
         for variant in &mut self.variants {
             variant.make_room();
         }
+        self.damage.make_room();
     }
 
     /// Whether a stage that was saved is of the same make as this one.
@@ -170,6 +183,7 @@ impl LifeStage {
             && self.depths == saved.depths
             && saved.sweep.is_sound(rows)
             && saved.scratch.is_sound(depths)
+            && saved.damage.is_sound()
             && self.variants.len() == saved.variants.len()
             && self
                 .variants
@@ -185,6 +199,7 @@ impl LifeStage {
 
     /// Takes the mean over `window` (in a) from now on.
     pub(super) fn set_window(&mut self, window: Window) {
+        self.damage.forget();
         for variant in &mut self.variants {
             variant.set_window(window);
         }
@@ -203,18 +218,54 @@ impl LifeStage {
             variant.restart();
         }
         self.settling.restart();
+        self.damage.forget();
     }
 
     /// Whether the average may be called settled, after a sample without anything of a ramp in it.
-    pub(super) fn judge(&mut self, stress_error: f64, repeat: Option<Repeat>) {
+    pub(super) fn judge(
+        &mut self,
+        stress_error: f64,
+        repeat: Option<Repeat>,
+        counting: Option<&Counting>,
+    ) {
+        let by_damage = self.asked.cycles == CycleBasis::Damage;
         let meter = self.variants[0].meter();
-        self.settling.judge(meter, stress_error, repeat);
+        let (way, period) = meter.way();
+        if by_damage && meter.covers() && self.damage.is_due(way) {
+            let ln = BodyId::BOTH.map(|body| self.ln_damage(body, counting));
+            self.damage.take(way, period, ln);
+        }
+        let damage = by_damage.then_some(&self.damage);
+        let meter = self.variants[0].meter();
+        self.settling.judge(meter, stress_error, repeat, damage);
     }
 
-    /// Takes the surface loaded last, which stands for a `way` (in a).
-    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage) {
+    /// `ln Σ_k n_k^e J_k` of a body by its damage.
+    fn ln_damage(&self, body: BodyId, counting: Option<&Counting>) -> f64 {
+        let e = self.law.weibull_slope;
+        let cycles = counting.and_then(|counting| counting.profile(body, CycleBasis::Damage));
+        let shares = self.variants[0].shares(VolumeIntegral::Material);
+        let (Some(cycles), Some(shares)) = (cycles, shares) else {
+            return f64::NEG_INFINITY;
+        };
+        let shares = shares.of(Loading::Full(body)).iter().zip(&self.depths);
+        ln_sum(
+            shares
+                .enumerate()
+                .map(|(k, (ln, z))| (1.0, ln + e * cycles.at(k, *z).ln())),
+        )
+    }
+
+    /// Takes the surface loaded last, which stands for a `way` (in a), and what has been counted up to it.
+    pub(super) fn push(
+        &mut self,
+        way: f64,
+        stress: &mut StressStage,
+        counting: Option<&Counting>,
+    ) {
         self.each(stress, |variant, stress, shared| {
             variant.push(way, stress, shared);
+            variant.weigh_material(counting);
         });
     }
 
@@ -241,7 +292,7 @@ impl LifeStage {
 
     /// The estimate for the conditions of now.
     pub(super) fn estimate(&self, now: &Now, counting: Option<&Counting>) -> Option<LifeEstimate> {
-        let (basis, form) = (self.asked.cycles, self.asked.volume);
+        let (basis, form) = (self.asked.cycles, self.asked.integral());
         let scene = &self.variants[0];
         let lives = self.lives(scene, (basis, form), now, counting)?;
         let (body, f) = self.governing(lives)?;
@@ -251,6 +302,10 @@ impl LifeStage {
         let other = |form| {
             let lives = self.lives(scene, (basis, form), now, counting)?;
             lives[body.index()].map(|f| f.relative)
+        };
+        let by = |basis: CycleBasis| {
+            let lives = self.lives(scene, (basis, basis.integral()), now, counting)?;
+            Some(self.governing(lives)?.1.relative)
         };
         let spread = self.spread(now, counting, f.relative);
         let shares = scene.shares(form)?;
@@ -274,6 +329,8 @@ impl LifeStage {
                 body: body.index() as u8 + 1,
                 life_body: lives.map(|f| f.map(|f| f.relative)),
                 life_system: self.system(lives, now.slide_roll),
+                life_global: by(CycleBasis::Global),
+                life_damage: by(CycleBasis::Damage),
                 life_snapshot: other(VolumeIntegral::Snapshot),
                 life_swept: other(VolumeIntegral::Swept),
                 spread_low: spread.0,
@@ -297,7 +354,7 @@ impl LifeStage {
     ) -> Option<[Option<LifeFactors>; 2]> {
         let shares = variant.shares(form)?;
         Some(BodyId::BOTH.map(|body| {
-            let profile = self.profile(body, basis, now.n[body.index()]?, counting)?;
+            let profile = self.profile(body, basis, now.n[body.index()], counting)?;
             let ln_reference = self.ln_reference(variant, (body, form), now.size);
             let f = factors(self.law, shares, body, ln_reference, profile, &self.depths);
             f.relative.is_finite().then_some(f)
@@ -308,16 +365,21 @@ impl LifeStage {
         &self,
         body: BodyId,
         basis: CycleBasis,
-        n: f64,
+        n: Option<f64>,
         counting: Option<&'a Counting>,
     ) -> Option<CycleProfile<'a>> {
         match basis {
-            CycleBasis::Global => Some(CycleProfile::Global(n)),
+            // A body that stands has no cycles of its own, but those of the other.
+            CycleBasis::Damage => counting?.profile(body, basis),
+            CycleBasis::Global => Some(CycleProfile::Global(n?)),
             CycleBasis::Depth => Some(CycleProfile::Depth {
-                n,
+                n: n?,
                 wavelength: self.wavelengths[body.index()].unwrap_or(f64::INFINITY),
             }),
-            CycleBasis::Peaks | CycleBasis::Ranges => counting?.profile(body, basis),
+            CycleBasis::Peaks | CycleBasis::Ranges => {
+                n?;
+                counting?.profile(body, basis)
+            }
         }
     }
 
@@ -337,7 +399,11 @@ impl LifeStage {
     /// Both bodies together, in time, relative to both bodies of the reference.
     fn system(&self, lives: [Option<LifeFactors>; 2], s: f64) -> Option<f64> {
         let [one, two] = lives;
-        let turns = [1.0 - 0.5 * s, 1.0 + 0.5 * s].map(f64::abs);
+        let own = [1.0 - 0.5 * s, 1.0 + 0.5 * s].map(f64::abs);
+        let turns = match self.asked.cycles {
+            CycleBasis::Damage => [own[0].max(own[1]); 2],
+            _ => own,
+        };
         let time = |f: Option<LifeFactors>, turns: f64| Some(f?.relative / turns);
         let both = self
             .law
@@ -353,8 +419,12 @@ impl LifeStage {
             return (low, high, 1);
         }
         for variant in &self.variants {
-            for form in [VolumeIntegral::Snapshot, VolumeIntegral::Swept] {
-                for basis in CycleBasis::ALL {
+            for basis in CycleBasis::ALL {
+                let forms = match basis {
+                    CycleBasis::Damage => &[VolumeIntegral::Material][..],
+                    _ => &[VolumeIntegral::Snapshot, VolumeIntegral::Swept],
+                };
+                for &form in forms {
                     let lives = self.lives(variant, (basis, form), now, counting);
                     if let Some((_, f)) = lives.and_then(|lives| self.governing(lives)) {
                         (low, high) = (low.min(f.relative), high.max(f.relative));

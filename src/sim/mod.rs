@@ -2,6 +2,7 @@
 
 mod caution;
 mod counting;
+mod damage_count;
 mod door;
 mod drive;
 mod error;

@@ -143,7 +143,8 @@ impl Stages {
             .as_ref()
             .and_then(|stress| LifeStage::new(scene, plan, stress));
         let counting = stress.as_ref().map(|stress| {
-            let spec = counting_spec(scene, plan, door.heading, stress.depth_count());
+            let mut spec = counting_spec(scene, plan, door.heading, stress.depth_count());
+            spec.laws = life.as_ref().map_or(vec![], |life| life.laws.clone());
             Counting::new(grid, stress.depths(), &spec)
         });
         Ok(Self {
@@ -304,6 +305,11 @@ fn counting_spec(scene: &Scene, plan: &Plan, heading: Heading, depths: usize) ->
         },
         blocks: [0, 1]
             .map(|body: usize| (maps[body] && surfaces[body].has_block()).then(|| block(body))),
+        laws: vec![],
+        waves: plan.waves.map(|wave| {
+            let crests = wave?.crests_per_m;
+            (crests > 0.0).then(|| 1.0 / (crests * a_m))
+        }),
     }
 }
 

@@ -103,6 +103,8 @@ pub struct MaterialTracker {
     spec: TrackerSpec,
     points: Vec<Point>,
     crossings: u64,
+    /// Damage of all ended crossings' shear by depth, each without its greatest cycle.
+    ended: Vec<f64>,
     /// Samples of the shown point's crossing, oldest first from `oldest` on.
     trace: Vec<Sample>,
     oldest: usize,
@@ -138,6 +140,7 @@ impl MaterialTracker {
             spec,
             points: (0..count).map(point).collect(),
             crossings: 0,
+            ended: vec![0.0; spec.depths],
             trace: Vec::with_capacity(spec.trace.max(1)),
             oldest: 0,
             shown: 0,
@@ -169,6 +172,7 @@ impl MaterialTracker {
             && spec.shown_depth < spec.depths.max(1)
             && self.points.len() == saved.points.len()
             && points.all(|(own, saved)| own.fits(saved))
+            && self.ended.len() == saved.ended.len()
             && self.map.is_some() == saved.map.is_some()
             && self
                 .map
@@ -198,6 +202,7 @@ impl MaterialTracker {
             map.clear();
         }
         self.crossings = 0;
+        self.ended.fill(0.0);
         self.trace.clear();
         self.oldest = 0;
     }
@@ -241,6 +246,11 @@ impl MaterialTracker {
             let crossing = point.crossing;
             for history in point.histories() {
                 history.end(exponent, crossing);
+            }
+            for (ended, history) in self.ended.iter_mut().zip(&point.shear) {
+                *ended += history.tally.small_damage(exponent);
+            }
+            for history in point.histories() {
                 history.start(exponent);
             }
             point.peaks.start();
@@ -361,6 +371,50 @@ impl MaterialTracker {
             (*counted, *equivalent) = (tally.count.max(1.0), tally.equivalent.max(1.0));
         }
         known
+    }
+
+    /// Equivalent cycles of every depth in a loading cycle of the faster body, which has moved by `fastest` (in a) while
+    /// this one moved by `own` (both in size, since the last restart):
+    ///
+    /// ```text
+    /// n(z) = U_i/U_fast + (Z/N way) Σ_small range^c / <greatest range^c>        Z: track, N: points
+    /// ```
+    /// Cycles count as they close, wherever the points then are, and so also for a body that hardly moves or stands;
+    /// the greatest of each crossing is the crossing's own. A depth without shear (a frictionless surface) takes the
+    /// count below it. False before anything moved.
+    pub fn damage_cycles(&self, (own, fastest): (f64, f64), out: &mut [f64]) -> bool {
+        if fastest <= 0.0 || self.spec.depths == 0 {
+            return false;
+        }
+        let track = self.spec.x_last - self.spec.x_first;
+        let passages = fastest * self.points.len() as f64 / track;
+        let mut below = own / fastest;
+        for k in (0..self.spec.depths).rev() {
+            let histories = || self.points.iter().map(|point| &point.shear[k]);
+            let open: f64 = histories().map(|h| h.tally.damage).sum();
+            let greatest = self.greatest_damage(k);
+            if greatest > 0.0 {
+                below = own / fastest + (self.ended[k] + open) / (passages * greatest);
+            }
+            out[k] = below;
+        }
+        true
+    }
+
+    /// Mean damage of the greatest cycle of a crossing at depth `k`; of the greatest seen, where none has ended.
+    fn greatest_damage(&self, k: usize) -> f64 {
+        let exponent = self.spec.damage_exponent;
+        let histories = || self.points.iter().map(|point| &point.shear[k]);
+        let (sum, count) = histories()
+            .filter_map(|h| h.last)
+            .fold((0.0, 0.0), |(sum, n), last| {
+                (sum + last.range.powf(exponent), n + 1.0)
+            });
+        if count > 0.0 {
+            return sum / count;
+        }
+        let greatest = histories().map(History::range).fold(0.0, f64::max);
+        greatest.powf(exponent)
     }
 
     /// Damage of the block so far.

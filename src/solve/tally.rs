@@ -41,6 +41,11 @@ impl Tally {
         self.range = self.range.max(size);
         self.equivalent = self.damage / self.range.powf(exponent);
     }
+
+    /// Damage without that of one greatest cycle.
+    pub(super) fn small_damage(&self, exponent: f64) -> f64 {
+        (self.damage - self.range.powf(exponent)).max(0.0)
+    }
 }
 
 /// One history: its counter and tally.
@@ -84,6 +89,11 @@ impl History {
             flow, tally, basis, ..
         } = self;
         flow.push(value, &mut |cycle| tally.add(cycle, *basis, exponent));
+    }
+
+    /// Greatest range so far: of a closed cycle, or of one that is to close.
+    pub(super) fn range(&self) -> f64 {
+        self.tally.range.max(self.flow.open_range())
     }
 
     /// Starts a crossing at zero stress.
