@@ -5,7 +5,9 @@
 //! n_i      = 1 + f_j · 2a · |U2 − U1| / |U_i|          contacts per loading cycle of body i
 //! a, p_h   ∝ F^(1/k)                                    Hertz, k = 3; of a line k = 2
 //!
-//! formula  cycles   = 1 / max(n1, n2)
+//! formula  cycles   = 1 / max(n1, n2)                  by contacts; by damage with
+//!                     n_i = U_i/U_fast + f_j 2a |U2 − U1|/U_fast φ(c) w^c,   w = 2 δ_j/(1 + δ_1 + δ_2) <= 1
+//!                     δ: pressure wave over p_h; φ: [`miner_part`]; at the surface, and so an upper bound
 //!          peaks    = (J_waves/J_smooth)^(−1/e)         [`ripple::ln_peaks`], waves flattened by the film's M and L
 //!          traction = (J(µ)/J(0))^(−1/e)                [`ripple::sliding_integral`]
 //!          µ        = min(τ0 asinh(η |S| U/(h τ0)), γ p)/p      η at the mean Hertz pressure p, h by regression;
@@ -29,7 +31,7 @@ mod oil;
 
 pub use oil::{FilmBasis, OilBasis};
 
-use crate::physics::cycles::{BodyId, Kinematics};
+use crate::physics::cycles::{BodyId, Kinematics, miner_part};
 use crate::physics::fatigue::LifeLaw;
 use crate::physics::hertz::HertzShape;
 use crate::physics::ripple::{PressureWave, amplitude_ratio, ln_peaks, sliding_integral};
@@ -83,12 +85,23 @@ pub struct EstimateBasis {
     pub poisson: f64,
     /// c and e.
     pub law: LifeLaw,
+    /// How cycles enter.
+    pub count: Count,
     /// Oil; `None`: dry.
     pub oil: Option<OilBasis>,
     /// Boundary friction.
     pub boundary: f64,
     /// ln J(µ)/J(0) at [`FRICTIONS`].
     pub ln_traction: [f64; FRICTIONS.len()],
+}
+
+/// How cycles enter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Count {
+    /// Each contact as one, in own loading cycles.
+    Contacts,
+    /// Each by its damage, in loading cycles of the faster body.
+    Damage,
 }
 
 /// Friction coefficients at which the sliding contact's integral is taken; straight lines between and beyond.
@@ -100,7 +113,7 @@ pub const ALIKE: f64 = 4.0;
 /// The factors of a life relative to the smooth contact in rolling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factors {
-    /// Of cycles; `None`: a body stands, and no loading cycle of it ends.
+    /// Of cycles; `None`: a body stands, no loading cycle of it ends, and contacts are counted in its own.
     pub cycle: Option<f64>,
     /// Of pressure peaks.
     pub peak: f64,
@@ -190,6 +203,8 @@ pub struct Loaded {
     pub film_m: f64,
     /// Peak factor.
     pub peak: f64,
+    /// Pressure waves of both bodies over p_h.
+    waves: [f64; 2],
 }
 
 impl Loaded {
@@ -205,10 +220,17 @@ impl Loaded {
 
     /// The formula at a slide-to-roll ratio.
     pub fn factors(&self, basis: &EstimateBasis, slide_roll: f64) -> Factors {
-        let (n_1, n_2) = basis.contacts(&OperatingPoint {
+        let point = OperatingPoint {
             slide_roll,
             ..self.at
-        });
+        };
+        let (n_1, n_2) = match basis.count {
+            Count::Contacts => basis.contacts(&point),
+            Count::Damage => {
+                let [one, two] = basis.by_damage(&point, self.waves);
+                (Some(one), Some(two))
+            }
+        };
         let friction = self.friction(basis, slide_roll);
         Factors {
             cycle: n_1.zip(n_2).map(|(first, second)| 1.0 / first.max(second)),
@@ -298,6 +320,21 @@ impl EstimateBasis {
         )
     }
 
+    /// Cycles of both bodies by their damage, in loading cycles of the faster, with pressure waves of these heights.
+    fn by_damage(&self, point: &OperatingPoint, waves: [f64; 2]) -> [f64; 2] {
+        let zone_m = 2.0 * self.half_width_m * self.size_ratio(point.load_n);
+        let kinematics = Kinematics::from_slide_roll(1.0, point.slide_roll, zone_m);
+        let fastest = kinematics.u_1.abs().max(kinematics.u_2.abs());
+        let c = self.law.stress_exponent;
+        BodyId::BOTH.map(|body| {
+            let mate = body.mate().index();
+            let crests = [self.crests_1_per_m, self.crests_2_per_m][mate];
+            let range = (2.0 * waves[mate] / (1.0 + waves[0] + waves[1])).min(1.0);
+            let passing = crests * zone_m * kinematics.sliding() / fastest;
+            kinematics.speed(body).abs() / fastest + passing * miner_part(c) * range.powf(c)
+        })
+    }
+
     /// The contact at a point: film and peaks, some milliseconds.
     pub fn loaded(&self, point: &OperatingPoint) -> Loaded {
         let size = self.size_ratio(point.load_n);
@@ -323,6 +360,8 @@ impl EstimateBasis {
                 };
             }
         }
+        let height = |body: usize| waves[2 * body].pressure + waves[2 * body + 1].pressure;
+        let heights = [height(0), height(1)];
         let exponent = self.law.integral_exponent();
         let ln = ln_peaks(self.section, self.poisson, exponent, &waves);
         Loaded {
@@ -331,6 +370,7 @@ impl EstimateBasis {
             p_hertz_pa,
             film_m: flow.map_or(0.0, |(film_m, _, _)| film_m),
             peak: (-ln / self.law.weibull_slope).exp(),
+            waves: heights,
         }
     }
 
@@ -400,6 +440,7 @@ mod tests {
             e_prime_pa: 2.2e11,
             poisson: 0.3,
             law,
+            count: Count::Contacts,
             oil: Some(OilBasis {
                 film: FilmBasis::Point(groups::OperatingPoint {
                     rx_m: 0.01,

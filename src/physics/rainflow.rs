@@ -94,14 +94,11 @@ impl Rainflow {
         self.turning.reset();
     }
 
-    /// Greatest less least of the reversals that are not counted yet: a cycle of that range will close.
-    pub fn open_range(&self) -> f64 {
-        let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = self
-            .stack
-            .iter()
-            .fold(ends, |(low, high), v| (low.min(*v), high.max(*v)));
-        (high - low).max(0.0)
+    /// Least and greatest of the reversals that are not counted yet; (∞, −∞) for none.
+    pub fn open_ends(&self) -> (f64, f64) {
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let wider = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
+        self.stack.iter().fold(none, wider)
     }
 
     /// Half cycles that were counted early for want of memory.

@@ -10,8 +10,8 @@ use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
 use crate::scene::CycleBasis;
 use crate::solve::damage::{BlockSpec, DamageMap, Pit};
-use crate::solve::stress::StressLaw;
 use crate::solve::material::{DamageBasis, Line, MaterialTracker, Sample, TrackerSpec};
+use crate::solve::stress::StressLaw;
 
 /// Depth, in a, at which the shown material point lies: shallow enough to feel single asperities.
 const SHOWN_DEPTH: f64 = 0.1;

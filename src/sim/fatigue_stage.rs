@@ -21,8 +21,8 @@ use crate::physics::fatigue::{LifeFactors, LifeLaw};
 use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
 use crate::scene::{BodyChoice, ContactKind, CycleBasis, Life, Scene, Spread, VolumeIntegral};
-use crate::solve::marks::Marks;
 use crate::solve::life::{Shares, Sweep, Window, factors};
+use crate::solve::marks::Marks;
 use crate::solve::stress::{Loading, StressLaw};
 
 /// Conditions of an estimate.
@@ -257,12 +257,7 @@ impl LifeStage {
     }
 
     /// Takes the surface loaded last, which stands for a `way` (in a), and what has been counted up to it.
-    pub(super) fn push(
-        &mut self,
-        way: f64,
-        stress: &mut StressStage,
-        counting: Option<&Counting>,
-    ) {
+    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, counting: Option<&Counting>) {
         self.each(stress, |variant, stress, shared| {
             variant.push(way, stress, shared);
             variant.weigh_material(counting);

@@ -151,7 +151,11 @@ impl Columns {
         for k in 0..self.depths {
             let most = &mut self.greatest[k * self.nx + slot];
             if is_whole {
-                for (law, sums) in self.laws.iter().zip(self.sums.chunks_exact_mut(self.depths)) {
+                for (law, sums) in self
+                    .laws
+                    .iter()
+                    .zip(self.sums.chunks_exact_mut(self.depths))
+                {
                     sums[k] += law.of(*most);
                 }
             }

@@ -401,7 +401,7 @@ impl MaterialTracker {
         true
     }
 
-    /// Mean damage of the greatest cycle of a crossing at depth `k`; of the greatest seen, where none has ended.
+    /// Mean damage of the greatest cycle of a crossing at depth `k`; of what all points together saw, where none has ended.
     fn greatest_damage(&self, k: usize) -> f64 {
         let exponent = self.spec.damage_exponent;
         let histories = || self.points.iter().map(|point| &point.shear[k]);
@@ -413,8 +413,13 @@ impl MaterialTracker {
         if count > 0.0 {
             return sum / count;
         }
-        let greatest = histories().map(History::range).fold(0.0, f64::max);
-        greatest.powf(exponent)
+        // Points that stand each see one place; a crossing sees all of them.
+        let (low, high) = histories()
+            .map(History::ends)
+            .fold((0.0_f64, 0.0_f64), |all, ends| {
+                (all.0.min(ends.0), all.1.max(ends.1))
+            });
+        (high - low).powf(exponent)
     }
 
     /// Damage of the block so far.

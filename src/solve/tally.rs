@@ -91,9 +91,9 @@ impl History {
         flow.push(value, &mut |cycle| tally.add(cycle, *basis, exponent));
     }
 
-    /// Greatest range so far: of a closed cycle, or of one that is to close.
-    pub(super) fn range(&self) -> f64 {
-        self.tally.range.max(self.flow.open_range())
+    /// Least and greatest value so far.
+    pub(super) fn ends(&self) -> (f64, f64) {
+        self.flow.open_ends()
     }
 
     /// Starts a crossing at zero stress.

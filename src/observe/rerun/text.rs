@@ -162,6 +162,10 @@ fn push_life(text: &mut String, life: &LifeEstimate) {
         text,
         "### Relative life {value}{settled}\n\n{low} to {high}; cycles {cycles} × peaks {peaks} × traction {traction}\n"
     );
+    if let (Some(global), Some(damage)) = (life.detail.life_global, life.detail.life_damage) {
+        let [global, damage] = [global, damage].map(|life| sig(life, 3));
+        let _ = writeln!(text, "paper's count {global}; counted by damage {damage}\n");
+    }
     if life.load_factor > 0.0 {
         let factor = sig(life.load_factor, 3);
         let _ = writeln!(

@@ -59,6 +59,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         rows.skip();
     }
     counts::counts(app, &mut rows, buffer);
+    counts::other_count(app, &mut rows, buffer);
     if app.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }
