@@ -17,7 +17,7 @@ use crate::files::fnv;
 use crate::observe::cells::Cells;
 
 /// Columns after those of the path and the axes, in the order of [`numbers`].
-pub const COLUMNS: [&str; 54] = [
+pub const COLUMNS: [&str; 56] = [
     "h_regression_m",
     "h_min_regression_m",
     "lambda_ratio",
