@@ -20,10 +20,14 @@ impl fmt::Display for Plan {
         for item in &self.left_out {
             writeln!(f, "  {:<24}{}", item.stage, item.why)?;
         }
+        let (yielding, elastic) = match self.yielding {
+            Some(_) => ("deep yielding", "elastic below the surface"),
+            None => ("yielding", "elastic"),
+        };
         writeln!(
             f,
-            "  {:<24}not in the model: isothermal, elastic, crack initiation only",
-            "heat, yield, wear"
+            "  {:<24}not in the model: isothermal, {elastic}, crack initiation only",
+            format!("heat, {yielding}, wear")
         )?;
         if !self.warnings.is_empty() {
             writeln!(f, "\nCautions")?;

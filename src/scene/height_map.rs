@@ -77,7 +77,7 @@ pub(super) fn changed(table: &str, file: &str, found: &str) -> SceneError {
         joined(table, "file"),
         format!("{} (its numbers have changed)", shortened(file)),
         format!(
-            "the map that the scene was run with; to take the new one, leave {} out (it would be {found})",
+            "the map that the scene was run with; to use the new one, omit {} (it would be {found})",
             joined(table, "digest")
         ),
     )

@@ -323,6 +323,7 @@ fn grounds_of(scene: &Scene) -> Grounds {
         }),
         hardness_pa: scene.hardness_pa(),
         has_life: scene.life.is_some(),
+        by_damage: (scene.life.as_ref()).is_some_and(|life| life.cycles == CycleBasis::Damage),
         ..Grounds::default()
     }
 }

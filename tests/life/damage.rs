@@ -36,7 +36,9 @@ fn a_ripple_of_no_height_costs_nothing() {
         let s = flank(amplitude_m, 0.44, &[]);
         let (life, cycle) = (s.life_relative.unwrap(), s.cycle_factor.unwrap());
         let paper = s.life_global.unwrap();
-        println!("{amplitude_m:.2e} m: life {life:.4}, cycles {cycle:.4}, paper's count {paper:.4}");
+        println!(
+            "{amplitude_m:.2e} m: life {life:.4}, cycles {cycle:.4}, paper's count {paper:.4}"
+        );
         (life, cycle, paper)
     };
     let smooth = life(0.0);

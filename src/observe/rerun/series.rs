@@ -82,7 +82,7 @@ static GROUPS: [Group; 26] = [
     },
     Group {
         entity: "series/regime",
-        lines: &[("lubrication regime", SKY)],
+        lines: &[("0 dry, 1 boundary, 2 mixed, 3 full film", SKY)],
         values: |frame, out| out.push(regime(frame.metrics.regime)),
     },
     Group {
