@@ -49,10 +49,10 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
         usize::from,
     );
+    let (cases, cost) = cost(&sweep, args.shard)?;
     tell(&format!(
-        "{} cases, an estimated {} on one core from cold starts",
-        sweep.len(),
-        cost(&sweep, args.shard)?.time_text()
+        "{cases} cases, an estimated {} on one core from cold starts",
+        cost.time_text()
     ));
     let began = Instant::now();
     let report = with_bar(&progress, "", || {

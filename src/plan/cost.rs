@@ -51,8 +51,6 @@ const LINE_DEPTH_BYTES: f64 = 56.0;
 /// measures.
 const FIELD_BYTES_PER_NODE: f64 = 4.5;
 const SHEET_BYTES: f64 = 5e4;
-/// Bytes of the scalars of one step, which are recorded whatever the cadence of the fields.
-pub(super) const SCALAR_BYTES: f64 = 1.5e3;
 
 /// Bytes of the fields of one recorded frame.
 pub(super) fn frame_bytes(nodes: usize, rows: usize) -> f64 {

@@ -212,7 +212,8 @@ impl Plan {
         }
         if let Some(record) = self.record {
             lines.push(format!(
-                "recording: scalars every step as far as the budget goes, fields {} ({} frames, about {} of at most {})",
+                "recording: scalars {}, fields {} ({} frames, about {} of at most {})",
+                every(record.scalars_every_steps),
                 every(record.every_steps),
                 record.frames,
                 size(record.bytes),

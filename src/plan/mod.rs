@@ -10,6 +10,7 @@ mod domain;
 mod film;
 mod life;
 mod range;
+pub mod recording;
 mod surfaces;
 mod truncation;
 mod warning;
@@ -17,6 +18,7 @@ mod warning;
 pub use cost::Cost;
 pub use domain::{Crests, Domain};
 pub use life::{LifeAsked, LifePlan};
+pub use recording::RecordPlan;
 pub use surfaces::WavePlan;
 pub use truncation::{Truncation, inlet_error, mesh_error, side_error};
 pub use warning::{LeftOut, PlanError, Warning};
@@ -207,19 +209,6 @@ pub struct StressPlan {
     pub depth_max_m: f64,
 }
 
-/// Recording, as far as it can be known before: the recorder keeps to the budget by what it measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RecordPlan {
-    /// Time steps between two recordings of the fields: the scene's, or more to keep its budget.
-    pub every_steps: u64,
-    /// Recordings of the fields in the whole run.
-    pub frames: u64,
-    /// Estimated size, bytes.
-    pub bytes: u64,
-    /// Most that the scene allows, bytes.
-    pub budget_bytes: u64,
-}
-
 /// Error of the film by the edges of the domain above which the user is told: an inlet that the plan chooses costs less than
 /// half of it, where the contact deforms.
 pub const EDGES_WORTH_A_WORD: f64 = 0.01;
@@ -343,17 +332,7 @@ impl Plan {
 
     fn record_plan(&self, record: &Record) -> RecordPlan {
         let frame = cost::frame_bytes(self.domain.nodes, self.shown_rows());
-        let scalars = self.steps as f64 * cost::SCALAR_BYTES;
-        let budget = (record.budget_mb * 1e6 - scalars).max(0.1 * record.budget_mb * 1e6);
-        let budget_frames = (budget / frame).floor().max(1.0) as u64;
-        let every_steps = (record.every_steps as u64).max(self.steps.div_ceil(budget_frames));
-        let frames = self.steps.div_ceil(every_steps);
-        RecordPlan {
-            every_steps,
-            frames,
-            bytes: (frames as f64 * frame + scalars) as u64,
-            budget_bytes: (record.budget_mb * 1e6) as u64,
-        }
+        RecordPlan::new(record, self.steps, frame)
     }
 
     /// Rows of a frame.

@@ -62,8 +62,8 @@ impl Tangential {
 /// Deflection by traction and its fields.
 ///
 /// ```text
-/// in an iteration of Newton's   H = H_e + u^s,  u^s held          H_e: gap and deflection by pressure
-/// after it                      u^s ← u^s + ω (S q(P, H) − u^s)
+/// in iterations of Newton's     H = H_e + u^s,  u^s held          H_e: gap and deflection by pressure
+/// once they have converged      u^s ← u^s + ω (S q(P, H) − u^s)   and on, until it lacks a part of the film below the tolerance
 /// ```
 /// u^s belongs to the iterate (of a step that begins it is the last step's, which the state holds), so that what a step
 /// gives does not depend on what was evaluated before it. While pressure and film move, it is held: the flow holds the film
@@ -71,7 +71,9 @@ impl Tangential {
 /// it, and the traction by as much; an iteration of the whole loses that factor. With q made anew at each evaluation the
 /// film of one and the same pressure would change by the traction's own answer, S ∂q/∂H, which in thin films is greater
 /// than 1 and jumps where they come to touch, and the step would go astray; its derivative in the linearisation does not
-/// help where it jumps.
+/// help where it jumps. Nor does u^s follow after every iteration: of films that are far from solved it follows what they
+/// will not be. Contacts whose films are all but nothing then ran out of work where the same contact between like bodies took
+/// 700 to 1800 iterations (`tests/random_scenes.rs`); solved first with u^s held, they take about as many.
 pub struct Shear {
     tangential: Tangential,
     traction: Vec<f64>,

@@ -10,8 +10,11 @@ pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
 /// Most that anything has to say, bytes: forty lines of a thousand characters.
 const MOST_WORDS: usize = 50_000;
 
-/// What is taken from a process before it starts, as a shell says it.
-pub(crate) const MEMORY: &str = "ulimit -v 3000000";
+/// Most memory that anything may hold, MB.
+const MOST_MB: f64 = 2000.0;
+/// The same, taken from a process before it starts, as a shell says it: of address space, which is never less than what is
+/// held, so that the system keeps it to the byte.
+pub(crate) const MEMORY: &str = "ulimit -v 1953125";
 
 /// How it ended.
 #[derive(Debug)]
@@ -20,6 +23,8 @@ pub(crate) struct Ended {
     pub(crate) status: Option<ExitStatus>,
     pub(crate) out: String,
     pub(crate) err: String,
+    /// Most memory that it was seen to hold, MB.
+    pub(crate) peak_mb: f64,
 }
 
 impl Ended {
@@ -36,6 +41,9 @@ impl Ended {
         let said = |what: &str| Some(format!("{what}: {:.300}", self.err.trim()));
         if self.err.contains("panicked") {
             return said("panics");
+        }
+        if self.peak_mb > MOST_MB {
+            return Some(format!("holds {:.0} MB", self.peak_mb));
         }
         match status.code() {
             None => said(&format!("ends by {status}")),
@@ -72,11 +80,23 @@ pub(crate) fn start(folder: &Path, words: &Path, limit: &str, args: &[&str]) -> 
         .unwrap()
 }
 
+/// Most memory that a process has held so far, MB; nothing of one that has ended, or where the system does not tell.
+fn peak_mb(child: &Child) -> Option<f64> {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kb: f64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(kb / 1000.0)
+}
+
 /// Waits for its end, and ends it when that takes too long.
 pub(crate) fn end(mut child: Child, words: &Path) -> Ended {
     let began = Instant::now();
     let mut pause = Duration::from_millis(1);
+    let mut peak = 0.0_f64;
     let status = loop {
+        peak = peak_mb(&child).unwrap_or(0.0).max(peak);
         if let Some(status) = child.try_wait().unwrap() {
             break Some(status);
         }
@@ -86,7 +106,7 @@ pub(crate) fn end(mut child: Child, words: &Path) -> Ended {
             break None;
         }
         std::thread::sleep(pause);
-        pause = (pause * 2).min(Duration::from_millis(20));
+        pause = (pause * 2).min(Duration::from_millis(10));
     };
     let text = |name: &str| {
         let bytes = std::fs::read(words.join(name)).unwrap_or_default();
@@ -96,6 +116,7 @@ pub(crate) fn end(mut child: Child, words: &Path) -> Ended {
         status,
         out: text("out"),
         err: text("err"),
+        peak_mb: peak,
     }
 }
 

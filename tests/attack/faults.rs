@@ -29,7 +29,7 @@ const OUTPUTS: [(&str, &str); 4] = [
 const MINE: &str = "mine, and a day's work: ";
 const NONE: &str = "true";
 
-fn args(passages: &str, more: &[String]) -> Vec<String> {
+pub(super) fn args(passages: &str, more: &[String]) -> Vec<String> {
     let own = SMALL.map(str::to_owned).into_iter();
     let own = own.chain([format!("--passages={passages}")]);
     let recorded = more.iter().any(|arg| arg.starts_with("--out"));
@@ -37,17 +37,17 @@ fn args(passages: &str, more: &[String]) -> Vec<String> {
     own.chain(unrecorded).chain(more.iter().cloned()).collect()
 }
 
-fn refs(args: &[String]) -> Vec<&str> {
+pub(super) fn refs(args: &[String]) -> Vec<&str> {
     args.iter().map(String::as_str).collect()
 }
 
-fn all_outputs() -> Vec<String> {
+pub(super) fn all_outputs() -> Vec<String> {
     OUTPUTS
         .map(|(option, name)| format!("{option}={name}"))
         .to_vec()
 }
 
-fn put_mine(place: &Place) {
+pub(super) fn put_mine(place: &Place) {
     for (_, name) in OUTPUTS {
         place.put(name, format!("{MINE}{name}").as_bytes());
     }
@@ -70,7 +70,7 @@ fn is_whole(path: &Path) -> bool {
 }
 
 /// What was lost of the outputs, if anything. `replaced`: all of them must be new ones.
-fn lost(place: &Place, replaced: bool) -> Option<String> {
+pub(super) fn lost(place: &Place, replaced: bool) -> Option<String> {
     OUTPUTS.iter().find_map(|(_, name)| {
         let path = place.folder().join(name);
         let good = (is_mine(&path) && !replaced) || is_whole(&path);
@@ -78,13 +78,13 @@ fn lost(place: &Place, replaced: bool) -> Option<String> {
     })
 }
 
-struct Faults {
+pub(super) struct Faults {
     tally: Tally,
 }
 
 impl Faults {
     /// Takes up how a drill ended.
-    fn judge(&mut self, drill: &str, fault: Option<String>) {
+    pub(super) fn judge(&mut self, drill: &str, fault: Option<String>) {
         self.tally.count(drill);
         let repeat = "`cargo test --release --test attack faults`";
         self.tally
@@ -357,5 +357,7 @@ pub(crate) fn all() -> Vec<Tally> {
     faults.unread();
     faults.exports();
     faults.sweeps();
+    #[cfg(target_os = "linux")]
+    faults.clock_jumps();
     vec![faults.tally]
 }

@@ -6,12 +6,12 @@ use std::time::Instant;
 
 use asperity::scene::{Scene, presets};
 
-use super::child::{MEMORY, Place};
+use super::child::{Ended, MEMORY, Place};
 use super::mutate::{self, Random};
 use super::report::Tally;
 
 /// A contact that is done in a moment.
-const SMALL: [&str; 8] = [
+pub(crate) const SMALL: [&str; 8] = [
     "run",
     "demonstration",
     "--set=grid.nodes=33",
@@ -95,26 +95,43 @@ fn files(root: &Path, below: &str, found: &mut Vec<(String, Vec<u8>)>) {
     }
 }
 
+/// Puts a height map there; the arguments that have it read.
+pub(crate) fn map(ending: &str, bytes: &[u8], place: &Place) -> Vec<String> {
+    let name = format!("map.{ending}");
+    place.put(&name, bytes);
+    let file = format!("--set=body_2.surface.file={name}");
+    let own = [
+        "check",
+        "demonstration",
+        "--set=body_2.surface.kind=height_map",
+        "--set=body_2.surface.pixel_m=4e-4",
+        "--set=body_2.surface.unit_m=1e-9",
+        &file,
+    ];
+    own.map(str::to_owned).to_vec()
+}
+
 /// A saved state whose digest fits whatever it holds.
-fn sealed_state(body: &str) -> Vec<u8> {
+pub(crate) fn sealed_state(body: &str) -> Vec<u8> {
     let digest = asperity::files::fnv(body.as_bytes());
     format!("asperity state 1 {digest:016x}\n{body}").into_bytes()
 }
 
 /// A recording that holds these notes alone, their digests right.
-fn forged_recording(notes: &[String]) -> Vec<u8> {
+pub(crate) fn forged_recording<'a>(notes: impl Iterator<Item = &'a [u8]>) -> Vec<u8> {
     let mut bytes = b"RRF2\0\x24\x03\0\x01\x02\0\0".to_vec();
     for body in notes {
-        let digest = asperity::files::fnv(body.as_bytes());
-        let note = format!("asperity note 2 {digest:016x} {} {body}", body.len());
+        let digest = asperity::files::fnv(body);
+        let head = format!("asperity note 2 {digest:016x} {} ", body.len());
         let mut message = vec![5 << 3 | 2];
-        let mut left = note.len();
+        let mut left = head.len() + body.len();
         while left >= 0x80 {
             message.push(left as u8 | 0x80);
             left >>= 7;
         }
         message.push(left as u8);
-        message.extend(note.as_bytes());
+        message.extend(head.as_bytes());
+        message.extend(body);
         bytes.extend(2_u64.to_le_bytes());
         bytes.extend((message.len() as u64).to_le_bytes());
         bytes.extend(message);
@@ -175,9 +192,9 @@ impl Arsenal {
         let mut tally = Tally::new(kind);
         for number in numbers {
             let began = Instant::now();
-            let (end, fault) = self.one(kind, &mut Random::new(kind, number));
+            let (ended, fault) = self.one(kind, &mut Random::new(kind, number));
             tally.slowest_s = tally.slowest_s.max(began.elapsed().as_secs_f64());
-            tally.count(end);
+            tally.take(&ended);
             tally.failures.extend(fault.map(|fault| {
                 format!("`ASPERITY_ATTACK={kind}:{number} cargo test --release --test attack hostile`: {fault}")
             }));
@@ -186,17 +203,13 @@ impl Arsenal {
     }
 
     /// How the program ended, and what is wrong with that.
-    fn one(&self, kind: &str, random: &mut Random) -> (String, Option<String>) {
+    fn one(&self, kind: &str, random: &mut Random) -> (Ended, Option<String>) {
         let place = Place::new();
         let mut allowed = Vec::new();
         let (args, codes) = self.prepare(kind, random, &place, &mut allowed);
         let before = place.names();
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
         let ended = place.run(MEMORY, &args);
-        let end = ended.code().map_or_else(
-            || "no exit code".to_owned(),
-            |code| format!("exit code {code}"),
-        );
         let fault = ended.fault(codes).or_else(|| {
             let names = place.names().into_iter();
             let new: Vec<String> = names
@@ -204,7 +217,7 @@ impl Arsenal {
                 .collect();
             (!new.is_empty()).then(|| format!("writes {new:?}"))
         });
-        (end, fault)
+        (ended, fault)
     }
 
     /// Puts the input there; arguments, and codes that are in the book for them.
@@ -229,17 +242,8 @@ impl Arsenal {
             "maps" => {
                 let (ending, seed) = &self.maps[random.below(self.maps.len())];
                 let other = &self.maps[random.below(self.maps.len())].1;
-                let name = format!("map.{ending}");
-                place.put(&name, &mutate::bytes(random, seed, other));
-                let file = format!("--set=body_2.surface.file={name}");
-                let own = [
-                    "check",
-                    "demonstration",
-                    "--set=body_2.surface.kind=height_map",
-                    "--set=body_2.surface.pixel_m=4e-4",
-                    "--set=body_2.surface.unit_m=1e-9",
-                ];
-                (words(&[&own[..], &[&file]].concat()), &[0, 1])
+                let bytes = mutate::bytes(random, seed, other);
+                (map(ending, &bytes, place), &[0, 1])
             }
             "states" => {
                 place.put("in.state", &self.hostile_state(random));
@@ -308,7 +312,8 @@ impl Arsenal {
             serde_json::json!({"Turn": {"n": 0, "steps_made": 3, "key": "motion.slide_roll", "value": 1e300, "by": "hand"}}),
             serde_json::json!({"Reach": {"last_step": steps, "turns": turns, "ended": random.below(2) == 0}}),
         ];
-        forged_recording(&notes.map(|note| note.to_string()))
+        let notes = notes.map(|note| note.to_string());
+        forged_recording(notes.iter().map(String::as_bytes))
     }
 
     /// The folder of a finished sweep, one of its files damaged, missing or another one.

@@ -4,17 +4,24 @@
 //! cargo test --release --test attack                                   a taste of each, two minutes at most
 //! cargo test --release --test attack -- --ignored --nocapture          10 000 inputs; writes assets/reports/attack.md
 //! ASPERITY_ATTACK=scenes:123 cargo test --release --test attack hostile -- --nocapture      that one input again
+//! tests/attack/fuzz/fuzz.sh scene 600                                  coverage-guided, on one parser (`fuzz/runs.md`)
 //! ```
 //! `ASPERITY_PROGRAM` names another build to attack. Inputs are made from a few seeds and from `corpus/` by a generator that is seeded with the input's number, so that
 //! each can be made again. Every one is given to a process of its own, in a folder of its own, with 20 seconds and
-//! 3 GB of address space.
+//! 2 GB of address space.
 #![cfg(all(unix, feature = "rerun"))]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 mod child;
+#[cfg(target_os = "linux")]
+mod clock;
 mod faults;
 mod inputs;
 mod mutate;
+#[cfg(feature = "tui")]
+#[path = "../pty/mod.rs"]
+mod pty;
+mod replay;
 mod report;
 
 use inputs::Arsenal;
@@ -62,6 +69,11 @@ fn hostile_inputs_are_survived() {
 }
 
 #[test]
+fn the_corpus_of_the_fuzzer_is_survived() {
+    assert_survived(&replay::all());
+}
+
+#[test]
 fn faults_lose_nothing() {
     assert_survived(&faults::all());
 }
@@ -70,6 +82,7 @@ fn faults_lose_nothing() {
 #[ignore = "the long form: some minutes, and it writes the report"]
 fn the_whole_attack() {
     let mut tallies = attack(1);
+    tallies.extend(replay::all());
     tallies.extend(faults::all());
     report::write(&tallies);
     assert_survived(&tallies);

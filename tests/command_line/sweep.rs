@@ -6,8 +6,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering;
 
+use asperity::plan::Plan;
 use asperity::study::sweep::{
-    Against, Began, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, against_cold,
+    Against, Began, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, against_cold, cost,
     points_csv, presets, run,
 };
 
@@ -675,6 +676,57 @@ fn nobody_begins_in_a_folder_that_is_in_use() {
     assert!(Folder::create(&place, &sweep, Existing::Replace).is_err());
     drop(joined);
     assert!(Folder::create(&place, &sweep, Existing::Replace).is_ok());
+}
+
+/// Who joins cannot know whose clock is right.
+#[test]
+fn what_others_are_writing_stays_however_old_it_seems() {
+    let root = tempfile::tempdir().unwrap();
+    let sweep = sweep(FEW);
+    let place = root.path().join("out");
+    let held = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
+    let writing = place.join("temporary-elsewhere-1-0");
+    let file = std::fs::File::create(&writing).unwrap();
+    file.set_modified(std::time::SystemTime::UNIX_EPOCH)
+        .unwrap();
+    drop(Folder::create(&place, &sweep, Existing::Resume).unwrap());
+    assert!(writing.exists());
+    drop(held);
+    drop(Folder::create(&place, &sweep, Existing::Resume).unwrap());
+    assert!(!writing.exists());
+}
+
+/// Of what this shard will run, before it runs.
+#[test]
+fn a_sweep_tells_what_it_will_cost() {
+    let root = tempfile::tempdir().unwrap();
+    let few = FEW.replace("longest = 2", "longest = 1");
+    let sweep = sweep(&few);
+    std::fs::write(root.path().join("few.toml"), &few).unwrap();
+    for (shard, share) in [("1/1", Shard::WHOLE), ("2/2", Shard { index: 2, count: 2 })] {
+        let shards = format!("--shard={shard}");
+        let out = format!("--out=of-{}", share.count);
+        let ended = asperity(root.path(), &["sweep", "few.toml", &shards, &out]);
+        let own = sweep.chains().into_iter().enumerate();
+        let own = own.filter(|(chain, _)| share.has(*chain));
+        let cases: Vec<usize> = own.flat_map(|(_, cases)| cases).collect();
+        assert!(!cases.is_empty());
+        let (counted, whole) = cost(&sweep, share).unwrap();
+        assert_eq!(counted, cases.len());
+        // A case is as long as the scene's own run or shorter, and started cold.
+        let longest = |case| Plan::new(&sweep.scene(case).unwrap()).unwrap().cost.time_s;
+        let most: f64 = cases.iter().map(|case| longest(*case)).sum();
+        assert!(
+            whole.time_s > 0.05 * most && whole.time_s <= most,
+            "{whole:?} {most}"
+        );
+        let words = format!(
+            "{counted} cases, an estimated {} on one core from cold starts",
+            whole.time_text()
+        );
+        let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+        assert!(said.starts_with(&words), "{said}");
+    }
 }
 
 #[test]

@@ -194,6 +194,26 @@ fn a_recording_keeps_its_budget() {
         "{record:?}"
     );
     assert!(record.frames * record.every_steps >= tight.steps);
+    // Of a long run the scalars are thinned too, and the estimate knows it.
+    for (budget, passages, scalars) in [(5, 60, 3), (5, 600, 22), (20, 600, 5), (200, 20, 1)] {
+        let long = plan(&[
+            "grid.nodes=65",
+            &format!("record.budget_mb={budget}"),
+            &format!("time.passages={passages}"),
+        ])
+        .unwrap();
+        let record = long.record.unwrap();
+        assert_eq!(record.scalars_every_steps, scalars, "{record:?}");
+        assert!(record.bytes <= record.budget_bytes, "{record:?}");
+        assert!(record.bytes >= 200_000 * passages.min(10), "{record:?}");
+        let every = if scalars > 1 {
+            format!("every {scalars} steps")
+        } else {
+            "every step".to_owned()
+        };
+        let said = format!("recording: scalars {every}, fields");
+        assert!(long.to_string().contains(&said), "{long}");
+    }
 }
 
 #[test]

@@ -11,20 +11,15 @@
 //! passed, and the steps between two recorded frames grow about as the time that has passed. A
 //! recording is thinned and says so; it never stops.
 
+use crate::plan::recording::{ALWAYS_BYTES, OWN_SHARE, Rhythm, SCALARS_BYTES, left_bytes};
 use crate::scene::Record;
 
 /// Part of the raw bytes that reaches the disk after compression: 0.12 MB of 0.32 MB were measured in the
 /// demonstration scene at 129 x 129 nodes, and roughness without a pattern compresses less. It only sets the
 /// first cadence.
 const COMPRESSED: f64 = 0.45;
-/// Bytes of the scalars of a step, compressed: all 26 groups with their 48 values (790 were measured).
-const SCALARS: f64 = 1.1e3;
-/// Part of what is left that scalars may take: in the scene's own run, and in an octave after it.
-const SCALARS_SHARE: [f64; 2] = [0.5, 0.2];
-/// Layout, footer and the first chunk of every entity, bytes (560 kB were measured).
-const ALWAYS: f64 = 6e5;
-/// Part of the budget for the scene's own run; the rest is for what may come after it.
-const OWN: f64 = 0.9;
+/// Part of what is left that scalars may take in an octave after the scene's own run.
+const LATER_SCALARS_SHARE: f64 = 0.2;
 /// Part of the budget that is never planned with: the log's lines come when they come.
 const MARGIN: f64 = 0.02;
 
@@ -91,29 +86,24 @@ impl Cadence {
         let budget = record.budget_mb * 1e6;
         let asked = record.every_steps.max(1) as u64;
         let steps = expected_steps.max(1.0);
+        let last = ALWAYS_BYTES + spent[1];
+        let frame = COMPRESSED * frame_bytes.max(1) as f64;
+        let rhythm = Rhythm::new(record, steps, frame, left_bytes(record, spent[0] + last));
         let every = |steps| Every { steps, next: 0 };
-        let mut cadence = Self {
-            fields: every(asked),
-            scalars: every(1),
+        Self {
+            fields: every(rhythm.fields),
+            scalars: every(rhythm.scalars),
             asked,
             budget,
-            last: ALWAYS + spent[1],
+            last,
             expected: steps,
             recorded: 0,
             taken: 0.0,
             weight: spent[0],
-            limit: OWN * budget,
+            limit: OWN_SHARE * budget,
             octave: 0,
             octave_end: steps,
-        };
-        let left = cadence.left();
-        cadence
-            .scalars
-            .thin(steps * SCALARS / (SCALARS_SHARE[0] * left));
-        let scalars = steps * SCALARS / cadence.scalars.steps as f64;
-        let frame = COMPRESSED * frame_bytes.max(1) as f64;
-        cadence.fields.thin(steps * frame / (left - scalars));
-        cadence
+        }
     }
 
     /// Bytes that may still come in this octave; never none, so that there is something to divide by.
@@ -130,7 +120,7 @@ impl Cadence {
     pub(super) fn due(&mut self, step: u64) -> Due {
         let first = self.recorded == 0;
         let holds = |more: f64| first || self.weight + self.last + more <= self.limit;
-        let (frame, scalars) = (holds(self.frame() + SCALARS), holds(SCALARS));
+        let (frame, scalars) = (holds(self.frame() + SCALARS_BYTES), holds(SCALARS_BYTES));
         let fields = frame && self.fields.takes(step);
         // A frame without its scalars would be a picture without numbers.
         let scalars = fields || (scalars && self.scalars.takes(step));
@@ -197,7 +187,7 @@ impl Cadence {
             return;
         }
         let steps = self.expected - now;
-        let scalars = steps * SCALARS / self.scalars.steps as f64;
+        let scalars = steps * SCALARS_BYTES / self.scalars.steps as f64;
         let fields = self.left() - scalars;
         if steps * self.frame() / self.fields.steps as f64 > fields {
             // Twice as far apart at least: not every frame is worth a word.
@@ -215,8 +205,8 @@ impl Cadence {
         self.limit = (1.0 - MARGIN) * self.budget;
         let share = self.left() / f64::from(self.octave + 1);
         self.limit = self.weight + self.last + share;
-        let scalars = SCALARS_SHARE[1] * share;
-        self.scalars.thin(steps * SCALARS / scalars);
+        let scalars = LATER_SCALARS_SHARE * share;
+        self.scalars.thin(steps * SCALARS_BYTES / scalars);
         self.fields.thin(steps * self.frame() / (share - scalars));
     }
 }
@@ -259,7 +249,7 @@ mod tests {
             weight += STEP * f64::from(u8::from(due.scalars));
             notes += usize::from(cadence.watch(step, weight).is_some());
         }
-        (weight + ALWAYS, taken, scalars, notes)
+        (weight + ALWAYS_BYTES, taken, scalars, notes)
     }
 
     #[test]
@@ -287,7 +277,7 @@ mod tests {
                         let mut cadence = cadence(1, budget, expected);
                         let (bytes, taken, scalars, notes) = run(&mut cadence, steps, frame);
                         let case = format!("{budget} MB, {expected} of {steps}, {frame}: {bytes}");
-                        let first = ALWAYS + 1e5 + frame + STEP;
+                        let first = ALWAYS_BYTES + 1e5 + frame + STEP;
                         assert!(bytes <= (budget * 1e6).max(first), "{case}");
                         assert!(scalars > 100.min(steps as usize - 1) / 10, "{case}");
                         assert!(notes < 40, "{case}: {notes} notes");

@@ -22,7 +22,7 @@ use super::damage;
 use super::interferogram::INTERFEROGRAM;
 use super::kymograph;
 use super::maps;
-use super::moment::STEP;
+use super::moment::{STEP, check_clock};
 use super::plot::{Margin, PlotBox};
 use super::slice;
 use super::stream::{APPLICATION, Stream};
@@ -320,6 +320,7 @@ fn send_with(
     blueprint: &Blueprint,
     properties: &[Property],
 ) -> Result<(), Box<dyn std::error::Error>> {
+    check_clock()?;
     let (draft, storage) = RecordingStreamBuilder::new(APPLICATION)
         .enabled(true)
         .memory()?;

@@ -18,6 +18,7 @@ use rerun::{
     MemoryLimit, PlaybackBehavior, RecordingStream, RecordingStreamBuilder, ServerOptions,
 };
 
+use super::moment::check_clock;
 use crate::observe::ObserveError;
 
 /// Longest wait for a viewer to take the connection.
@@ -148,6 +149,7 @@ pub(super) fn open(
     builder: RecordingStreamBuilder,
 ) -> Result<(RecordingStream, Link), ObserveError> {
     let failed = |reason: String| ObserveError::new(live.to_string(), reason);
+    check_clock().map_err(failed)?;
     match live {
         Live::Connect(address) => {
             // The library would return Ok, fill its buffers, and then block for ever.

@@ -1,5 +1,7 @@
 //! Timelines, and places on them.
 
+use std::time::SystemTime;
+
 use rerun::time::TimePoint;
 use rerun::{TimeCell, TimeColumn};
 
@@ -9,6 +11,14 @@ pub(super) const STEP: &str = "step";
 pub(super) const SIMULATED_TIME: &str = "simulated_time";
 /// Lengths of 4 a travelled at U, in thousandths (a timeline holds no fractions).
 pub(super) const PASSAGE: &str = "passage_x1000";
+
+/// Whether the clock shows a time that a recording can begin at: the library panics before 1970.
+pub(super) fn check_clock() -> Result<(), String> {
+    let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+    since_1970.map(drop).map_err(|_| {
+        "the system's clock stands before 1970, where no recording can begin; set it".to_owned()
+    })
+}
 
 /// A place on all three timelines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

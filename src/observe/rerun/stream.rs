@@ -18,7 +18,7 @@ use super::destination::Destination;
 use super::file::RecordingFile;
 use super::gathered::{Pen, chunk_of};
 use super::live::{self, Live};
-use super::moment::Moment;
+use super::moment::{Moment, check_clock};
 use super::waiting::{ClassImage, Curves, LevelImage, Sheet, Waiting};
 use super::weight::{MESSAGE, TEXT};
 use crate::observe::{ObserveError, Overwrite};
@@ -33,8 +33,7 @@ const LIVE_TICK: Duration = Duration::from_millis(50);
 const LIVE_CLOSE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Longest wait for the last bytes on closing.
 const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
-/// What is logged is written at least this often: with a frame that waits for others in the queue and the writing
-/// itself, on a machine that does other things too, `kill -9` loses less than a second.
+/// What is logged is written at least this often: with a frame that waits in the queue, `kill -9` loses less than a second.
 const TICK: Duration = Duration::from_millis(700);
 
 /// `enabled` is set because the variable RERUN=off would make a silent no-op of a recording that the user
@@ -77,6 +76,7 @@ impl Stream {
         };
         let (file, placed) = overwrite.open(path)?;
         let file = RecordingFile::start(file, placed).map_err(failed)?;
+        check_clock().map_err(failed)?;
         let recording = builder(ChunkBatcherConfig::NEVER)
             .buffered()
             .map_err(|error| failed(error.to_string()))?;

@@ -14,8 +14,8 @@ impl Newton {
         }
     }
 
-    /// Lets the deflection by traction follow pressure and film, unless the iterate is solved as it stands but for a small
-    /// part of the film; the evaluation of what then is.
+    /// Lets the deflection by traction follow pressure and film once these are solved with the one that is held, unless what
+    /// it lacks is a small part of the film; the evaluation of what then is.
     pub(super) fn follow_traction(
         &mut self,
         problem: &Problem,
@@ -27,9 +27,12 @@ impl Newton {
             return held;
         };
         let tolerance = &problem.tolerance;
-        let way = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
         let mut new = held;
         new.note(problem, report);
+        if !Self::is_converged(tolerance, report) {
+            return new;
+        }
+        let way = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
         report.film_error += way;
         if Self::is_converged(tolerance, report) {
             new.film_error += way;

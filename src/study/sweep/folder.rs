@@ -74,7 +74,9 @@ impl Folder {
             mark,
             lock: Lock::none(),
         };
-        mark::tidy(root, company.is_alone());
+        if company.is_alone() {
+            mark::tidy(root);
+        }
         if existing == Existing::Replace {
             mark::clear(root)?;
         }

@@ -132,23 +132,26 @@ pub fn run(
     })
 }
 
-/// What the cases of a shard cost together, each from a cold start: an estimate, told before the first one runs.
+/// How many cases a shard has, and what they cost together, each from a cold start: an estimate, told before the first one
+/// runs.
 ///
 /// # Errors
 /// [`SweepError`] as of [`run`].
-pub fn cost(sweep: &Sweep, shard: Shard) -> Result<Cost, SweepError> {
+pub fn cost(sweep: &Sweep, shard: Shard) -> Result<(usize, Cost), SweepError> {
     let chains = sweep.chains().into_iter().enumerate();
     let own = chains.filter(|(chain, _)| shard.has(*chain));
+    let mut cases = 0;
     let mut all = Cost {
         memory_bytes: 0,
         time_s: 0.0,
     };
     for case in own.flat_map(|(_, cases)| cases) {
         let (_, plan) = prepare(sweep, case)?;
+        cases += 1;
         all.memory_bytes = all.memory_bytes.max(plan.cost.memory_bytes);
         all.time_s += plan.cost.time_s;
     }
-    Ok(all)
+    Ok((cases, all))
 }
 
 /// Scene and plan of a case.

@@ -3,7 +3,6 @@
 use std::fs::{File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 use super::super::error::SweepError;
 use super::Existing;
@@ -144,18 +143,11 @@ pub(super) fn clear(root: &Path) -> Result<(), SweepError> {
     take_away(root, is_result)
 }
 
-/// Takes away what processes that were killed left half-written: all of it where nobody else can be writing, else
-/// what nobody has touched for ten minutes.
-pub(super) fn tidy(root: &Path, is_alone: bool) {
-    const ABANDONED: Duration = Duration::from_mins(10);
-    let is_old = |name: &str| {
-        let about = std::fs::metadata(root.join(name)).and_then(|about| about.modified());
-        let age = about.ok().and_then(|time| time.elapsed().ok());
-        age.is_some_and(|age| age > ABANDONED)
-    };
-    let such = |name: &str| name.starts_with(TEMPORARY) && (is_alone || is_old(name));
+/// Takes away what processes that were killed left half-written. Only where nobody else can be writing: how old a file is
+/// says nothing where clocks differ or jump.
+pub(super) fn tidy(root: &Path) {
     // One that stays behind does no harm.
-    drop(take_away(root, such));
+    drop(take_away(root, |name| name.starts_with(TEMPORARY)));
 }
 
 /// Takes away the files of a folder whose names are such.

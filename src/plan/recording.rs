@@ -1,0 +1,76 @@
+//! How often a recording takes a step's fields and its scalars, so that it keeps to its budget: what the recorder begins
+//! with, and what `asperity check` says before.
+
+use crate::scene::Record;
+
+/// Bytes of the scalars of a step, compressed: all 26 groups with their 48 values (790 were measured).
+pub const SCALARS_BYTES: f64 = 1.1e3;
+/// Part of what is left that scalars may take in the scene's own run.
+pub const SCALARS_SHARE: f64 = 0.5;
+/// Layout, footer and the first chunk of every entity, bytes (560 kB were measured).
+pub const ALWAYS_BYTES: f64 = 6e5;
+/// Part of the budget for the scene's own run; the rest is for what may come after it.
+pub const OWN_SHARE: f64 = 0.9;
+
+/// Recording, as far as it can be known before: the recorder keeps to the budget by what it measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RecordPlan {
+    /// Time steps between two recordings of the fields: the scene's, or more to keep its budget.
+    pub every_steps: u64,
+    /// Time steps between two recordings of the scalars: every step, or fewer to keep the budget.
+    pub scalars_every_steps: u64,
+    /// Recordings of the fields in the whole run.
+    pub frames: u64,
+    /// Estimated size, bytes.
+    pub bytes: u64,
+    /// Most that the scene allows, bytes.
+    pub budget_bytes: u64,
+}
+
+/// Steps between two recordings of the fields, and of the scalars.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rhythm {
+    /// Of the fields.
+    pub fields: u64,
+    /// Of the scalars.
+    pub scalars: u64,
+}
+
+impl Rhythm {
+    /// Of a run of `steps` whose fields take `frame_bytes` a time, with `left_bytes` for all of it.
+    pub fn new(record: &Record, steps: f64, frame_bytes: f64, left_bytes: f64) -> Self {
+        let scalars_bytes = steps * SCALARS_BYTES;
+        let scalars = (scalars_bytes / (SCALARS_SHARE * left_bytes))
+            .ceil()
+            .max(1.0);
+        let fields = (steps * frame_bytes / (left_bytes - scalars_bytes / scalars)).ceil();
+        Self {
+            fields: (fields as u64).max(record.every_steps.max(1) as u64),
+            scalars: scalars as u64,
+        }
+    }
+}
+
+/// Bytes of a budget that the scene's own run may fill, where so many come whatever is recorded; never none, so that
+/// there is something to divide by.
+pub fn left_bytes(record: &Record, spent_bytes: f64) -> f64 {
+    let budget = record.budget_mb * 1e6;
+    (OWN_SHARE * budget - spent_bytes).max(1e-3 * budget)
+}
+
+impl RecordPlan {
+    pub(super) fn new(record: &Record, steps: u64, frame_bytes: f64) -> Self {
+        let left = left_bytes(record, ALWAYS_BYTES);
+        let rhythm = Rhythm::new(record, steps as f64, frame_bytes, left);
+        let frames = steps.div_ceil(rhythm.fields);
+        let scalars = steps.div_ceil(rhythm.scalars);
+        let bytes = ALWAYS_BYTES + frames as f64 * frame_bytes + scalars as f64 * SCALARS_BYTES;
+        Self {
+            every_steps: rhythm.fields,
+            scalars_every_steps: rhythm.scalars,
+            frames,
+            bytes: bytes as u64,
+            budget_bytes: (record.budget_mb * 1e6) as u64,
+        }
+    }
+}
