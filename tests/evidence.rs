@@ -49,8 +49,9 @@ fn every_computed_case_has_a_source_and_a_scene_that_plans() {
             }
         }
         for row in &case.row {
-            assert!(
-                row.theirs.is_some() != row.closed.is_some(),
+            assert_ne!(
+                row.theirs.is_some(),
+                row.closed.is_some(),
                 "{}: {}",
                 case.name,
                 row.what
@@ -112,7 +113,7 @@ fn scenes_of_evidence_are_those_of_the_set_and_of_the_folder() {
         .map(|name| format!("evidence/{name}"))
         .collect();
     let built_in = presets::evidence().iter().map(|p| p.name.to_owned());
-    assert_eq!(used, built_in.collect());
+    assert_eq!(used, built_in.collect::<BTreeSet<_>>());
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/evidence");
     let files: BTreeSet<String> = std::fs::read_dir(&folder)
         .unwrap()

@@ -159,8 +159,8 @@ impl<'a> Chosen<'a> {
     /// Both grids of every case, then every counting of every point.
     fn jobs(&self) -> Vec<Job<'a>> {
         let mut jobs = Vec::new();
-        for (case, [coarse, fine]) in &self.cases {
-            jobs.extend([*coarse, *fine].map(|nodes| Job::Case(case, nodes, *fine)));
+        for &(case, [coarse, fine]) in &self.cases {
+            jobs.extend([coarse, fine].map(|nodes| Job::Case(case, nodes, fine)));
         }
         for &experiment in &self.experiments {
             for point in &experiment.point {
