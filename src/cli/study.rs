@@ -7,7 +7,7 @@ use asperity::study::accuracy::{
     accuracy, accuracy_table, accuracy_text, life_plot, work_precision_plot,
 };
 use asperity::study::evidence::{
-    agreement_plot, evidence, evidence_table, evidence_text, experiments_plot, experiments_table,
+    agreement_plot, evidence, evidence_table, evidence_text, experiments_plot,
 };
 use asperity::study::pruning::{PruningRow, pruning, pruning_table, pruning_text};
 use asperity::study::stability::{stability, stability_table, stability_text};
@@ -141,10 +141,6 @@ fn shows(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
     let mut files = vec![
         ("evidence.md".to_owned(), text),
         ("evidence.csv".to_owned(), evidence_table(&result).csv()),
-        (
-            "evidence_experiments.csv".to_owned(),
-            experiments_table(&result).csv(),
-        ),
         (
             "evidence.svg".to_owned(),
             agreement_plot(&result).map_err(StudyError::Plot)?,

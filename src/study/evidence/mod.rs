@@ -14,7 +14,7 @@ mod set;
 mod tried;
 
 pub use plot::{agreement_plot, experiments_plot};
-pub use report::{evidence_table, evidence_text, experiments_table};
+pub use report::{evidence_table, evidence_text};
 pub use set::{
     Case, Claim, EvidenceSet, Experiment, Forecast, Grade, Kind, Measure, Point, Row, planned,
 };
@@ -129,50 +129,7 @@ fn nodes_of_experiments(extent: Extent) -> usize {
     }
 }
 
-/// What of the set is computed.
-struct Chosen<'a> {
-    cases: Vec<(&'a Case, [usize; 2])>,
-    experiments: Vec<&'a Experiment>,
-    nodes: usize,
-}
-
-impl<'a> Chosen<'a> {
-    /// What the form has, or what has `only` in its name, source or scene.
-    fn of(set: &'a EvidenceSet, extent: Extent, only: Option<&str>) -> Self {
-        let wanted =
-            |names: [&str; 3]| only.is_none_or(|part| names.iter().any(|name| name.contains(part)));
-        let cases = set.cases.iter().filter_map(|case| {
-            let is_wanted = wanted([&case.name, &case.source, &case.scene]);
-            Some((case, case.nodes(extent).filter(|_| is_wanted)?))
-        });
-        let experiments = set.experiments.iter().filter(|experiment| {
-            let is_in = only.is_some() || experiment.quick || extent != Extent::Quick;
-            is_in && wanted([&experiment.name, &experiment.source, experiment.scene()])
-        });
-        Self {
-            cases: cases.collect(),
-            experiments: experiments.collect(),
-            nodes: nodes_of_experiments(extent),
-        }
-    }
-
-    /// Both grids of every case, then every counting of every point.
-    fn jobs(&self) -> Vec<Job<'a>> {
-        let mut jobs = Vec::new();
-        for &(case, [coarse, fine]) in &self.cases {
-            jobs.extend([coarse, fine].map(|nodes| Job::Case(case, nodes, fine)));
-        }
-        for &experiment in &self.experiments {
-            for point in &experiment.point {
-                let all = CycleBasis::ALL.into_iter();
-                jobs.extend(all.map(|basis| Job::Point(experiment, point, basis, self.nodes)));
-            }
-        }
-        jobs
-    }
-}
-
-/// Computes the set, `workers` runs at a time, each on one thread. `only`: what has that in its name, source or scene.
+/// Computes the set, `workers` runs at a time, each on one thread. `only`: what has that in its name or source.
 ///
 /// # Errors
 /// [`StudyError`] when the data of the study are wrong, or nothing is called that.
@@ -184,12 +141,33 @@ pub fn evidence(
 ) -> Result<Evidence, StudyError> {
     let clock = Instant::now();
     let set = EvidenceSet::shipped().map_err(StudyError::Scene)?;
-    let chosen = Chosen::of(&set, extent, only);
-    refuse_nothing(
-        only,
-        chosen.cases.is_empty() && chosen.experiments.is_empty(),
-    )?;
-    let done = share_out(&chosen.jobs(), workers, Job::name, Job::work, progress);
+    let wanted = |names: [&str; 3]| only.is_none_or(|part| names.iter().any(|n| n.contains(part)));
+    let mut cases: Vec<(&Case, [usize; 2])> = Vec::new();
+    for case in &set.cases {
+        let nodes = case.nodes(extent);
+        if let Some(nodes) = nodes.filter(|_| wanted([&case.name, &case.source, &case.scene])) {
+            cases.push((case, nodes));
+        }
+    }
+    let is_in = |e: &&Experiment| {
+        let asked = only.is_some() || e.quick || extent != Extent::Quick;
+        let mut scenes = e.point.iter().map(|point| point.scene.as_str());
+        asked && wanted([&e.name, &e.source, scenes.next().unwrap_or_default()])
+    };
+    let experiments: Vec<&Experiment> = set.experiments.iter().filter(is_in).collect();
+    refuse_nothing(only, cases.is_empty() && experiments.is_empty())?;
+    let nodes = nodes_of_experiments(extent);
+    let mut jobs: Vec<Job> = Vec::new();
+    for (case, [coarse, fine]) in &cases {
+        jobs.extend([*coarse, *fine].map(|nodes| Job::Case(case, nodes, *fine)));
+    }
+    for &experiment in &experiments {
+        for point in &experiment.point {
+            let all = CycleBasis::ALL.into_iter();
+            jobs.extend(all.map(|basis| Job::Point(experiment, point, basis, nodes)));
+        }
+    }
+    let done = share_out(&jobs, workers, Job::name, Job::work, progress);
     let (mut values, mut damages) = (Vec::new(), Vec::new());
     for done in done {
         match done {
@@ -197,18 +175,19 @@ pub fn evidence(
             Done::Point(found) => damages.push(found),
         }
     }
-    let pairs = chosen.cases.iter().zip(values.chunks_exact(2));
+    let pairs = cases.iter().zip(values.chunks_exact(2));
     let rows = pairs.flat_map(|((case, nodes), found)| rows(case, *nodes, found));
     let mut damages = damages.into_iter();
-    let tried = chosen.experiments.iter().map(|&experiment| {
+    let tried = experiments.iter().map(|&experiment| {
         let points = experiment.point.iter();
-        let by_counting = points.map(|_| damages.by_ref().take(CycleBasis::ALL.len()).collect());
-        Tried::new(experiment, by_counting.collect())
+        let of_points = points.map(|_| damages.by_ref().take(CycleBasis::ALL.len()).collect());
+        let of_points = of_points.collect();
+        Tried::new(experiment, of_points)
     });
     Ok(Evidence {
         rows: rows.collect(),
         experiments: tried.collect(),
-        nodes: chosen.nodes,
+        nodes,
         seconds: clock.elapsed().as_secs_f64(),
     })
 }

@@ -27,11 +27,13 @@ pub fn evidence_table(result: &Evidence) -> Table {
         "scene",
     ]);
     for row in &result.rows {
-        let theirs = if row.spread > 0.0 {
-            let ends = [row.theirs - row.spread, row.theirs + row.spread].map(number);
-            ends.join(" to ")
-        } else {
-            number(row.theirs)
+        let theirs = match row.spread {
+            0.0 => number(row.theirs),
+            spread => format!(
+                "{} to {}",
+                number(row.theirs - spread),
+                number(row.theirs + spread)
+            ),
         };
         table.rows.push(vec![
             row.grade.name().to_owned(),
@@ -51,36 +53,6 @@ pub fn evidence_table(result: &Evidence) -> Table {
             },
             row.scene.clone(),
         ]);
-    }
-    table
-}
-
-/// Every claim of every experiment by every counting.
-pub fn experiments_table(result: &Evidence) -> Table {
-    let mut table = Table::new(&[
-        "experiment",
-        "source",
-        "claim",
-        "measured ratio",
-        "counting",
-        "ratio found",
-        "holds",
-    ]);
-    for tried in &result.experiments {
-        for judged in &tried.judged {
-            let found = judged.ratios.iter().zip(&judged.holds);
-            for (basis, (ratio, holds)) in CycleBasis::ALL.into_iter().zip(found) {
-                table.rows.push(vec![
-                    tried.experiment.name.clone(),
-                    tried.experiment.source.clone(),
-                    judged.claim.says.clone(),
-                    figure(judged.claim.ratio),
-                    word(basis),
-                    figure(Some(*ratio)),
-                    if *holds { "yes" } else { "no" }.to_owned(),
-                ]);
-            }
-        }
     }
     table
 }
@@ -203,7 +175,10 @@ fn push_experiment(text: &mut String, tried: &Tried) {
         "\n| what it says | measured | {head} |\n|---|---{rule}|"
     );
     for judged in &tried.judged {
-        let measured = figure(judged.claim.ratio);
+        let measured = judged
+            .claim
+            .ratio
+            .map_or_else(|| "-".to_owned(), |ratio| figure(Some(ratio)));
         let cells: Vec<String> = judged
             .ratios
             .iter()

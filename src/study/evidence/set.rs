@@ -222,13 +222,6 @@ pub struct Experiment {
     pub forecast: Option<Forecast>,
 }
 
-impl Experiment {
-    /// The scene of its first point.
-    pub fn scene(&self) -> &str {
-        self.point.first().map_or("", |point| &point.scene)
-    }
-}
-
 /// The set.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
