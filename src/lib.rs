@@ -4,7 +4,7 @@
 //! stress, stress-cycle counting and relative fatigue life.
 //!
 //! ## Floors
-//! Imports go downward only (`tests/architecture.rs` reads them):
+//! Imports go downward only (`tests/house/main.rs` reads them):
 //!
 //! `files < math < physics < scene < plan < solve < sim < observe < run < study < tui < cli/main`
 //!

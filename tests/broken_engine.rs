@@ -18,7 +18,7 @@
 #[path = "../src/cli/mod.rs"]
 mod cli;
 #[cfg(all(feature = "tui", unix))]
-mod pty;
+mod common;
 
 use std::process::{ExitCode, Termination as _};
 
@@ -102,7 +102,7 @@ fn main() -> ExitCode {
 #[cfg(all(feature = "tui", unix))]
 mod test {
     use super::GOOD;
-    use super::pty::Terminal;
+    use super::common::pty::Terminal;
 
     const SMALL: &str = "--threads 1 --set grid.nodes=65 --set stress.depths=8";
 

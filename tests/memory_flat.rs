@@ -2,7 +2,7 @@
 #![cfg(all(feature = "tui", target_os = "linux"))]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-mod pty;
+mod common;
 
 use std::alloc::System;
 use std::time::Duration;
@@ -10,7 +10,7 @@ use std::time::Duration;
 use asperity::plan::Plan;
 use asperity::run::{Command, Ending, Request, Session};
 use asperity::scene::{Override, Scene};
-use pty::Terminal;
+use common::pty::Terminal;
 use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
 
 #[global_allocator]

@@ -23,7 +23,7 @@
 //! depends neither on the pressure nor on the sliding. That is what Šperka, Křupka and Hartl (2016) measured.
 //!
 //! Sources: Hooke (2006), *Roughness in rolling-sliding elastohydrodynamically lubricated contacts*, Proc. IMechE J 220;
-//! Greenwood and Morales-Espejel (1994), Proc. IMechE J 208, for the two parts. Test: `tests/eyring.rs`.
+//! Greenwood and Morales-Espejel (1994), Proc. IMechE J 208, for the two parts. Test: `tests/engine/eyring.rs`.
 
 use std::f64::consts::{PI, TAU};
 

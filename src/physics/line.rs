@@ -20,7 +20,7 @@
 //! Sources: Johnson, *Contact Mechanics* (1985), §4.2; Moes, *Optimum similarity analysis with applications
 //! to elastohydrodynamic lubrication*, Wear 159 (1992), as used for the central film by Gelinck and
 //! Schipper (2000); Dowson, *Elastohydrodynamics*, Proc. IMechE 182 (1968). Both are fits, some per cent off
-//! computed films (`tests/line.rs` prints by how much): first guess and sanity check, never a result.
+//! computed films (`tests/engine/line.rs` prints by how much): first guess and sanity check, never a result.
 
 use std::f64::consts::PI;
 

@@ -15,7 +15,7 @@
 //! z points into the body, tension is positive, p > 0 presses, q acts on the body along +x.
 //! Sources: Hertz with sliding agrees with Hamilton, G.M. (1983), Proc. IMechE C 197, 53-59;
 //! plane wave: Westergaard, H.M. (1939), J. Appl. Mech. 6, A49-A53. Proved in
-//! `tests/stress_closed_forms.rs`. Uniform patches and point forces: [`super::stress_exact_patch`].
+//! `tests/life/stress_closed_forms.rs`. Uniform patches and point forces: [`super::stress_exact_patch`].
 
 use rustfft::num_complex::Complex;
 

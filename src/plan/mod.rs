@@ -123,7 +123,7 @@ pub enum Valleys {
 ///
 /// With open valleys that is where the lubricated solver arrives by itself; shut-in oil goes on to carry load however
 /// slowly the bodies move, and flow stays in. Dry against lubricated at the switch, p_h = 1 GPa, A = 0.3 µm, waves of
-/// 0.73 a, half a passage (`asperity run` at 3.5e-5 and 2.5e-5 m/s, line 2e-5 and 1e-5 m/s; `tests/dry_switch.rs`
+/// 0.73 a, half a passage (`asperity run` at 3.5e-5 and 2.5e-5 m/s, line 2e-5 and 1e-5 m/s; `tests/engine/dry_switch.rs`
 /// repeats two on a coarser grid):
 ///
 /// | body 1, body 2 | greatest pressure | relative life | valleys |

@@ -10,7 +10,7 @@
 //!            + r 2.36/ξ²
 //! ```
 //!
-//! *Contacts that deform.* The rules are fits to measured smooth contacts (`tests/domain.rs`, ignored for its length): M
+//! *Contacts that deform.* The rules are fits to measured smooth contacts (`tests/engine/domain.rs`, ignored for its length): M
 //! from 10 to 200 at L from 2 to 20, Barus, incompressible, edges from 1.9 to 6 a against a reference at −9 a and ±5 a.
 //! Central film, per cent, lost to an inlet at −2.53 a, and by the rule:
 //!
@@ -41,7 +41,7 @@
 //! L = 10 between edges at −10 and −40 a, at M = 7 by 0.2 %); below 3 % the first part holds alone, which was fitted there.
 //! The rules size the grid and warn; they never correct results.
 //!
-//! The line's factors are measured too (`tests/line.rs`: at M = 20 and 100 the inlet rule holds within 1.3
+//! The line's factors are measured too (`tests/engine/line.rs`: at M = 20 and 100 the inlet rule holds within 1.3
 //! from −2 to −3.5).
 
 use super::{Domain, FilmPlan, OtherFilms};

@@ -13,7 +13,7 @@
 //! spikes, constrictions and touching spots and were seen to converge with q = 1.3: twice the difference. The
 //! greatest pressure at nodes also misses its crest by up to half a spacing, by the same share on both grids
 //! when they are unlucky: a quadratic crest of Hertz and of the ripple. It costs about a seventh of the run.
-//! `tests/discretisation.rs` compares all of it with true errors on ten scenes.
+//! `tests/engine/discretisation.rs` compares all of it with true errors on ten scenes.
 //!
 //! The same two runs give the limit f + (f(dx) − f(2dx))/3 for q = 2 (Richardson), which is reported beside the value
 //! that was computed, never in its place: it is the better one where the sequence is as regular as it is taken to be.

@@ -12,7 +12,7 @@
 //! cold start would have put them, at most half a wave away. Film that entered before the walk ended has passed
 //! four fifths of the contact 1.6 a later at U; over 21 values of S of the default scene life is then within 0.3 %
 //! and the central film within 0.05 % of what they are after settling for 4 a in short steps (0.07 and 0.05 % after
-//! 2 a). Without the lead they are 1.3 % off at S = 0 (`tests/sweep.rs`, `a_warm_case_is_what_a_cold_one_is`).
+//! 2 a). Without the lead they are 1.3 % off at S = 0 (`tests/command_line/sweep.rs`, `a_warm_case_is_what_a_cold_one_is`).
 
 use super::drive::Drive;
 use super::simulation::{DEVELOP, Phase, Simulation};

@@ -237,7 +237,7 @@ fn tolerance_of(scene: &Scene, flow: Flow, door: &Door) -> Tolerance {
         pressure: by_flow(asked, 1e-3 * asked),
         // What a step leaves of its film equation the next one takes over, so it need not be small against
         // the pressure's tolerance: a hundredth of the film, at 1e-3. Films of one step are then within 5e-6
-        // (`tests/converged_step.rs`), lives of a passage the same to five digits from 1e-2 to 1e-4 (accuracy study).
+        // (`tests/engine/converged_step.rs`), lives of a passage the same to five digits from 1e-2 to 1e-4 (accuracy study).
         film: by_flow(10.0 * asked, 1e-3 * asked),
         mass: by_flow(0.1 * asked, f64::INFINITY),
         least_film: door.h_from_m(LEAST_FILM_M),

@@ -5,7 +5,7 @@
 //! ```
 //! [`Simulation::save`] is a copy of the state, [`Simulation::restore`] an assignment after a check. A run that goes on
 //! from a saved state equals the uninterrupted one bit for bit, in every field of every frame, even when its workspace is
-//! thrown away before every step (`tests/restart.rs`).
+//! thrown away before every step (`tests/records/restart.rs`).
 
 use serde::{Deserialize, Serialize};
 

@@ -7,7 +7,7 @@
 //! 4  named              kept where the film error is below 5 % (exit code 2: where and how much are told),
 //!                       else not kept: the run ends (exit code 3); a dry step by its gap error in the same way
 //! ```
-//! Each rung is counted in [`super::Stats`] and shown by `tests/ladder.rs`.
+//! Each rung is counted in [`super::Stats`] and shown by `tests/engine/ladder.rs`.
 
 use super::door::Door;
 use super::drive::Drive;

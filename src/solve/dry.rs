@@ -27,7 +27,7 @@
 //! of the pressure: what [`Tolerance::pressure`] bounds. It bounds the greatest overlap or gap on C too, in
 //! units of K00, the film that a pressure of 1 on one node makes. Sums run in fixed order: the result is the same
 //! on any number of threads. Order of the discretisation: 2 in the mean, 1.5 in the maximum at a node,
-//! where the sampled edge of the contact rules. Tests: `tests/hertz_dry.rs`, `tests/dry_periodic.rs`.
+//! where the sampled edge of the contact rules. Tests: `tests/engine/hertz_dry.rs`, `tests/engine/dry_periodic.rs`.
 
 mod bounds;
 

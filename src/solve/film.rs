@@ -15,7 +15,7 @@
 //!
 //! Second order in the spacing. The transform length 2(N−1) is exact because P = 0 on the boundary.
 //! A line is the limit of strips of infinite length: ∫ dY'/r = const − 2 ln|X'|, with p and κ as they are.
-//! Test: the dry Hertz contacts (`tests/hertz_dry.rs`, `tests/line.rs`).
+//! Test: the dry Hertz contacts (`tests/engine/hertz_dry.rs`, `tests/engine/line.rs`).
 
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};

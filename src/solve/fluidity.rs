@@ -16,7 +16,7 @@
 //!
 //! Where ℓP is the less the film shears at the limiting stress and the derivative is that branch's; the kink between the
 //! two is one that Newton's iteration passes as it does that of P ≥ 0. Without sliding and of Newtonian oil both
-//! fluidities are 1/η̄, and one is kept. Tests: `reynolds.rs` (the linearisation is the derivative), `tests/eyring.rs`.
+//! fluidities are 1/η̄, and one is kept. Tests: `reynolds.rs` (the linearisation is the derivative), `tests/engine/eyring.rs`.
 
 use rayon::prelude::*;
 

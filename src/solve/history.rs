@@ -13,7 +13,7 @@
 //! Fractions of a node are interpolated (`shift.rs`), not below 0. For equal steps this is BDF2:
 //! `C* = (4 c1 − c2)/3, s = 2ΔT/3`. Where extrapolation would more than halve c1 the weight θ_s
 //! goes down and the formula towards backward Euler, node by node, each with its own s: nothing is
-//! clipped. Order 2 in time. Test: `tests/ehl_transient.rs`.
+//! clipped. Order 2 in time. Test: `tests/engine/ehl_transient.rs`.
 //!
 //! BDF3 was tried: it takes the time error of the central film at one node a step from 7 % to 1 % (default scene, 129
 //! nodes). But what the mesh errs by, in the other sign, then stands alone: with BDF2 the two shrink together at

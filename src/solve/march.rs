@@ -5,7 +5,7 @@
 //! commit    state ← trial                                 after the caller has seen the verdict
 //! ```
 //! The state is all that a restart needs. The solver can be made again between any two steps: what an attempt gives is
-//! a function of the state, the gap and the conditions, not of what was evaluated before (`tests/restart.rs`).
+//! a function of the state, the gap and the conditions, not of what was evaluated before (`tests/records/restart.rs`).
 
 mod dry_steps;
 mod solver;

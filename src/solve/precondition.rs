@@ -34,7 +34,7 @@ fn bins(grid: &Grid) -> usize {
 const IDLE: f64 = 1.8;
 
 /// Steepest rise of F with H that the frozen symbols divide by: steeper ones are of closing films, whose neighbours
-/// rise as well. Krylov iterations a step, mixed, at U = 1e-4 m/s and of 132 steps of the stiff set (`tests/ladder.rs`):
+/// rise as well. Krylov iterations a step, mixed, at U = 1e-4 m/s and of 132 steps of the stiff set (`tests/engine/ladder.rs`):
 /// 15.6, 59.1 and 22 477 at 1, where only the density of the oil is not divided by; 14.4, 60.1 and 17 447 at 3; 14.4,
 /// 66.5 at 10.
 const STEEPEST: f32 = 3.0;

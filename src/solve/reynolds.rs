@@ -15,7 +15,7 @@
 //!
 //! The harmonic mean lets no flow through a touching node; the logarithmic mean is exact for Barus'
 //! law along a line of constant flow. There is no floor on H: H ≤ 0 has no conductance. As τ → 0 the
-//! equation is the dry contact condition ρ̄H = C* ≥ 0. Second order. Tests: `tests/ehl_smooth.rs`.
+//! equation is the dry contact condition ρ̄H = C* ≥ 0. Second order. Tests: `tests/engine/ehl_smooth.rs`.
 //! Sources: Venner and Lubrecht (2000) for the scaling; Hu and Zhu (2000) for the unified view.
 
 mod closing;

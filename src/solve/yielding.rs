@@ -20,7 +20,7 @@
 //!
 //! The law is that of an elastic body whose surface flows freely at P_H (perfectly plastic, no hardening), as in the dry
 //! contact of Almqvist, Sahlin, Larsson and Glavatskih (2007), Tribology International 40, 574-579. What flows leaves:
-//! it is not piled up beside the asperity, and no stress stays behind in the body. Tests: `tests/yielding.rs`.
+//! it is not piled up beside the asperity, and no stress stays behind in the body. Tests: `tests/engine/yielding.rs`.
 
 /// Hardness and what yields; the iterate's part that pressure, film and approach do not hold.
 pub struct Yielding {

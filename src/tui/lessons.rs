@@ -1,5 +1,5 @@
 //! The tour: lessons that stage scenes, turn their knobs and say what to look at. What a caption claims of
-//! the numbers stands beside it and is tested (`tests/lessons.rs`).
+//! the numbers stands beside it and is tested (`tests/screen/lessons.rs`).
 
 mod script;
 

@@ -18,7 +18,7 @@
 //! a mode and depth) and need no window. Error: that of steps in place of the pressure, second order away
 //! from Hertz's edge. The life integral is over x and z, per unit length.
 //!
-//! Proved in `tests/line.rs`: Hertz's maxima, the direct sum, the life integrals.
+//! Proved in `tests/engine/line.rs`: Hertz's maxima, the direct sum, the life integrals.
 //! Source: Johnson, Contact Mechanics (1985), §2.5 (strips), §4.2 (Hertz line).
 
 use std::f64::consts::PI;

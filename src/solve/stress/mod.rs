@@ -22,8 +22,8 @@
 //! - Single precision: it equals double to 2e-7 of p_h here.
 //!
 //! Error: that of sampling the pressure. Under the square-root edge of a Hertz contact 2.5e-3 p_h at
-//! z = 0.1 a and 1e-4 at 0.5 a for 64 nodes a half-width. Proved in `tests/stress_engine.rs` and
-//! `tests/life.rs` against the closed forms of [`crate::physics::stress_exact`].
+//! z = 0.1 a and 1e-4 at 0.5 a for 64 nodes a half-width. Proved in `tests/life/stress_engine.rs` and
+//! `tests/life/integrals.rs` against the closed forms of [`crate::physics::stress_exact`].
 //! Source of the plane-wave solutions: Westergaard (1939); Johnson, Contact Mechanics (1985), §2-3.
 //!
 //! Order of calls: [`StressEngine::load`], then [`StressEngine::slice`] and

@@ -4,7 +4,7 @@
 //! p = √(1 − x²) (1 + cos 2π(x − U₂ t)/W)      f δ = 2 |U₂ − U₁|/(W U₁)  crests pass a point of body 1
 //! ```
 //! Full ripples, so that every crest counts; the crest that the edge of the contact cuts counts in 0.6 of all
-//! phases (`tests/life.rs`), so that the count lies between f δ and 1 + f δ. The error is that against the finest sampling.
+//! phases (`tests/life/integrals.rs`), so that the count lies between f δ and 1 + f δ. The error is that against the finest sampling.
 
 use std::f64::consts::TAU;
 

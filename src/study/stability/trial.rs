@@ -10,7 +10,7 @@ use crate::sim::{Frame, Simulation, Stage, Stats};
 /// Linear iterations and steps that a case may take.
 const MOST_LINEAR: u64 = 400_000;
 const MOST_STEPS: u64 = 20_000;
-/// Deepest overlap of a converged contact, nm: `tests/ladder.rs` says why.
+/// Deepest overlap of a converged contact, nm: `tests/engine/ladder.rs` says why.
 const OVERLAP_NM: f64 = 0.5;
 /// Step of the passage at which knobs are turned, as a share of it.
 pub(super) const JUMP_AT: f64 = 0.125;

@@ -1,0 +1,31 @@
+//! The solver, from closed forms to runs: films, dry contacts, steps, plans, scenes, the loop; all without a screen or a file.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod converged_step;
+mod dent;
+mod discretisation;
+mod domain;
+mod dry_limit;
+mod dry_periodic;
+mod dry_switch;
+mod ehl_elliptic;
+mod ehl_smooth;
+mod ehl_transient;
+mod eyring;
+mod height_map;
+mod hertz_dry;
+mod ladder;
+mod line;
+mod lubricants;
+mod motions;
+mod plan;
+mod random_scenes;
+mod regime;
+mod scene;
+mod session;
+mod simulation;
+mod stepping;
+mod work_counters;
+mod yielding;
+mod yielding_steps;

@@ -1,0 +1,13 @@
+//! Stress below the surface, the counting of its cycles, and lives.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod counts;
+mod formula;
+mod integrals;
+mod passages;
+mod reference;
+mod settled;
+mod stress_closed_forms;
+mod stress_engine;
+mod stress_field;

@@ -1,0 +1,97 @@
+//! Viewers that look on: missing, frozen or closed ones cost the run nothing and are told in words.
+#![cfg(feature = "rerun")]
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use crate::common::synthetic;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+
+use asperity::observe::rerun::{Live, Recorder};
+use asperity::observe::{Observer, Overwrite, Queue, WhenFull};
+use asperity::scene::Record;
+
+const NODES: usize = 65;
+
+fn listener() -> (TcpListener, SocketAddr) {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let address = listener.local_addr().unwrap();
+    (listener, address)
+}
+
+#[test]
+fn a_missing_viewer_is_told_at_once_with_what_to_do() {
+    let (listener, address) = listener();
+    drop(listener);
+    let refused = Recorder::live(Live::Connect(address), &Record::default());
+    let error = refused.err().unwrap();
+    assert!(error.output.contains(&address.to_string()), "{error}");
+    assert!(error.reason.contains("--spawn"), "{error}");
+}
+
+#[test]
+fn a_busy_port_is_told_and_not_served() {
+    let (_listener, address) = listener();
+    let refused = Recorder::live(Live::Serve(address.port()), &Record::default());
+    let error = refused.err().unwrap();
+    assert!(error.reason.contains("--serve=PORT"), "{error}");
+}
+
+/// It takes the connection, answers and never reads: the library's own stream would block for ever.
+#[test]
+fn a_frozen_viewer_loses_frames_and_the_file_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let (listener, address) = listener();
+    std::thread::spawn(move || {
+        // An empty frame of settings to each, which stays open.
+        let mut held = Vec::new();
+        for mut stream in listener.incoming().flatten() {
+            drop(std::io::Write::write_all(
+                &mut stream,
+                b"\0\0\0\x04\0\0\0\0\0",
+            ));
+            held.push(stream);
+        }
+    });
+    let record = Record::default();
+    let live = Recorder::live(Live::Connect(address), &record).unwrap();
+    let mut live = Queue::spawn_live("frozen", 4, Box::new(live)).unwrap();
+    let file = Recorder::create(&path, Overwrite::Refuse, &record).unwrap();
+    let mut file = Queue::spawn("record", 4, WhenFull::Wait, Box::new(file)).unwrap();
+    let context = synthetic::context(synthetic::scene(NODES, 1.0));
+    live.begin(&context).unwrap();
+    file.begin(&context).unwrap();
+    let steps = 400;
+    let made = synthetic::frame(NODES, 1);
+    for step in 1..=steps {
+        let mut frame = asperity::sim::Frame::clone(&made);
+        frame.step = step;
+        let frame = std::sync::Arc::new(frame);
+        live.frame(&frame).unwrap();
+        file.frame(&frame).unwrap();
+    }
+    assert_eq!(live.stats().waits, 0);
+    let complete = file.finish().unwrap();
+    assert_eq!((complete.frames, complete.skipped), (steps, 0));
+    let report = live.finish().unwrap();
+    assert_eq!(report.frames + report.skipped, steps, "{report:?}");
+    assert!(report.skipped > 0, "{report:?}");
+}
+
+/// A server takes everything without anybody there, and gives the port back.
+#[test]
+fn a_server_without_viewers_takes_everything() {
+    let (listener, address) = listener();
+    drop(listener);
+    let live = Live::Serve(address.port());
+    let recorder = Recorder::live(live, &Record::default()).unwrap();
+    let mut queue = Queue::spawn_live("served", 64, Box::new(recorder)).unwrap();
+    queue
+        .begin(&synthetic::context(synthetic::scene(NODES, 1.0)))
+        .unwrap();
+    for step in 1..=20 {
+        queue.frame(&synthetic::frame(NODES, step)).unwrap();
+    }
+    let report = queue.finish().unwrap();
+    assert_eq!((report.frames, report.skipped), (20, 0), "{report:?}");
+    assert_eq!(report.output, live.to_string());
+}

@@ -1,0 +1,13 @@
+//! What a run leaves behind: recordings, exports, saved states, and the runs that go on from them.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod damaged;
+mod export;
+mod live;
+mod recording;
+mod repeat;
+mod restart;
+mod restart_cli;
+mod restart_matrix;
+mod viewer;

@@ -1,0 +1,430 @@
+//! Every kind of contact goes on from a saved state, and is repeated from a recording, bit for bit.
+//!
+//! {circle, ellipse, line} × {Reynolds, mass-conserving, dry} × {like, unlike bodies} × {sinusoid, height map} × {fixed,
+//! adaptive steps} × {no event, events}: each run is cut in the middle and taken up again through a file, and
+//! repeated from its own recording; every field of every frame is compared. Without an event each is also run with its
+//! workspace thrown away before steps of the start-up and of the passage.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::f64::consts::TAU;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+
+use crate::common::maps::{Shape, npy_f8};
+use asperity::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
+use asperity::plan::Plan;
+use asperity::run::{Checkpoint, Ending, Outcome, Request, Session, Watcher};
+use asperity::scene::{Override, Scene};
+use asperity::sim::{Frame, Simulation, State};
+
+const SHAPES: [(&str, &[&str]); 3] = [
+    ("circle", &[]),
+    ("ellipse", &["contact.ry_m=0.05"]),
+    (
+        "line",
+        &[
+            "contact.kind=line",
+            "contact.ry_m=none",
+            "load.force_n=none",
+            "load.force_n_per_m=2e5",
+            "body_2.surface.wavelength_y_m=inf",
+        ],
+    ),
+];
+const FLOWS: [(&str, &str); 3] = [
+    ("reynolds", "lubricant.cavitation=reynolds"),
+    ("jfo", "lubricant.cavitation=jfo"),
+    ("dry", "lubricant=none"),
+];
+const BODIES: [(&str, &[&str]); 2] = [
+    ("like", &[]),
+    ("unlike", &["body_1.young_pa=7.5e10", "body_1.poisson=0.22"]),
+];
+const STEPS: [(&str, &str); 2] = [
+    ("fixed", "time.step_nodes=1"),
+    ("adaptive", "time.tolerance=3e-2"),
+];
+
+/// A case, and what it is called.
+struct Case {
+    name: String,
+    scene: Scene,
+    /// Whether two events are scripted.
+    scripted: bool,
+}
+
+fn load(sets: &[String]) -> Scene {
+    let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
+    Scene::load_with("demonstration", &sets).unwrap()
+}
+
+fn scene(shape: &[&str], flow: &str, bodies: &[&str], map: Option<&Path>, step: &str) -> Scene {
+    let mut sets: Vec<String> = [
+        "grid.nodes=33",
+        "stress.depths=8",
+        "stress.depth_max_a=1",
+        "record=none",
+        "numerics.error_estimate=none",
+        "time.passages=0.5",
+        "life.cycles=peaks",
+        "life.spread=models",
+        "motion.slide_roll=0.5",
+        "body_1.surface.wavelength_x_m=6e-4",
+        "body_2.surface.wavelength_x_m=6e-4",
+        "body_2.surface.wavelength_y_m=6e-4",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    sets.extend(shape.iter().chain(bodies).map(|s| (*s).to_owned()));
+    sets.extend([flow.to_owned(), step.to_owned()]);
+    if let Some(file) = map {
+        sets.retain(|s| !s.starts_with("body_2.surface"));
+        sets.extend([
+            "body_2.surface.kind=height_map".to_owned(),
+            format!("body_2.surface.file={}", file.display()),
+            "body_2.surface.pixel_m=7.5e-5".to_owned(),
+        ]);
+    }
+    load(&sets)
+}
+
+/// Two events at so many steps of the passage, one on each side of the cut.
+fn script(scene: &mut Scene) {
+    let plan = Plan::new(scene).unwrap();
+    let load = scene.force_n();
+    let key = match scene.kind() {
+        asperity::scene::ContactKind::Point => "load.force_n",
+        asperity::scene::ContactKind::Line => "load.force_n_per_m",
+    };
+    for (at, key, value) in [(2.5, "motion.slide_roll", -0.3), (9.5, key, 0.8 * load)] {
+        let event = format!(
+            "at_s = {:e}\ncaption = 'turned'\nset = {{ '{key}' = {value:?} }}",
+            at * plan.dt_s
+        );
+        scene.events.push(toml::from_str(&event).unwrap());
+    }
+}
+
+/// All 144 of them; the height map of body 2 is in `folder`.
+fn cases(folder: &Path) -> Vec<Case> {
+    let height_m = |i: usize| {
+        let turn = TAU * i as f64 / 16.0;
+        1e-7 * (turn.cos() + 0.5 * (2.0 * turn + 1.0).cos())
+    };
+    let map = folder.join("map.npy");
+    npy_f8(
+        &map,
+        &Shape::new(16, 16, |i, j| {
+            height_m(i) + 7e-8 * (TAU * j as f64 / 16.0).cos()
+        }),
+    );
+    let ridges = folder.join("ridges.npy");
+    npy_f8(&ridges, &Shape::new(16, 8, |i, _| height_m(i)));
+    let mut cases = Vec::new();
+    for (shape, shape_sets) in SHAPES {
+        for (flow, flow_set) in FLOWS {
+            for (bodies, bodies_sets) in BODIES {
+                for surface in ["sinusoid", "height map"] {
+                    for (step, step_set) in STEPS {
+                        for scripted in [false, true] {
+                            let file = if shape == "line" { &ridges } else { &map };
+                            let file = (surface == "height map").then_some(file.as_path());
+                            let mut scene =
+                                scene(shape_sets, flow_set, bodies_sets, file, step_set);
+                            if scripted {
+                                script(&mut scene);
+                            }
+                            let events = if scripted { "events" } else { "no event" };
+                            cases.push(Case {
+                                name: [shape, flow, bodies, surface, step, events].join(", "),
+                                scene,
+                                scripted,
+                            });
+                        }
+                    }
+                }
+            }
+        }
+    }
+    cases
+}
+
+/// Every bit of a frame: Debug prints floats with as many digits as tell them apart, and the sign of zero.
+fn bits(frame: &Frame) -> String {
+    format!("{frame:?}")
+}
+
+/// Keeps every frame as text.
+struct Keeper(Arc<Mutex<Vec<String>>>);
+
+impl Observer for Keeper {
+    fn begin(&mut self, _: &RunContext) -> Result<(), ObserveError> {
+        Ok(())
+    }
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+        self.0.lock().unwrap().push(bits(frame));
+        Ok(())
+    }
+    fn event(&mut self, _: &RunEvent) -> Result<(), ObserveError> {
+        Ok(())
+    }
+    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        Ok(ObserverReport::default())
+    }
+}
+
+/// The frames of a session, and how it ended.
+fn frames(
+    scene: &Scene,
+    more: Option<Watcher>,
+    ending: Ending,
+    start: impl FnOnce(Request) -> Result<Session, asperity::run::RunError>,
+) -> (Vec<String>, Outcome) {
+    let kept = Arc::new(Mutex::new(Vec::new()));
+    let mut watchers = vec![Watcher::new("keeper", Box::new(Keeper(kept.clone())), 1)];
+    watchers.extend(more);
+    let request = Request {
+        name: "test".to_owned(),
+        scene: Arc::new(scene.clone()),
+        plan: Plan::new(scene).unwrap(),
+        threads: 1,
+        watchers,
+        ending,
+    };
+    let outcome = start(request).unwrap().join().unwrap();
+    let kept = std::mem::take(&mut *kept.lock().unwrap());
+    (kept, outcome)
+}
+
+/// Frames that differ, those that only one has too.
+fn differing(one: &[String], two: &[String]) -> usize {
+    let pairs = one.iter().zip(two).filter(|(one, two)| one != two).count();
+    pairs + one.len().abs_diff(two.len())
+}
+
+/// Runs `work` on every case, two at a time; the sum of what it gives.
+fn over(cases: &[Case], work: impl Fn(&Case) -> [usize; 2] + Sync) -> [usize; 2] {
+    let next = AtomicUsize::new(0);
+    let total = Mutex::new([0; 2]);
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let [rows, differing] = work(case);
+                    assert!(rows > 8, "{}: {rows} rows", case.name);
+                    if differing > 0 {
+                        println!("{}: {differing} of {rows} rows differ", case.name);
+                    }
+                    let mut total = total.lock().unwrap();
+                    *total = [total[0] + rows, total[1] + differing];
+                }
+            });
+        }
+    });
+    total.into_inner().unwrap()
+}
+
+#[test]
+fn a_run_cut_in_two_is_the_whole_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = cases(folder.path());
+    assert_eq!(cases.len(), 144);
+    let [rows, differing] = over(&cases, |case| {
+        let (whole, end) = frames(&case.scene, None, Ending::Passages, Session::start);
+        let mut half = case.scene.clone();
+        half.time.passages = 0.2;
+        let (mut cut, outcome) = frames(&half, None, Ending::Passages, Session::start);
+        let path = folder.path().join(format!("{}.state", case.name));
+        let mut file = std::fs::File::create(&path).unwrap();
+        let checkpoint = outcome.checkpoint.unwrap();
+        checkpoint.write(&mut file).unwrap();
+        let saved = Checkpoint::read(&path).unwrap();
+        let text = |checkpoint: &Checkpoint| format!("{checkpoint:?}");
+        assert!(text(&saved) == text(&checkpoint), "{}", case.name);
+        std::fs::remove_file(&path).unwrap();
+        let resume = |request| Session::resume(request, saved);
+        let (rest, again) = frames(&case.scene, None, Ending::Passages, resume);
+        assert!(rest.len() > 4 && rest.len() < whole.len(), "{}", case.name);
+        cut.extend(rest);
+        let timeless = |outcome: Outcome| {
+            let mut summary = outcome.summary.unwrap();
+            (summary.wall_s, summary.steps_per_s) = (0.0, None);
+            summary
+        };
+        assert_eq!(timeless(end), timeless(again), "{}", case.name);
+        [whole.len(), self::differing(&whole, &cut)]
+    });
+    println!(
+        "restart matrix: {} cases, {rows} rows, {differing} differ",
+        cases.len()
+    );
+    assert_eq!(differing, 0);
+}
+
+/// The workspace of every step is another one: what an attempt gives depends on the state alone.
+#[test]
+fn a_workspace_thrown_away_before_a_step_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases: Vec<Case> = cases(folder.path())
+        .into_iter()
+        .filter(|case| !case.scripted)
+        .collect();
+    let made = |scene: &Scene| Simulation::new(scene, Plan::new(scene).unwrap(), 1).unwrap();
+    let [rows, differing] = over(&cases, |case| {
+        let mut whole = made(&case.scene);
+        let mut cut = made(&case.scene);
+        let (mut one, mut two) = (Frame::default(), Frame::default());
+        let mut count = [0; 2];
+        let mut made_steps = 0;
+        while whole.passage_steps() < 8 {
+            whole.step().unwrap();
+            // The smooth start-up is the same in all cases but for its grid.
+            if made_steps % 8 == 0 || whole.progress() > 0.4 {
+                let state = cut.save();
+                cut = made(&case.scene);
+                cut.restore(state).unwrap();
+            }
+            cut.step().unwrap();
+            made_steps += 1;
+            whole.fill(&mut one);
+            cut.fill(&mut two);
+            count[0] += 1;
+            count[1] += usize::from(bits(&one) != bits(&two));
+        }
+        assert_eq!(whole.stats(), cut.stats(), "{}", case.name);
+        count
+    });
+    println!(
+        "thrown away: {} cases, {rows} rows, {differing} differ",
+        cases.len()
+    );
+    assert_eq!(differing, 0);
+}
+
+#[cfg(feature = "rerun")]
+#[test]
+fn a_recording_repeated_is_the_run() {
+    use asperity::observe::rerun::{Recorded, Recorder};
+    use asperity::observe::{Overwrite, Queue, WhenFull};
+    use asperity::run::Turn;
+    use asperity::scene::Record;
+    use asperity::sim::Knob;
+
+    let folder = tempfile::tempdir().unwrap();
+    let cases = cases(folder.path());
+    let [rows, differing] = over(&cases, |case| {
+        let path = folder.path().join(format!("{}.rrd", case.name));
+        let recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
+        let queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
+        let recording = Watcher::new("recording", Box::new(queue), 4);
+        let (whole, outcome) = frames(
+            &case.scene,
+            Some(recording),
+            Ending::Passages,
+            Session::start,
+        );
+        assert!(outcome.output_errors.is_empty(), "{}", case.name);
+        let recorded = Recorded::read(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        let scene = Scene::from_toml(&recorded.scene_toml).unwrap();
+        let turns: Vec<Turn> = recorded
+            .turns
+            .iter()
+            .map(|turn| Turn {
+                steps_made: turn.steps_made,
+                knob: Knob::from_key(&turn.key).unwrap(),
+                value: turn.value,
+            })
+            .collect();
+        assert!(
+            turns.is_empty(),
+            "{}: nothing was turned by hand",
+            case.name
+        );
+        let ending = Ending::Steps(recorded.last_step);
+        let (again, _) = frames(&scene, None, ending, |request| {
+            Session::repeat(request, turns)
+        });
+        let until = again.len();
+        assert!(until > 8, "{}", case.name);
+        [until, self::differing(&whole[..until], &again)]
+    });
+    println!(
+        "repeated: {} cases, {rows} rows, {differing} differ",
+        cases.len()
+    );
+    assert_eq!(differing, 0);
+}
+
+/// What a preset's state holds can be read again, from the start-up and from the passage: the same text, and the run
+/// goes on from it.
+#[test]
+fn states_of_all_presets_load() {
+    for preset in asperity::scene::presets::all()
+        .iter()
+        .map(|preset| preset.name)
+    {
+        let sets: Vec<Override> = ["grid.nodes=33", "record=none", "time.passages=0.2"]
+            .iter()
+            .map(|s| s.parse().unwrap())
+            .collect();
+        let mut scene = Scene::load_with(preset, &sets).unwrap();
+        if let Some(stress) = &mut scene.stress {
+            stress.depths = 8;
+        }
+        // On so few nodes the waves are not resolved; what a state holds is the same.
+        for surface in [&mut scene.body_1.surface, &mut scene.body_2.surface] {
+            let dx = Plan::new(&scene_smooth(preset)).unwrap().dx_m;
+            lengthen(surface, 8.0 * dx);
+        }
+        let made = || Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
+        let mut whole = made();
+        for steps in [3, u64::MAX] {
+            let mut count = 0;
+            while count < steps && whole.passage_steps() < 3 {
+                whole.step().unwrap();
+                count += 1;
+            }
+            let text = serde_json::to_string(&whole.save()).unwrap();
+            let state: State =
+                serde_json::from_str(&text).unwrap_or_else(|error| panic!("{preset}: {error}"));
+            // Debug tells what JSON does not: an infinity, or something that holds nothing, from nothing.
+            assert!(
+                format!("{state:?}") == format!("{:?}", whole.save()),
+                "{preset}"
+            );
+            let mut next = made();
+            next.restore(state).unwrap();
+            whole.step().unwrap();
+            next.step().unwrap();
+            let (mut one, mut two) = (Frame::default(), Frame::default());
+            whole.fill(&mut one);
+            next.fill(&mut two);
+            assert!(bits(&one) == bits(&two), "{preset}");
+        }
+    }
+}
+
+fn scene_smooth(preset: &str) -> Scene {
+    let sets = [
+        "grid.nodes=33",
+        "body_1.surface.kind=smooth",
+        "body_2.surface.kind=smooth",
+        "record=none",
+    ];
+    let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
+    Scene::load_with(preset, &sets).unwrap()
+}
+
+fn lengthen(surface: &mut asperity::scene::Surface, least_m: f64) {
+    if let asperity::scene::Surface::Sinusoid {
+        wavelength_x_m,
+        wavelength_y_m,
+        ..
+    } = surface
+    {
+        *wavelength_x_m = wavelength_x_m.max(least_m);
+        *wavelength_y_m = wavelength_y_m.max(least_m);
+    }
+}

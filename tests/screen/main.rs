@@ -1,0 +1,12 @@
+//! The explorer: its state, words, numbers and pictures, and the program in a terminal.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod lessons;
+mod numbers;
+mod screens;
+mod session;
+mod state;
+mod terminal;
+mod ticks;
+mod words;

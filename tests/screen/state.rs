@@ -1,0 +1,409 @@
+//! What keys, mouse and news from the run do to the explorer's state, and what it asks for: also news that comes
+//! late (an orbit that was left, a sweep of other knobs).
+#![cfg(feature = "tui")]
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::common::tui_fixture::{
+    self, State, buffer, found, mouse, plain, play, running, scene, sent, settled, setup_of, text,
+};
+use asperity::run::{Command, Settled};
+use asperity::scene::{Event, Scene, Surface};
+use asperity::sim::Knob;
+use asperity::study::sweep::Along;
+use asperity::tui::action::Action;
+use asperity::tui::app::{App, Effect, ErrandKind, Leading, Setup};
+use asperity::tui::view;
+use crossterm::event::{MouseButton, MouseEventKind};
+use ratatui::layout::Rect;
+
+/// The run hears of a knob one step later than the screen, and until then it still tells of the orbit that the
+/// knob has ended. Taken back, it would be replayed under the new knobs and the run would stand still.
+#[test]
+fn a_turned_knob_is_not_taken_back_into_the_orbit_that_it_left() {
+    let mut app = running(plain());
+    let orbit = Arc::new(settled(&State::default()));
+    app.take_settled(Some(orbit.clone()));
+    assert!(
+        app.frame().unwrap().step >= 200,
+        "the orbit is on the screen"
+    );
+    app.apply(Action::Turn(1));
+    assert_eq!(app.frame().unwrap().step, 96, "the run is on the screen");
+    for _ in 0..3 {
+        assert_eq!(app.take_settled(Some(orbit.clone())), []);
+        assert_eq!(app.frame().unwrap().step, 96);
+    }
+    // The run has heard, then it settles anew: that orbit is taken.
+    assert_eq!(app.take_settled(None), []);
+    let effects = app.take_settled(Some(Arc::new(settled(&State::default()))));
+    assert_eq!(effects, [Effect::Send(Command::Pause)]);
+    assert!(app.frame().unwrap().step >= 200);
+}
+
+/// A sweep that began in the same drawing is not known yet when a knob is turned; it must end all the same.
+#[test]
+fn a_knob_ends_a_sweep_that_the_screen_has_not_heard_of() {
+    let mut app = running(plain());
+    app.take_settled(Some(Arc::new(settled(&State::default()))));
+    let effects = app.apply(Action::Turn(1));
+    assert!(effects.contains(&Effect::EndSweep), "{effects:?}");
+}
+
+#[test]
+fn turning_a_knob_sends_it_and_moves_the_formula_at_once() {
+    let mut app = running(plain());
+    assert_eq!(app.leading(), Leading::Simulated);
+    let simulated = app.leading_life().unwrap();
+    let commands = sent(&app.apply(Action::Turn(1)));
+    let [Command::Set(Knob::SlideRoll, value)] = commands[..] else {
+        panic!("{commands:?}");
+    };
+    assert!((value - 0.55).abs() < 1e-12);
+    assert_eq!(app.leading(), Leading::Scaled);
+    // No frame came between, and yet the life that leads fell by the ratio of the counts.
+    let count = |s: f64| 1.0 + 4.4 * s / (1.0 - 0.5 * s);
+    let expected = simulated * count(0.5) / count(0.55);
+    let formula = app.leading_life().unwrap();
+    assert!(
+        (formula / expected - 1.0).abs() < 1e-9,
+        "{formula} {expected}"
+    );
+}
+
+#[test]
+fn the_simulation_takes_over_when_it_has_settled_there() {
+    let mut app = running(plain());
+    app.apply(Action::TurnFar(1));
+    let way = State {
+        slide_roll: 0.6,
+        slide_roll_target: 0.75,
+        settled: false,
+        ..State::default()
+    };
+    play(&mut app, 97..=99, &way);
+    assert_eq!(app.leading(), Leading::Scaled);
+    let arrived = State {
+        slide_roll: 0.75,
+        slide_roll_target: 0.75,
+        settled: true,
+        ..State::default()
+    };
+    play(&mut app, 100..=101, &arrived);
+    assert_eq!(app.leading(), Leading::Simulated);
+}
+
+#[test]
+fn a_refused_or_scripted_target_is_taken_over_after_a_while() {
+    let mut app = running(plain());
+    app.apply(Action::TurnFar(1));
+    // The run still says 0.5: first the key is believed, then the run.
+    play(&mut app, 97..=98, &State::default());
+    assert_eq!(app.target(Knob::SlideRoll), 0.75);
+    play(&mut app, 200..=201, &State::default());
+    assert_eq!(app.target(Knob::SlideRoll), 0.5);
+}
+
+#[test]
+fn loads_are_compared_on_the_scale_of_the_scene() {
+    let mut app = running(plain());
+    app.apply(Action::Pin);
+    let pinned = app.leading_factors().unwrap();
+    assert!((app.against_pinned().unwrap() - 1.0).abs() < 1e-9);
+    app.apply(Action::ChooseNext);
+    app.apply(Action::TurnFar(1));
+    // N ∝ p_h^−(c + 3/e), p_h ∝ F^(1/3); a also adds crests to the count; the same crests stand out less from a
+    // greater pressure.
+    let pressure = 1.05_f64.powi(5).cbrt();
+    let count = |a: f64| 1.0 + 4.4 * a * 0.5 / 0.75;
+    let load = pressure.powf(-(31.0 / 3.0 + 2.7));
+    let now = app.leading_factors().unwrap();
+    assert!((now.load / load - 1.0).abs() < 1e-9, "{now:?}");
+    let peaks = now.peak / pinned.peak;
+    assert!((1.0..2.0).contains(&peaks), "{peaks}");
+    let expected = load * peaks * count(1.0) / count(pressure);
+    let ratio = app.against_pinned().unwrap();
+    assert!((ratio / expected - 1.0).abs() < 1e-9, "{ratio} {expected}");
+}
+
+#[test]
+fn time_keys() {
+    let mut app = running(plain());
+    assert_eq!(sent(&app.apply(Action::TogglePause)), [Command::Pause]);
+    assert_eq!(sent(&app.apply(Action::StepForward)), [Command::StepOnce]);
+    assert_eq!(sent(&app.apply(Action::TogglePause)), [Command::Pause]);
+    // Looking back stops the run, once; forward again returns to the present, then steps.
+    assert_eq!(sent(&app.apply(Action::StepBack)), [Command::Pause]);
+    assert_eq!(sent(&app.apply(Action::StepBack)), []);
+    assert_eq!(app.rewound().0, 2);
+    let newest = 96;
+    assert_eq!(app.frame().unwrap().step, newest - 2);
+    assert_eq!(sent(&app.apply(Action::StepForward)), []);
+    assert_eq!(sent(&app.apply(Action::StepForward)), []);
+    assert_eq!(app.frame().unwrap().step, newest);
+    assert_eq!(sent(&app.apply(Action::StepForward)), [Command::StepOnce]);
+    for _ in 0..10_000 {
+        app.apply(Action::StepBack);
+    }
+    let (back, kept) = app.rewound();
+    assert_eq!(back, kept, "the past has a beginning");
+}
+
+#[test]
+fn errands_are_done_only_where_they_are_offered() {
+    let mut app = running(plain());
+    assert_eq!(app.apply(Action::Save), [Effect::Errand(ErrandKind::Save)]);
+    assert_eq!(app.apply(Action::Write), []);
+    assert!(app.message().unwrap().contains("nothing can be exported"));
+    assert_eq!(app.apply(Action::View), []);
+    assert!(app.message().unwrap().contains("asperity view"));
+    assert_eq!(app.apply(Action::Quit), [Effect::Quit]);
+}
+
+#[test]
+fn the_saved_scene_is_the_one_on_the_screen() {
+    let mut app = running(plain());
+    app.apply(Action::Typical(6));
+    app.apply(Action::Choose(2));
+    app.apply(Action::Typical(0));
+    let saved = app.scene_toml();
+    let scene: Scene = toml::from_str(&saved).unwrap();
+    assert_eq!(scene.motion.slide_roll, 1.0);
+    assert_eq!(scene.load.force_n, Some(800.0));
+    let Surface::Sinusoid { amplitude_m, .. } = scene.body_1.surface else {
+        panic!("body 1 is a wave");
+    };
+    assert_eq!(amplitude_m, 0.0);
+}
+
+#[test]
+fn a_smooth_surface_has_nothing_to_turn() {
+    let mut smooth = scene();
+    smooth.body_1.surface = Surface::Smooth {};
+    let mut app = App::new(Setup {
+        scene: Arc::new(smooth),
+        name: "demonstration".into(),
+        load_n: 800.0,
+        half_width_m: tui_fixture::A_M,
+        p_hertz_pa: tui_fixture::P_HERTZ_PA,
+        plan_text: String::new(),
+        left_out: Vec::new(),
+        errands: Vec::new(),
+        theme: plain(),
+    });
+    app.apply(Action::Choose(2));
+    assert_eq!(app.apply(Action::Turn(1)), []);
+    assert!(app.message().unwrap().contains("smooth"));
+}
+
+#[test]
+fn the_tour_stages_scenes_moves_on_by_itself_and_returns() {
+    let mut app = running(plain());
+    app.apply(Action::Turn(1));
+    let effects = app.apply(Action::Tour);
+    let [Effect::Rebuild(staged, _)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    assert_eq!(staged.motion.slide_roll, 0.0);
+    assert_eq!(staged.body_2.surface, Surface::Smooth {});
+    // The words of the lesson go to the run, and so to the recording.
+    let commands = sent(&app.rebuilt(setup_of((**staged).clone())));
+    assert!(matches!(&commands[..], [Command::Say(words)] if words.contains("n = 1")));
+    let first = text(&app, 160, 48);
+    assert!(
+        first.contains("1/7 One asperity, one passage (1/2)"),
+        "{first}"
+    );
+    let rolling = State {
+        slide_roll: 0.0,
+        slide_roll_target: 0.0,
+        ..State::default()
+    };
+    // A passage is 128 steps; the first beat lasts one and a half.
+    play(&mut app, 1..=200, &rolling);
+    let second = text(&app, 160, 48);
+    assert!(
+        second.contains("(2/2)") && second.contains("counted₁"),
+        "{second}"
+    );
+    let effects = app.apply(Action::NextLesson);
+    assert!(matches!(&effects[..], [Effect::Rebuild(..)]), "{effects:?}");
+    // Leaving it brings the scene back as it was turned to.
+    let effects = app.apply(Action::Tour);
+    let [Effect::Rebuild(own, _)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    assert_eq!(own.title, scene().title);
+    assert!((own.motion.slide_roll - 0.55).abs() < 1e-9);
+    app.rebuilt(setup_of((**own).clone()));
+    assert!(!text(&app, 160, 48).contains("One asperity"));
+}
+
+#[test]
+fn the_material_point_is_chosen_by_body_depth_and_place() {
+    let mut app = running(plain());
+    let follow = |effects: &[Effect]| match sent(effects)[..] {
+        [Command::Follow(follow)] => follow,
+        ref other => panic!("{other:?}"),
+    };
+    assert_eq!(follow(&app.apply(Action::PointBody)).body, 2);
+    let one = follow(&app.apply(Action::PointDepth(1)));
+    let two = follow(&app.apply(Action::PointDepth(1)));
+    assert!(two.depth_m > one.depth_m && two.x_m.is_none());
+    let there = follow(&app.apply(Action::PutPoint(-0.5)));
+    assert!((there.x_m.unwrap() / tui_fixture::A_M + 0.5).abs() < 1e-9);
+    // The same in a replay, where it answers at once.
+    app.take_settled(Some(Arc::new(settled(&State::default()))));
+    app.advance(Duration::from_millis(1500));
+    app.apply(Action::PutPoint(0.25));
+    let point = app.point_now().unwrap();
+    let x = point.sample.x_m / app.frame().unwrap().a_m;
+    assert!((x - 0.25).abs() < 0.06, "{x}");
+    let screen = Rect::new(0, 0, 160, 48);
+    let areas = view::Areas::of(screen, view::Banner::None).unwrap();
+    let down = MouseEventKind::Down(MouseButton::Left);
+    let (column, row) = (areas.point.x + areas.point.width / 2, areas.point.y + 3);
+    let action = view::pointed(&app, screen, &mouse(down, column, row));
+    assert!(matches!(action, Some(Action::PutPoint(_))), "{action:?}");
+}
+
+/// A state to go on from: the explorer only hands it on.
+fn state() -> asperity::sim::State {
+    use asperity::plan::Plan;
+    let sets = ["grid.nodes=65", "stress.depths=8"].map(|set| set.parse().unwrap());
+    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let plan = Plan::new(&scene).unwrap();
+    asperity::sim::Simulation::new(&scene, plan, 1)
+        .unwrap()
+        .save()
+}
+
+/// A curve asks for what it lacks: S along life, then the speed along Stribeck's.
+#[test]
+fn a_curve_is_filled_in_when_it_is_shown() {
+    let mut app = running(plain());
+    let ordered = |effects: &[Effect]| {
+        let orders = effects.iter().filter_map(|effect| match effect {
+            Effect::Sweep(order) => Some((order.along, order.values.clone())),
+            _ => None,
+        });
+        orders.collect::<Vec<_>>()
+    };
+    let orbit = Arc::new(Settled {
+        state: Some(state()),
+        ..settled(&State::default())
+    });
+    let [(Along::SlideRoll, values)] = &ordered(&app.take_settled(Some(orbit)))[..] else {
+        panic!("no order");
+    };
+    assert!(values.contains(&0.0) && values.contains(&-1.75) && !values.contains(&0.5));
+    app.take_swept(vec![found(0.0, 1.0, 0.6)], Some((1, values.len())));
+    assert_eq!(
+        ordered(&app.apply(Action::Curve)),
+        [],
+        "friction comes with it"
+    );
+    let [(Along::Entrainment, speeds)] = &ordered(&app.apply(Action::Curve))[..] else {
+        panic!("no order");
+    };
+    // Four to a decade around the scene's own speed, which the run has.
+    assert_eq!(speeds.len(), 8);
+    assert!(speeds.contains(&0.1) && speeds.contains(&10.0));
+    let [(Along::SlideRoll, rest)] = &ordered(&app.apply(Action::Curve))[..] else {
+        panic!("no order");
+    };
+    assert_eq!(rest.len(), values.len() - 1, "what is there is kept");
+}
+
+#[test]
+fn captions_of_a_scripted_scene_are_shown() {
+    let mut scripted = scene();
+    scripted.events.push(Event {
+        at_s: 0.0,
+        set: std::collections::BTreeMap::new(),
+        caption: "Now S = 1.".into(),
+    });
+    let mut app = App::new(Setup {
+        scene: Arc::new(scripted),
+        name: "demonstration".into(),
+        load_n: 800.0,
+        half_width_m: tui_fixture::A_M,
+        p_hertz_pa: tui_fixture::P_HERTZ_PA,
+        plan_text: String::new(),
+        left_out: Vec::new(),
+        errands: Vec::new(),
+        theme: plain(),
+    });
+    play(&mut app, 1..=5, &State::default());
+    assert!(text(&app, 80, 24).contains("Now S = 1."));
+    // Half a passage later it has been read.
+    play(&mut app, 6..=80, &State::default());
+    assert!(!text(&app, 80, 24).contains("Now S = 1."));
+}
+
+#[test]
+fn the_mouse_moves_sliders_and_reads_the_map() {
+    let mut app = running(plain());
+    let screen = Rect::new(0, 0, 160, 48);
+    let drawn = buffer(&app, 160, 48);
+    let handle = |(x, y): &(u16, u16)| *y > 0 && drawn[(*x, *y)].symbol() == "●";
+    let mut places = (0..48).flat_map(|y| (0..160).map(move |x| (x, y)));
+    let (x, y) = places.find(handle).unwrap();
+    let down = MouseEventKind::Down(MouseButton::Left);
+    let action = view::pointed(&app, screen, &mouse(down, 2, y)).unwrap();
+    let Action::Slide(0, fraction) = action else {
+        panic!("{action:?}, handle at {x}, {y}");
+    };
+    assert!(fraction < 0.05);
+    let commands = sent(&app.apply(action));
+    let [Command::Set(Knob::SlideRoll, value)] = commands[..] else {
+        panic!("{commands:?}");
+    };
+    assert!(value <= -1.95, "{value}");
+    // Dragging goes on with the same slider.
+    let drag = MouseEventKind::Drag(MouseButton::Left);
+    let action = view::pointed(&app, screen, &mouse(drag, 16, y + 3)).unwrap();
+    assert!(matches!(action, Action::Slide(0, part) if part > 0.3));
+    // The middle of the map, right of and above its scales, is the middle of the contact.
+    let areas = view::Areas::of(screen, view::Banner::None).unwrap();
+    let (column, row) = (
+        areas.map.x + (areas.map.width - 8) / 2 + 2,
+        areas.map.y + areas.map.height / 2 - 1,
+    );
+    let action = view::pointed(&app, screen, &mouse(down, column, row)).unwrap();
+    let Action::Probe(x, y) = action else {
+        panic!("{action:?}");
+    };
+    assert!(x.abs() < 0.15 && y.abs() < 0.15, "{x} {y}");
+    app.apply(action);
+    assert!(
+        text(&app, 160, 48).contains("GPa  h "),
+        "the probe reads the pressure"
+    );
+}
+
+/// Where the number comes from, what it is against, and the weightiest caution are read on every screen.
+#[test]
+fn the_source_of_the_life_and_its_weightiest_caution_fit_small_screens() {
+    let new = App::new(setup_of(scene()));
+    let mut live = running(plain());
+    let first = live.cautions().first().unwrap().clone();
+    for (width, height) in [(80, 24), (100, 30), (160, 48)] {
+        let screen = text(&new, width, height);
+        assert!(screen.contains("formula"), "{screen}");
+        let screen = text(&live, width, height);
+        assert!(screen.contains("simulated"), "{screen}");
+        assert!(screen.contains("× smooth rolling"), "{screen}");
+        assert!(screen.contains("load"), "{screen}");
+        let more = format!(" +{} i", live.cautions().len() - 1);
+        assert!(screen.contains(&more), "{screen}");
+    }
+    live.apply(Action::Turn(1));
+    for (width, height) in [(80, 24), (160, 48)] {
+        assert!(text(&live, width, height).contains("scaled"));
+    }
+    live.apply(Action::Plan);
+    assert!(text(&live, 160, 48).contains(&first.text));
+}
