@@ -155,7 +155,7 @@ pub(crate) struct StudyArgs {
     /// Folder for the report's files; created if missing
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Only cases whose name or group contains this text (stability, pruning, scaling)
+    /// Only cases whose name or group contains this text (stability, pruning, scaling, evidence)
     #[arg(long, value_name = "TEXT")]
     pub(crate) only: Option<String>,
     /// Cores to use [default: all]
@@ -183,6 +183,9 @@ pub(crate) enum StudyKind {
     Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
+    /// Published tables and experiments beside what is found here, and which way of counting cycles meets them; each row is
+    /// a scene: asperity run evidence/NAME
+    Evidence,
 }
 
 /// Which sweep, and how to run it.

@@ -86,7 +86,7 @@ const BODY: &[Key] = &[
 #[rustfmt::skip]
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
-    key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file"),
+    key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file; or builtin:NAME"),
     key("digest", "", Text(16), Optional("the file is taken as it is"), "digest of the file's numbers: a file of another is refused; written by the program"),
     key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
     key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean subtracted), or once (mean of the rim subtracted, tapered to 0)"),

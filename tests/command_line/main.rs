@@ -1,6 +1,7 @@
 //! The program by its command line: messages, files, studies, sweeps, and the same number everywhere.
 
 mod cli;
+mod evidence;
 mod outputs;
 mod study;
 mod sweep;
