@@ -266,12 +266,12 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
 /// What flows at which pressure.
 fn yielding_text(hardness_pa: f64, flows: [bool; 2]) -> String {
     let who = match flows {
-        [true, false] => "body 1, the softer, gives way",
-        [false, true] => "body 2, the softer, gives way",
-        _ => "both bodies give way, half each,",
+        [true, false] => "body 1, the softer, yields",
+        [false, true] => "body 2, the softer, yields",
+        _ => "both bodies yield, half each,",
     };
     format!(
-        "pressure at most {:.2} GPa: {who} for good where it would be more",
+        "pressure limited to {:.2} GPa: beyond it {who} for good",
         hardness_pa * 1e-9
     )
 }
