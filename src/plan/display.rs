@@ -20,14 +20,13 @@ impl fmt::Display for Plan {
         for item in &self.left_out {
             writeln!(f, "  {:<24}{}", item.stage, item.why)?;
         }
-        let (yielding, elastic) = match self.yielding {
-            Some(_) => ("deep yielding", "elastic below the surface"),
-            None => ("yielding", "elastic"),
+        let (stage, elastic) = match self.yielding {
+            Some(_) => ("heat, wear, deep yield", "elastic below the surface"),
+            None => ("heat, wear, yield", "elastic"),
         };
         writeln!(
             f,
-            "  {:<24}not in the model: isothermal, {elastic}, crack initiation only",
-            format!("heat, {yielding}, wear")
+            "  {stage:<24}not in the model: isothermal, {elastic}, crack initiation only"
         )?;
         if !self.warnings.is_empty() {
             writeln!(f, "\nCautions")?;
