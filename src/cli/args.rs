@@ -55,8 +55,8 @@ the same byte for byte whatever --shard, --threads and interruptions, on machine
 units differ by rounding (about 1e-7). Every case is written whole or not at all: after an interruption --resume
 continues.
 
-A folder is taken that is empty or that a sweep has marked (sweep.digest); --force takes away the sweep's own files in
-it and no others.";
+The folder must be new, empty or marked by a sweep (sweep.digest); --force removes the sweep's own files in it and no
+others.";
 
 const SWEEP_EXAMPLES: &str = "\
 Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.

@@ -20,14 +20,13 @@ impl fmt::Display for Plan {
         for item in &self.left_out {
             writeln!(f, "  {:<24}{}", item.stage, item.why)?;
         }
-        let (yielding, elastic) = match self.yielding {
-            Some(_) => ("deep yielding", "elastic below the surface"),
-            None => ("yielding", "elastic"),
+        let (stage, elastic) = match self.yielding {
+            Some(_) => ("heat, wear, deep yield", "elastic below the surface"),
+            None => ("heat, wear, yield", "elastic"),
         };
         writeln!(
             f,
-            "  {:<24}not in the model: isothermal, {elastic}, crack initiation only",
-            format!("heat, {yielding}, wear")
+            "  {stage:<24}not in the model: isothermal, {elastic}, crack initiation only"
         )?;
         if !self.warnings.is_empty() {
             writeln!(f, "\nCautions")?;
@@ -268,12 +267,12 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
 /// What flows at which pressure.
 fn yielding_text(hardness_pa: f64, flows: [bool; 2]) -> String {
     let who = match flows {
-        [true, false] => "body 1, the softer, gives way",
-        [false, true] => "body 2, the softer, gives way",
-        _ => "both bodies give way, half each,",
+        [true, false] => "body 1, the softer, yields",
+        [false, true] => "body 2, the softer, yields",
+        _ => "both bodies yield, half each,",
     };
     format!(
-        "pressure at most {:.2} GPa: {who} for good where it would be more",
+        "pressure limited to {:.2} GPa: beyond it {who} for good",
         hardness_pa * 1e-9
     )
 }
