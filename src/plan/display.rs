@@ -284,7 +284,7 @@ fn flow_text(flow: EyringFlow) -> &'static str {
             "Eyring oil: flow by one effective viscosity in both directions (secant)"
         }
         EyringFlow::AlongAcross => {
-            "Eyring oil: flow along the sliding by the tangent of its law, across by the secant"
+            "Eyring oil: flow along the sliding as it is (tangent, less on steep crests), across by the secant"
         }
     }
 }

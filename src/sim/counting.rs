@@ -164,13 +164,14 @@ impl Counting {
         }
     }
 
-    /// Moves the points by `travel` (in a) and samples the line y = 0.
+    /// Moves the points by `travel` (in a) and samples the line y = 0 of a contact of `size` times the scene's.
     pub(super) fn step(
         &mut self,
         grid: &Grid,
         travel: [f64; 2],
         pressure: &[f64],
         stress: Option<&StressStage>,
+        size: f64,
     ) {
         let axis = grid.axis_row() * grid.nx;
         for (to, &from) in self.row.iter_mut().zip(&pressure[axis..axis + grid.nx]) {
@@ -192,7 +193,7 @@ impl Counting {
             let before = self.trackers[i].crossings();
             self.trackers[i].step(travel[i], &line(body));
             if let Some(by_damage) = &mut self.by_damage {
-                by_damage.step(body, travel[i], &line(body));
+                by_damage.step(body, travel[i], &line(body), size);
             }
             if self.trackers[i].crossings() == before {
                 continue;
@@ -251,6 +252,12 @@ impl Counting {
         profile
             .is_known
             .then_some(CycleProfile::Counted(&profile.equivalent))
+    }
+
+    /// Part of a `period` (in a, at U) over which crossings by damage have finished; 1 where they are not followed.
+    pub(super) fn covers(&self, period: f64) -> f64 {
+        let by_damage = self.by_damage.as_ref();
+        by_damage.map_or(1.0, |by_damage| by_damage.covers(period))
     }
 
     /// ln of what the swept integral of a law becomes as the mean over material points, by depth.

@@ -19,11 +19,16 @@ use crate::math::grid::Grid;
 use crate::physics::cycles::BodyId;
 use crate::solve::axis::Line;
 use crate::solve::columns::Columns;
-use crate::solve::material::{MaterialTracker, TrackerSpec};
+use crate::solve::material::MaterialTracker;
 use crate::solve::stress::StressLaw;
 
 /// Way over which crossings must have finished before their mean stands alone, where no wave is longer, a.
 const LEAST_WAY: f64 = 0.25;
+
+/// Half-width within which a point meets its greatest stress, over Hertz's.
+const REACH: f64 = 0.8;
+/// Bodies slower than this, over the mean speed, are not waited for.
+const SLOW: f64 = 0.5;
 
 /// Both bodies under way.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -90,10 +95,10 @@ impl DamageCount {
         (self.fastest, self.is_known) = (0.0, false);
     }
 
-    /// Moves a body's columns by `travel` (in a) below the `line`.
-    pub(super) fn step(&mut self, body: BodyId, travel: f64, line: &Line) {
+    /// Moves a body's columns by `travel` (in a) below the `line`, in a contact of `size` times the scene's.
+    pub(super) fn step(&mut self, body: BodyId, travel: f64, line: &Line, size: f64) {
         let own = &mut self.bodies[body.index()];
-        own.columns.step(travel, TrackerSpec::PRESSURE_GATE, line);
+        own.columns.step(travel, REACH * size, line);
         own.way += travel.abs();
     }
 
@@ -109,6 +114,23 @@ impl DamageCount {
                 body.columns.ln_ratios(law, (body.own, body.wanted), out);
             }
         }
+    }
+
+    /// Part of a `period` (in a, at U) of both bodies' surfaces that has crossed the contact; of slow ones a quarter of it
+    /// does, and of those that creep none is waited for.
+    pub(super) fn covers(&self, period: f64) -> f64 {
+        let mean = 0.5 * (self.bodies[0].way + self.bodies[1].way);
+        let part = |body: &Body| {
+            let speed = body.way / mean.max(f64::MIN_POSITIVE);
+            let wanted = period * speed * ((speed / SLOW).min(1.0)).powi(2);
+            let creeps = speed < 0.5 * SLOW;
+            if creeps {
+                f64::INFINITY
+            } else {
+                body.columns.finished() / wanted.max(f64::MIN_POSITIVE)
+            }
+        };
+        self.bodies.iter().map(part).fold(f64::INFINITY, f64::min)
     }
 
     /// n by depth of a body; `None` before anything moved.

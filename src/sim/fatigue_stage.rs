@@ -231,11 +231,12 @@ impl LifeStage {
         let by_damage = self.asked.cycles == CycleBasis::Damage;
         let meter = self.variants[0].meter();
         let (way, period) = meter.way();
-        if by_damage && meter.covers() && self.damage.is_due(way) {
+        let covered = counting.map_or(1.0, |counting| counting.covers(period));
+        if by_damage && covered >= 0.5 && self.damage.is_due(way) {
             let ln = BodyId::BOTH.map(|body| self.ln_damage(body, counting));
             self.damage.take(way, period, ln);
         }
-        let damage = by_damage.then_some(&self.damage);
+        let damage = by_damage.then_some((&self.damage, covered));
         let meter = self.variants[0].meter();
         self.settling.judge(meter, stress_error, repeat, damage);
     }

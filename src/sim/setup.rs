@@ -22,6 +22,7 @@ use super::totals::Totals;
 use super::yielded::Yielded;
 use super::{Grounds, Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
+use crate::physics::fluid::ShearedFlow;
 use crate::physics::strength::{self, Strength};
 use crate::plan::Plan;
 use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
@@ -374,6 +375,10 @@ fn traction_law(scene: &Scene, door: &Door) -> TractionLaw {
         eyring: (oil.rheology == crate::scene::Rheology::Eyring)
             .then_some(oil.eyring_stress_pa / door.p_hertz_pa),
         limit: oil.limiting_shear_ratio,
+        steepness: match door.medium(1.0, 0.0).sheared {
+            ShearedFlow::AlongAcross { steepness, .. } => steepness,
+            ShearedFlow::Secant => 0.0,
+        },
     });
     TractionLaw {
         film,

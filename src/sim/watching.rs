@@ -16,6 +16,7 @@ impl Simulation {
         self.state.watched = self.state.motion.travelled;
         let on_fine = self.work.solver.grid.nx == self.plan.domain.nodes;
         let measured = self.measure();
+        let size = self.size_now();
         let looks = on_fine && self.stage_has_stress();
         if looks && let Some(stress) = &mut self.work.stress {
             let (p, q) = (&self.state.contact.pressure, &self.work.traction);
@@ -32,6 +33,7 @@ impl Simulation {
                 travel,
                 pressure,
                 self.work.stress.as_ref(),
+                size,
             );
         }
         if looks {

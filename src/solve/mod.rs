@@ -23,6 +23,7 @@ pub mod precondition;
 pub mod reynolds;
 mod reynolds_rows;
 mod shift;
+mod steep;
 pub mod stress;
 mod tally;
 pub mod tangential;

@@ -19,7 +19,7 @@ mod faults;
 mod inputs;
 mod mutate;
 #[cfg(feature = "tui")]
-#[path = "../pty/mod.rs"]
+#[path = "../common/pty.rs"]
 mod pty;
 mod replay;
 mod report;

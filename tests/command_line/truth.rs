@@ -446,6 +446,11 @@ fn of_the_last_step(w: &Written, screen: &Screen, line: bool) -> Vec<Row> {
     };
     let rows = [
         three(
+            "yielded_body_1_m3",
+            w.recorded("series/yielded_um3", 0, 1e18),
+            None,
+        ),
+        three(
             "p_max_pa",
             w.recorded("series/pressure_GPa", 0, 1e-9),
             screen.shown(status, "p max ", 1e-9),

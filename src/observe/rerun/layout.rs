@@ -24,6 +24,7 @@ use super::kymograph;
 use super::maps;
 use super::moment::{STEP, check_clock};
 use super::plot::{Margin, PlotBox};
+use super::series::YIELDED;
 use super::slice;
 use super::stream::{APPLICATION, Stream};
 use super::text;
@@ -48,6 +49,8 @@ pub(super) struct Shown {
     /// Bodies whose damage is mapped.
     pub(super) damaged: [bool; 2],
     pub(super) life: bool,
+    /// Whether a body has a hardness at which it flows.
+    pub(super) yields: bool,
 }
 
 /// Sends the layout to a recording.
@@ -87,7 +90,7 @@ fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
     if shown.life {
         tabs.push(life_tab(views, shown));
     }
-    tabs.push(convergence_tab(views, shown.kind));
+    tabs.push(convergence_tab(views, shown));
     tabs.push(scene_tab(views));
     tabs
 }
@@ -277,8 +280,9 @@ fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         .into()
 }
 
-fn convergence_tab(views: &mut Views, kind: ContactKind) -> ContainerLike {
-    Grid::new([
+fn convergence_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+    let kind = shown.kind;
+    let mut all = vec![
         views.series("Errors, log10", &["convergence/log10_errors"]),
         views.series("Iterations", &["convergence/iterations"]),
         views.series("Pressure, GPa", &["series/pressure_GPa"]),
@@ -294,10 +298,18 @@ fn convergence_tab(views: &mut Views, kind: ContactKind) -> ContainerLike {
         views.series("Regime: 0 dry to 3 full film", &["series/regime"]),
         views.series("Cautions (1: holds)", &["series/cautions"]),
         TextLogView::new("Log").with_origin("/log").into(),
-    ])
-    .with_grid_columns(4)
-    .with_name("Convergence")
-    .into()
+    ];
+    if shown.yields {
+        let title = match kind {
+            ContactKind::Point => "Yielded for good, µm³",
+            ContactKind::Line => "Yielded for good, µm³ per metre",
+        };
+        all.push(views.series(title, &[YIELDED]));
+    }
+    Grid::new(all)
+        .with_grid_columns(4)
+        .with_name("Convergence")
+        .into()
 }
 
 fn scene_tab(views: &mut Views) -> ContainerLike {

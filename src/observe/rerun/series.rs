@@ -16,6 +16,9 @@ use crate::sim::{CautionCode, Frame, LifeEstimate, LubricationRegime};
 /// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
 const LEAST_ERROR: f64 = 1e-12;
 
+/// Volumes that both bodies have yielded for good.
+pub(super) const YIELDED: &str = "series/yielded_um3";
+
 /// Series that share an entity: path, then name and colour of each.
 struct Group {
     entity: &'static str,
@@ -24,7 +27,7 @@ struct Group {
     values: fn(&Frame, &mut Vec<f64>),
 }
 
-static GROUPS: [Group; 26] = [
+static GROUPS: [Group; 27] = [
     Group {
         entity: "series/pressure_GPa",
         lines: &[("p_max, GPa", ORANGE), ("p_Hertz, GPa", GREY)],
@@ -107,6 +110,19 @@ static GROUPS: [Group; 26] = [
             {
                 out[from + line] = 1.0;
             }
+        },
+    },
+    Group {
+        entity: YIELDED,
+        lines: &[
+            ("body 1 has yielded, µm³", SKY),
+            ("body 2 has yielded, µm³", ORANGE),
+        ],
+        values: |frame, out| {
+            // Nothing until something has flowed: most runs never do.
+            let flowed = frame.metrics.yielded_m3;
+            let flowed = flowed.filter(|both| both.iter().any(|&volume| volume > 0.0));
+            out.extend(flowed.into_iter().flatten().map(|volume| volume * 1e18));
         },
     },
     Group {

@@ -8,7 +8,7 @@ use super::dent::dent;
 use super::fit::{Waves, read};
 use super::set::{Case, Measure, planned};
 use crate::physics::film_ripple::FlatFilm;
-use crate::physics::fluid::{Density, Viscosity, eyring_along};
+use crate::physics::fluid::{Density, Viscosity};
 use crate::plan::Plan;
 use crate::scene::{Scene, Surface};
 use crate::sim::{Simulation, Summary};
@@ -150,7 +150,7 @@ fn hooke(scene: &Scene, plan: &Plan) -> Result<Values, String> {
     let flat = FlatFilm {
         e_prime_pa: scene.e_prime_pa(),
         film_m: read.film_m,
-        viscosity_pa_s: viscosity * (-eyring_along(sigma).0).exp(),
+        viscosity_pa_s: viscosity / sigma.cosh(),
         compressibility_per_pa: slope / rho / p_h,
         entrainment_m_s: scene.motion.entrainment_m_s,
     };
