@@ -73,7 +73,7 @@ impl Tangential {
 /// than 1 and jumps where they come to touch, and the step would go astray; its derivative in the linearisation does not
 /// help where it jumps. Nor does u^s follow after every iteration: of films that are far from solved it follows what they
 /// will not be. Contacts whose films are all but nothing then ran out of work where the same contact between like bodies took
-/// 700 to 1800 iterations (`tests/random_scenes.rs`); solved first with u^s held, they take about as many.
+/// 700 to 1800 iterations (`tests/engine/random_scenes.rs`); solved first with u^s held, they take about as many.
 pub struct Shear {
     tangential: Tangential,
     traction: Vec<f64>,

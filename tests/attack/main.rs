@@ -20,6 +20,7 @@ mod inputs;
 mod mutate;
 #[cfg(feature = "tui")]
 #[path = "../common/pty.rs"]
+#[expect(dead_code, reason = "each test uses its part")]
 mod pty;
 mod replay;
 mod report;
