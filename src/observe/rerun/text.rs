@@ -138,7 +138,7 @@ fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
         let _ = writeln!(
             text,
             "| above the colours | {entity}: {nodes}, up to {greatest} {unit} |",
-            nodes = counted(*above as u64, "node")
+            nodes = counted(*above, "node")
         );
     }
     for caution in cautions.iter().filter(always) {
