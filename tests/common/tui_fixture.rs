@@ -8,7 +8,8 @@ use std::time::Duration;
 use asperity::plan::Plan;
 use asperity::run::{Command, Settled};
 use asperity::scene::{
-    Body, Contact, ContactKind, CycleBasis, Life, Load, Motion, Record, Scene, Surface};
+    Body, Contact, ContactKind, CycleBasis, Life, Load, Motion, Record, Scene, Surface,
+};
 use asperity::sim::{
     Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage, StressSlice,
 };
