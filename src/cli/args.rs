@@ -183,8 +183,7 @@ pub(crate) enum StudyKind {
     Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
-    /// Published tables and experiments beside what is found here, and which way of counting cycles meets them; each row is
-    /// a scene: asperity run evidence/NAME
+    /// Published tables and experiments beside what is found here; each row is a scene: asperity run evidence/NAME
     Evidence,
 }
 

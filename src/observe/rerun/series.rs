@@ -1,8 +1,7 @@
 //! Scalars against time, each with its unit in the name.
 //!
-//! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second);
-//! what is not known yet is left out. Steps are collected and sent as columns once a second: row by row they
-//! would cost more than all the pictures.
+//! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second); what is
+//! not known yet is left out. Columns of a second are sent at once: row by row they would cost more than all pictures.
 
 use rerun::{Color, EntityPath, SeriesLines};
 
@@ -16,7 +15,7 @@ use crate::sim::{CautionCode, Frame, LifeEstimate, LubricationRegime};
 /// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
 const LEAST_ERROR: f64 = 1e-12;
 
-/// Volumes that both bodies have yielded for good.
+/// Yielded for good.
 pub(super) const YIELDED: &str = "series/yielded_um3";
 
 /// Series that share an entity: path, then name and colour of each.
