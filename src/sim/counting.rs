@@ -36,7 +36,7 @@ pub(super) struct Counting {
     /// c: damage grows as its power with the size, and with it the pressure.
     exponent: f64,
     basis: DamageBasis,
-    /// Cycles by their damage, where a life integrates stress.
+    /// Cycles by their damage, where a life is asked for.
     by_damage: Option<DamageCount>,
 }
 
@@ -59,8 +59,8 @@ pub(super) struct CountingSpec {
     pub(super) basis: DamageBasis,
     /// Blocks of both bodies for which damage is mapped: length and way from a crest, a.
     pub(super) blocks: [Option<(f64, f64)>; 2],
-    /// How life integrates stress; empty: it does not.
-    pub(super) laws: Vec<StressLaw>,
+    /// How life integrates stress (models of one depth: not at all); `None`: no life is asked for.
+    pub(super) laws: Option<Vec<StressLaw>>,
     /// Wavelengths of both bodies' crests along x, a.
     pub(super) waves: [Option<f64>; 2],
 }
@@ -103,8 +103,8 @@ impl Counting {
             reference_size: 1.0,
             exponent: spec.exponent,
             basis: spec.basis,
-            by_damage: (!spec.laws.is_empty())
-                .then(|| DamageCount::new(grid, spec.depths, &spec.laws, spec.waves)),
+            by_damage: (spec.laws.as_ref())
+                .map(|laws| DamageCount::new(grid, spec.depths, laws, spec.waves)),
         }
     }
 

@@ -33,7 +33,7 @@ pub(super) fn counting_spec(
         },
         blocks: [0, 1]
             .map(|body: usize| (maps[body] && surfaces[body].has_block()).then(|| block(body))),
-        laws: vec![],
+        laws: None,
         waves: plan.waves.map(|wave| {
             let crests = wave?.crests_per_m;
             (crests > 0.0).then(|| 1.0 / (crests * a_m))

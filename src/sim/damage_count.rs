@@ -1,4 +1,4 @@
-//! Cycles that count by the damage they do, and the stress that goes with them: the headline's count.
+//! Cycles that count by the damage they do, and the stress that goes with them.
 //!
 //! ```text
 //! ln(1/Ps) = C N^e ∫ < D_X^e >_X dV            D_X = Σ_cycles s^c: damage of a passage of the material point X (Miner)

@@ -303,6 +303,11 @@ impl LifeStage {
             Some(self.governing(lives)?.1.relative)
         };
         let spread = self.spread(now, counting, f.relative);
+        // What the load costs the smooth contact is the same whatever is counted of the rough one.
+        let smooth = match form {
+            VolumeIntegral::Material => VolumeIntegral::Snapshot,
+            form => form,
+        };
         let shares = scene.shares(form)?;
         let ln_unit = self.growth(scene, form) * now.size.ln();
         let cycles_now = self.cycles_ratio(now.size / self.reference_size);
@@ -314,7 +319,7 @@ impl LifeStage {
             stress_factor: f.stress,
             peak_factor: f.peak,
             traction_factor: f.traction,
-            load_factor: self.load_factor(scene, (body, form), now.size),
+            load_factor: self.load_factor(scene, (body, smooth), now.size),
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,

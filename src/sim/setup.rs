@@ -145,7 +145,7 @@ impl Stages {
             .and_then(|stress| LifeStage::new(scene, plan, stress));
         let counting = stress.as_ref().map(|stress| {
             let mut spec = counting_spec(scene, plan, door.heading, stress.depth_count());
-            spec.laws = life.as_ref().map_or(vec![], |life| life.laws.clone());
+            spec.laws = life.as_ref().map(|life| life.laws.clone());
             Counting::new(grid, stress.depths(), &spec)
         });
         Ok(Self {

@@ -7,9 +7,7 @@ use std::time::Duration;
 
 use asperity::plan::Plan;
 use asperity::run::{Command, Settled};
-use asperity::scene::{
-    Body, Contact, ContactKind, CycleBasis, Life, Load, Motion, Record, Scene, Surface,
-};
+use asperity::scene::{Body, Contact, ContactKind, Life, Load, Motion, Record, Scene, Surface};
 use asperity::sim::{
     Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage, StressSlice,
 };
@@ -95,10 +93,7 @@ pub(crate) fn scene() -> Scene {
         time: asperity::scene::Time::default(),
         numerics: asperity::scene::Numerics::default(),
         stress: Some(asperity::scene::Stress::default()),
-        life: Some(Life {
-            cycles: CycleBasis::Global,
-            ..Life::default()
-        }),
+        life: Some(Life::default()),
         record: Some(Record::default()),
         events: Vec::new(),
     }

@@ -1,4 +1,4 @@
-//! Cycles by the damage they do: where the headline goes as ripples vanish, as bodies stop sliding, as one stands.
+//! Cycles by the damage they do: where life goes as ripples vanish, as bodies stop sliding, as one stands.
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
@@ -23,6 +23,7 @@ fn flank(amplitude_m: f64, s: f64, more: &[&str]) -> Summary {
     let mut sets = vec![
         "grid.nodes=129".to_owned(),
         "life.spread=off".to_owned(),
+        "life.cycles=damage".to_owned(),
         format!("motion.slide_roll={s}"),
     ];
     sets.extend([1, 2].map(|body| format!("body_{body}.surface.amplitude_m={amplitude_m:e}")));
@@ -89,6 +90,7 @@ fn full_ripples_count_as_many_as_they_do_damage() {
     // A dry line contact with crests that unload fully between: near the surface n goes from 1 to the formula's, of which
     // Miner's sum under a half-ellipse keeps φ(c), and the greatest itself.
     let sets = [
+        "life.cycles=damage",
         "lubricant=none",
         "friction.boundary=0.05",
         "body_1.surface.kind=smooth",

@@ -4,7 +4,7 @@ use super::{Beat, Claim, Figure, Lesson, Setting, Staging};
 use crate::sim::Knob;
 use crate::tui::app::MapKind::{Contact, Film, Pressure, Roughness, Stress};
 use Figure::{
-    ContactPercent, Counted1, Counted2, Lambda, LeftPercent, Life, N1, N2, PaperLife, PeakDepth,
+    ContactPercent, Counted1, Counted2, DamageLife, Lambda, LeftPercent, Life, N1, N2, PeakDepth,
     PeakPressure,
 };
 use Setting::{TimesHome, To};
@@ -132,19 +132,19 @@ pub const LESSONS: &[Lesson] = &[
                 claims: &[
                     claim(N1, 13.5, 14.5),
                     claim(Counted1, 12.0, 14.5),
-                    claim(PaperLife, 0.02, 0.1),
+                    claim(Life, 0.02, 0.1),
                 ],
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "But the teeth are low, and n an upper bound. Each by the damage it does, these count for next to nothing: life stays near 0.8. Not modelled: wear, which can reverse the trend with S.",
+                caption: "But the teeth are low, and n an upper bound. Each by the damage it does, they count for next to nothing: life is 0.8. Not modelled: wear, which can reverse the trend with S.",
                 passages: 1.0,
                 claims: &[
                     claim(N1, 13.5, 14.5),
                     claim(Counted1, 12.0, 14.5),
                     claim(N2, 8.0, 10.0),
                     claim(Counted2, 6.5, 10.0),
-                    claim(Life, 0.6, 1.0),
+                    claim(DamageLife, 0.6, 1.0),
                 ],
                 ..Beat::PLAIN
             },
