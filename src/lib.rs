@@ -19,6 +19,8 @@
 //! * [`run`]: a session: threads, commands, outcome.
 //! * [`study`]: error against run time, scaling.
 //! * `tui` (feature `tui`): the live screen. The engine never names it.
+//!
+//! How to use and change the program: `guide`.
 
 /// Compiles a function for the wide vector units too, and picks one at run time.
 macro_rules! dispatched {
@@ -32,6 +34,8 @@ macro_rules! dispatched {
 }
 
 pub mod files;
+#[cfg(doc)]
+pub mod guide;
 pub mod math;
 pub mod observe;
 pub mod physics;

@@ -55,8 +55,8 @@ the same byte for byte whatever --shard, --threads and interruptions, on machine
 units differ by rounding (about 1e-7). Every case is written whole or not at all: after an interruption --resume
 continues.
 
-A folder is taken that is empty or that a sweep has marked (sweep.digest); --force takes away the sweep's own files in
-it and no others.";
+The folder must be new, empty or marked by a sweep (sweep.digest); --force removes the sweep's own files in it and no
+others.";
 
 const SWEEP_EXAMPLES: &str = "\
 Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.
@@ -155,7 +155,7 @@ pub(crate) struct StudyArgs {
     /// Folder for the report's files; created if missing
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Only cases whose name or group contains this text (stability, pruning, scaling)
+    /// Only cases whose name or group contains this text (stability, pruning, scaling, evidence)
     #[arg(long, value_name = "TEXT")]
     pub(crate) only: Option<String>,
     /// Cores to use [default: all]
@@ -183,6 +183,8 @@ pub(crate) enum StudyKind {
     Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
+    /// Published tables and experiments beside what is found here; each row is a scene: asperity run evidence/NAME
+    Evidence,
 }
 
 /// Which sweep, and how to run it.

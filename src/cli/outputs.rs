@@ -173,7 +173,7 @@ impl Outputs {
     fn open_live(&mut self, args: &RunArgs, _scene: &Scene) -> Result<(), Failure> {
         if args.connect.is_some() || args.spawn || args.serve.is_some() {
             return Err(Failure::input(miette::miette!(
-                help = "take a build with the default features",
+                help = "use a build with the default features",
                 "this program was built without the feature rerun, so it shows nothing to viewers"
             )));
         }

@@ -74,7 +74,7 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
     if recorded.unreadable > 0 {
         let n = recorded.unreadable;
         tell(&format!(
-            "{}: damaged, {n} of its messages cannot be read; what repeats its run is whole",
+            "{}: damaged, {n} of its messages cannot be read; what is needed to repeat its run is intact",
             path.display()
         ));
     }
@@ -119,7 +119,7 @@ fn judge_length(path: &Path, prepared: &Prepared, steps: u64) -> Result<(), Fail
 #[cfg(not(feature = "rerun"))]
 pub(crate) fn read(_path: &Path, _args: &RunArgs) -> Result<Repetition, Failure> {
     Err(Failure::input(miette::miette!(
-        help = "take a build with the default features",
+        help = "use a build with the default features",
         "this program was built without the feature rerun, so it reads no recordings"
     )))
 }

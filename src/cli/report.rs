@@ -4,7 +4,7 @@ mod complaints;
 
 use std::fmt::Write as _;
 
-use asperity::math::number::{seconds, sig};
+use asperity::math::number::{counted, seconds, sig};
 use asperity::run::{End, Outcome};
 use asperity::scene::{ContactKind, Scene};
 use asperity::sim::{LubricationRegime, Rhythm, Summary};
@@ -42,8 +42,9 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
             format!("; {}", report.note)
         };
         let what = format!(
-            "{} ({} frames{skipped}{size}{note})",
-            report.output, report.frames
+            "{} ({}{skipped}{size}{note})",
+            report.output,
+            counted(report.frames, "frame")
         );
         line(&mut text, "written", &what);
         if let Some(queue) = &report.queue {
@@ -59,15 +60,16 @@ fn run_line(outcome: &Outcome) -> String {
         (End::Stopped, _) if outcome.stopped => stopped(outcome),
         (End::Stopped, 0) => "stopped by the user, converged".to_owned(),
         (_, 0) => "converged".to_owned(),
-        (_, n) => format!("{n} steps did not converge"),
+        (_, n) => format!("{} did not converge", counted(n, "step")),
     };
     let pace = outcome
         .steps_per_s
-        .map(|pace| format!(", {pace:.1} steps a second after the start-up"))
+        .map(|pace| format!(", {pace:.1} steps per second after the start-up"))
         .unwrap_or_default();
     format!(
-        "{how}; {} steps in {:.1} s{pace}",
-        outcome.steps, outcome.wall_s
+        "{how}; {} in {:.1} s{pace}",
+        counted(outcome.steps, "step"),
+        outcome.wall_s
     )
 }
 
@@ -97,7 +99,7 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
     );
     line(text, "contact", &contact);
     let pressure = format!(
-        "greatest {} GPa = {} of Hertz; mean of the steps' greatest {} GPa",
+        "greatest {} GPa = {} times Hertz; mean of the steps' greatest {} GPa",
         sig(s.p_max_greatest_pa * 1e-9, 4),
         sig(s.p_max_greatest_pa / s.p_hertz_pa, 3),
         sig(s.p_max_pa * 1e-9, 4)
@@ -122,7 +124,7 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
     );
     if s.n_body_1.is_some() || s.n_body_2.is_some() {
         let cycles = format!(
-            "a passage of body 1: {}; of body 2: {}",
+            "per passage of body 1: {}; of body 2: {}",
             cycles(s.n_body_1, s.n_counted_body_1),
             cycles(s.n_body_2, s.n_counted_body_2)
         );
@@ -134,7 +136,7 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
         s.sigma_eff_max_x_m,
     ) {
         let stress = format!(
-            "greatest effective {} GPa, {} µm deep at x = {} µm",
+            "greatest effective stress {} GPa, {} µm deep at x = {} µm",
             sig(stress * 1e-9, 4),
             sig(depth * 1e6, 3),
             sig(x * 1e6, 3)
@@ -206,7 +208,7 @@ fn push_life(text: &mut String, scene: &Scene, s: &Summary) {
     line(
         text,
         "",
-        "against the smooth, frictionless contact at S = 0 at the load and speed of now",
+        "relative to the smooth, frictionless contact at S = 0 under the present load and speed",
     );
     if let Some(factor) = s.load_factor.filter(|factor| *factor != 1.0) {
         let what = format!(
@@ -229,13 +231,19 @@ fn push_life(text: &mut String, scene: &Scene, s: &Summary) {
 /// Both bodies, the choice of model, absolute cycles, and where pits start.
 fn push_life_beside(text: &mut String, s: &Summary) {
     if let (Some(model), Some(body)) = (&s.life_model, s.life_body) {
-        let what = format!("{model}, body {body} governs, in own loading cycles");
+        let unit = s.life_count.as_deref().unwrap_or_default();
+        let what = format!("{model}; body {body} governs; {unit}");
         line(text, "", &what);
+    }
+    if let (Some(global), Some(damage)) = (s.life_global, s.life_damage) {
+        let (global, damage) = (four(global), four(damage));
+        let what = format!("paper's count {global}, counted by damage {damage}");
+        line(text, "counts", &what);
     }
     if let (Some(one), Some(two)) = (s.life_body_1, s.life_body_2) {
         let system = s
             .life_system
-            .map(|life| format!("; both as a system, in time: {}", four(life)))
+            .map(|life| format!("; both as one system, over time: {}", four(life)))
             .unwrap_or_default();
         let (one, two) = (four(one), four(two));
         let what = format!("body 1 {one}, body 2 {two}{system}");
@@ -270,10 +278,10 @@ fn push_life_beside(text: &mut String, s: &Summary) {
     for (body, (pit, depth)) in [s.pit_body_1, s.pit_body_2].iter().zip(depths).enumerate() {
         let Some(pit) = pit else { continue };
         let single = depth
-            .map(|depth| format!("; one cycle a passage below {} µm", sig(depth * 1e6, 3)))
+            .map(|depth| format!("; one cycle per passage below {} µm", sig(depth * 1e6, 3)))
             .unwrap_or_default();
         let what = format!(
-            "body {}: {} µm deep, {} µm from a crest, damage {} of smooth{single}",
+            "body {}: {} µm deep, {} µm from a crest, damage {} times the smooth contact's{single}",
             body + 1,
             sig(pit.depth_m * 1e6, 3),
             sig(pit.place_m * 1e6, 3),
@@ -283,7 +291,7 @@ fn push_life_beside(text: &mut String, s: &Summary) {
     }
     if let Some(a_iso) = s.a_iso {
         let a_iso = sig(a_iso, 3);
-        let what = format!("{a_iso} (side comparison: it holds a penalty of roughness of its own)");
+        let what = format!("{a_iso} (for comparison: it contains a roughness penalty of its own)");
         line(text, "ISO 281 a_ISO", &what);
     }
 }

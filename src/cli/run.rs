@@ -145,8 +145,13 @@ fn tell_of_the_past(saved: &Checkpoint) {
     if saved.n_turned_by_hand > 0 {
         let n = saved.n_turned_by_hand;
         tell(&format!(
-            "{n} knobs had been turned by hand before it was saved; it goes on from where they stand, which is not the \
-             scene's own run"
+            "{} been turned by hand before it was saved; the run continues from where they stand, so it is not the \
+             scene's own run",
+            if n == 1 {
+                "1 knob had".to_owned()
+            } else {
+                format!("{n} knobs had")
+            }
         ));
     }
 }
@@ -194,7 +199,7 @@ pub(crate) fn conclude(
 fn refuse_recording_without_recorder(args: &RunArgs) -> Result<(), Failure> {
     if args.out.is_some() && !cfg!(feature = "rerun") {
         return Err(Failure::input(miette::miette!(
-            help = "leave --out away, or take a build with the default features",
+            help = "omit --out, or use a build with the default features",
             "this program was built without the feature rerun, so it writes no recordings"
         )));
     }

@@ -6,6 +6,9 @@ use asperity::files::write_whole;
 use asperity::study::accuracy::{
     accuracy, accuracy_table, accuracy_text, life_plot, work_precision_plot,
 };
+use asperity::study::evidence::{
+    agreement_plot, evidence, evidence_table, evidence_text, experiments_plot,
+};
 use asperity::study::pruning::{PruningRow, pruning, pruning_table, pruning_text};
 use asperity::study::stability::{stability, stability_table, stability_text};
 use asperity::study::{Extent, StudyError, machine, peers, scaling, scaling_text};
@@ -31,6 +34,7 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
         StudyKind::Pruning => prunes(args, &bar),
         StudyKind::Stability => stable(args, &bar),
         StudyKind::Scaling => scales(args, &bar),
+        StudyKind::Evidence => shows(args, &bar),
     };
     bar.0.finish_and_clear();
     let report = report.map_err(|error| Failure::input(miette::miette!("{error}")))?;
@@ -47,7 +51,7 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
 fn refuse_what_is_not_read(args: &StudyArgs) -> Result<(), Failure> {
     let refused = match args.kind {
         StudyKind::Accuracy | StudyKind::Peers if args.only.is_some() => {
-            "--only: this study's cases belong together; stability, pruning and scaling take it"
+            "--only: this study's cases belong together; stability, pruning, scaling and evidence take it"
         }
         StudyKind::Scaling if args.threads.is_some() => {
             "--threads: this study compares one thread with two; to have cases of one only: --only \"1 threads\""
@@ -125,6 +129,27 @@ fn scales(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
     Ok(Report {
         files: vec![("scaling.md".to_owned(), text)],
         passes: rows.iter().all(|row| row.failed == 0),
+    })
+}
+
+fn shows(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+    let only = args.only.as_deref();
+    let result = evidence(extent(args), only, args.threads(), &mut |name, n, all| {
+        bar.tell(name, n, all);
+    })?;
+    let text = headed("Evidence", args, &evidence_text(&result));
+    let mut files = vec![
+        ("evidence.md".to_owned(), text),
+        ("evidence.csv".to_owned(), evidence_table(&result).csv()),
+        (
+            "evidence.svg".to_owned(),
+            agreement_plot(&result).map_err(StudyError::Plot)?,
+        ),
+    ];
+    files.extend(experiments_plot(&result).map_err(StudyError::Plot)?);
+    Ok(Report {
+        files,
+        passes: result.passes(),
     })
 }
 

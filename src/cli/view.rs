@@ -55,7 +55,7 @@ pub(crate) fn view(file: &Path) -> Result<u8, Failure> {
         Err(Failure::input(miette!(
             help = format!(
                 "what it said stands above; `rerun --version` tells which one it is: {VERSIONS}. It needs a screen; \
-                 without one take the browser: {IN_A_BROWSER}"
+                 without one use the browser: {IN_A_BROWSER}"
             ),
             "the viewer ended with {status}"
         )))

@@ -36,6 +36,12 @@ pub fn sig_or_dash(value: Option<f64>, digits: i32) -> String {
     value.map_or_else(|| "–".to_owned(), |v| sig(v, digits))
 }
 
+/// A count with its noun, which takes an s unless there is one: "1 peak", "2 peaks".
+pub fn counted(n: u64, what: &str) -> String {
+    let plural = if n == 1 { "" } else { "s" };
+    format!("{n} {what}{plural}")
+}
+
 /// A span of time with the unit that suits it.
 pub fn seconds(value_s: f64) -> String {
     let magnitude = value_s.abs();
@@ -95,6 +101,12 @@ mod tests {
         for (value, digits, shown) in table {
             assert_eq!(sig(value, digits), shown, "{value} to {digits}");
         }
+    }
+
+    #[test]
+    fn counts_take_an_s_unless_there_is_one() {
+        let texts = [0, 1, 2].map(|n| counted(n, "peak"));
+        assert_eq!(texts, ["0 peaks", "1 peak", "2 peaks"]);
     }
 
     #[test]

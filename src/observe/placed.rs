@@ -142,7 +142,7 @@ impl Overwrite {
             Err(error) => Err(refused(path, &error)),
             Ok(_) if self == Self::Refuse => Err(refused(path, &ErrorKind::AlreadyExists.into())),
             Ok(_) => match std::fs::metadata(path) {
-                Err(_) => refuse("a link to a file that is not there; take the link away"),
+                Err(_) => refuse("a link to a file that does not exist; remove the link"),
                 Ok(there) if there.is_dir() => refuse("a folder has this name"),
                 Ok(there) if is_pipe(&there) && !path.starts_with("/dev") => refuse(
                     "a pipe, which waits until somebody reads it; /dev/stdout is one that does not",

@@ -5,7 +5,9 @@
 //! n_i      = 1 + f_j · 2a · |U2 − U1| / |U_i|          contacts per loading cycle of body i
 //! a, p_h   ∝ F^(1/k)                                    Hertz, k = 3; of a line k = 2
 //!
-//! formula  cycles   = 1 / max(n1, n2)
+//! formula  cycles   = 1 / max(n1, n2)                  by contacts; by damage with
+//!                     n_i = U_i/U_fast + f_j 2a |U2 − U1|/U_fast φ(c) w^c,   w = 2 δ_j/(1 + δ_1 + δ_2) <= 1
+//!                     δ: pressure wave over p_h; φ: [`miner_part`]; at the surface, and so an upper bound
 //!          peaks    = (J_waves/J_smooth)^(−1/e)         [`ripple::ln_peaks`], waves flattened by the film's M and L
 //!          traction = (J(µ)/J(0))^(−1/e)                [`ripple::sliding_integral`]
 //!          µ        = min(τ0 asinh(η |S| U/(h τ0)), γ p)/p      η at the mean Hertz pressure p, h by regression;
@@ -25,8 +27,10 @@
 //!
 //! [`contacts`]: EstimateBasis::contacts
 
+mod count;
 mod oil;
 
+pub use count::Count;
 pub use oil::{FilmBasis, OilBasis};
 
 use crate::physics::cycles::{BodyId, Kinematics};
@@ -83,6 +87,8 @@ pub struct EstimateBasis {
     pub poisson: f64,
     /// c and e.
     pub law: LifeLaw,
+    /// How cycles enter.
+    pub count: Count,
     /// Oil; `None`: dry.
     pub oil: Option<OilBasis>,
     /// Boundary friction.
@@ -100,7 +106,7 @@ pub const ALIKE: f64 = 4.0;
 /// The factors of a life relative to the smooth contact in rolling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factors {
-    /// Of cycles; `None`: a body stands, and no loading cycle of it ends.
+    /// Of cycles; `None`: a body stands, no loading cycle of it ends, and contacts are counted in its own.
     pub cycle: Option<f64>,
     /// Of pressure peaks.
     pub peak: f64,
@@ -190,6 +196,8 @@ pub struct Loaded {
     pub film_m: f64,
     /// Peak factor.
     pub peak: f64,
+    /// Pressure waves of both bodies over p_h.
+    waves: [f64; 2],
 }
 
 impl Loaded {
@@ -205,10 +213,17 @@ impl Loaded {
 
     /// The formula at a slide-to-roll ratio.
     pub fn factors(&self, basis: &EstimateBasis, slide_roll: f64) -> Factors {
-        let (n_1, n_2) = basis.contacts(&OperatingPoint {
+        let point = OperatingPoint {
             slide_roll,
             ..self.at
-        });
+        };
+        let (n_1, n_2) = match basis.count {
+            Count::Contacts => basis.contacts(&point),
+            Count::Damage => {
+                let [one, two] = basis.by_damage(&point, self.waves);
+                (Some(one), Some(two))
+            }
+        };
         let friction = self.friction(basis, slide_roll);
         Factors {
             cycle: n_1.zip(n_2).map(|(first, second)| 1.0 / first.max(second)),
@@ -323,6 +338,8 @@ impl EstimateBasis {
                 };
             }
         }
+        let height = |body: usize| waves[2 * body].pressure + waves[2 * body + 1].pressure;
+        let heights = [height(0), height(1)];
         let exponent = self.law.integral_exponent();
         let ln = ln_peaks(self.section, self.poisson, exponent, &waves);
         Loaded {
@@ -331,6 +348,7 @@ impl EstimateBasis {
             p_hertz_pa,
             film_m: flow.map_or(0.0, |(film_m, _, _)| film_m),
             peak: (-ln / self.law.weibull_slope).exp(),
+            waves: heights,
         }
     }
 
@@ -400,6 +418,7 @@ mod tests {
             e_prime_pa: 2.2e11,
             poisson: 0.3,
             law,
+            count: Count::Contacts,
             oil: Some(OilBasis {
                 film: FilmBasis::Point(groups::OperatingPoint {
                     rx_m: 0.01,

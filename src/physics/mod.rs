@@ -2,6 +2,7 @@
 
 pub mod cycles;
 pub mod estimate;
+pub mod eyring;
 pub mod fatigue;
 pub mod film_regression;
 pub mod film_ripple;

@@ -94,6 +94,13 @@ impl Rainflow {
         self.turning.reset();
     }
 
+    /// Least and greatest of the reversals that are not counted yet; (∞, −∞) for none.
+    pub fn open_ends(&self) -> (f64, f64) {
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let wider = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
+        self.stack.iter().fold(none, wider)
+    }
+
     /// Half cycles that were counted early for want of memory.
     pub fn forced(&self) -> u64 {
         self.forced

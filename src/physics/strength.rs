@@ -9,11 +9,13 @@
 //! | H | mean pressure under a spot that flows freely: no asperity of the body carries more |
 //! | Y | von Mises stress at which the body begins to flow |
 //!
-//! Rolling bearings and the flanks of case-hardened gears have 58 to 64 HRC (ISO 683-17; ISO 6336-5), 653 to 800 HV by
-//! ASTM E140, table 1; 60 HRC is 697 HV (ISO 18265 gives the same). H = 3Y: Tabor (1951), *The Hardness of Metals*,
-//! Oxford. A smooth Hertz contact begins to flow at p_h = 1.6 Y = 3.6 GPa (Johnson 1985, §6.1), below the 4.2 GPa that
-//! ISO 76 allows a ball at rest, which leaves a dent of 1e-4 of its diameter. Work hardening, size effects and shakedown
-//! are left out. Bodies that a scene gives a `hardness_pa` flow at their surface there (`solve/yielding.rs`); else H is a
+//! Rolling bearings and the flanks of case-hardened gears have 58 to 64 HRC (ISO 683-17; ISO 6336-5), 653 to 800 HV
+//! by ASTM E140, table 1; 60 HRC is 697 HV (there, and in the table that ASTM A370 takes from it). H = 3Y: Tabor
+//! (1951), *The Hardness of Metals*, Oxford; Tabor (1970, Rev. Phys. Technol. 1, 145) says about three for many
+//! metals, less where a body gives way elastically, as hard steel does: Y = H/3 is then low, and the limit strict. A
+//! smooth Hertz contact begins to flow at p_h = 1.6 Y = 3.6 GPa (Johnson 1985, §6.1), below the 4.2 GPa that ISO 76
+//! allows a ball at rest, which leaves a dent of 1e-4 of its diameter. Work hardening, size effects and shakedown are
+//! left out. Bodies that a scene gives a `hardness_pa` flow at their surface there (`solve/yielding.rs`); else H is a
 //! limit of the elastic model, as Y always is.
 
 /// Most that a body carries elastically.

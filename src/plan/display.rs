@@ -20,10 +20,13 @@ impl fmt::Display for Plan {
         for item in &self.left_out {
             writeln!(f, "  {:<24}{}", item.stage, item.why)?;
         }
+        let (stage, elastic) = match self.yielding {
+            Some(_) => ("heat, wear, deep yield", "elastic below the surface"),
+            None => ("heat, wear, yield", "elastic"),
+        };
         writeln!(
             f,
-            "  {:<24}not in the model: isothermal, elastic, crack initiation only",
-            "heat, yield, wear"
+            "  {stage:<24}not in the model: isothermal, {elastic}, crack initiation only"
         )?;
         if !self.warnings.is_empty() {
             writeln!(f, "\nCautions")?;
@@ -240,6 +243,7 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
             asked.measure.name(),
             cycles_text(asked.cycles),
             match asked.volume {
+                VolumeIntegral::Material => "greatest stress that each material point meets",
                 VolumeIntegral::Snapshot => "mean of snapshots",
                 VolumeIntegral::Swept => "swept: greatest stress of every track",
             }
@@ -263,12 +267,12 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
 /// What flows at which pressure.
 fn yielding_text(hardness_pa: f64, flows: [bool; 2]) -> String {
     let who = match flows {
-        [true, false] => "body 1, the softer, gives way",
-        [false, true] => "body 2, the softer, gives way",
-        _ => "both bodies give way, half each,",
+        [true, false] => "body 1, the softer, yields",
+        [false, true] => "body 2, the softer, yields",
+        _ => "both bodies yield, half each,",
     };
     format!(
-        "pressure at most {:.2} GPa: {who} for good where it would be more",
+        "pressure limited to {:.2} GPa: beyond it {who} for good",
         hardness_pa * 1e-9
     )
 }
@@ -280,7 +284,7 @@ fn flow_text(flow: EyringFlow) -> &'static str {
             "Eyring oil: flow by one effective viscosity in both directions (secant)"
         }
         EyringFlow::AlongAcross => {
-            "Eyring oil: flow along the sliding by the tangent of its law, across by the secant"
+            "Eyring oil: flow along the sliding as it is (tangent, less on steep crests), across by the secant"
         }
     }
 }
@@ -295,6 +299,7 @@ fn every(steps: u64) -> String {
 /// A cycle basis in words.
 fn cycles_text(cycles: CycleBasis) -> &'static str {
     match cycles {
+        CycleBasis::Damage => "counted by depth, each by its damage, in those of the faster body",
         CycleBasis::Global => "one n for the volume, an upper bound on damage",
         CycleBasis::Depth => "n by depth",
         CycleBasis::Peaks => "counted by depth, by peaks",

@@ -79,7 +79,7 @@ impl Plan {
                 model: life.model,
                 measure,
                 cycles: life.cycles,
-                volume: life.volume,
+                volume: life.integral(),
                 spread: life.spread,
                 maps: life.maps(),
                 calibration: life.calibration(),

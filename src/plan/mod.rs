@@ -25,7 +25,7 @@ pub use warning::{LeftOut, PlanError, Warning};
 
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, EyringFlow, Record, Scene, StressMeasure};
+use crate::scene::{ContactKind, EyringFlow, LEAST_HARDNESS, Record, Scene, StressMeasure};
 
 /// Everything that is decided before the first step.
 #[derive(Debug, Clone, PartialEq)]
@@ -314,8 +314,16 @@ impl Plan {
         self.film.is_some_and(|film| film.flows())
     }
 
-    /// Greatest load, N (a line: N/m), whose Hertz contact ends inside of the domain: two nodes before its edge,
-    /// where the pressure must be zero.
+    /// Greatest load whose Hertz pressure is no more than the softer body carries as a whole; infinite: both are elastic.
+    pub fn carried_force_n(&self) -> f64 {
+        self.yielding.map_or(f64::INFINITY, |(hardness_pa, _)| {
+            let ratio = hardness_pa / (LEAST_HARDNESS * self.hertz.p_max_pa);
+            self.force_n * ratio.powi(self.kind.hertz_shape().order())
+        })
+    }
+
+    /// Greatest load, N (a line: N/m), that the bodies carry and whose Hertz contact ends inside of the domain: two nodes
+    /// before its edge, where the pressure must be zero.
     pub fn most_force_n(&self) -> f64 {
         let domain = &self.domain;
         let along = domain.x_max_a.min(-domain.x_min_a) - 2.0 * domain.dx_a();
@@ -323,7 +331,8 @@ impl Plan {
             ContactKind::Point => along.min(domain.y_half_b - 2.0 * domain.dy_b()),
             ContactKind::Line => along,
         };
-        self.force_n * size.max(1.0).powi(self.kind.hertz_shape().order())
+        let held = size.max(1.0).powi(self.kind.hertz_shape().order());
+        (self.force_n * held).min(self.carried_force_n())
     }
 
     fn depths(&self) -> usize {

@@ -97,10 +97,10 @@ impl Checkpoint {
         let about = std::fs::metadata(path).map_err(io)?;
         if !about.is_file() {
             // Opening a pipe may wait for ever, and reading a device may never end.
-            return Err(failed("no regular file".to_owned()));
+            return Err(failed("not a regular file".to_owned()));
         }
         if about.len() > most {
-            let reason = format!("{} bytes, more than any state of its grid", about.len());
+            let reason = format!("{} bytes, more than any state on its grid", about.len());
             return Err(failed(reason));
         }
         let mut file = std::fs::File::open(path).map_err(io)?;
@@ -111,7 +111,9 @@ impl Checkpoint {
             .strip_prefix(MAGIC)
             .and_then(|rest| rest.strip_suffix('\n'));
         let Some(digest) = digest.filter(|_| whole.is_ok()) else {
-            return Err(failed("no state of this version of asperity".to_owned()));
+            return Err(failed(
+                "not a state saved by this version of asperity".to_owned(),
+            ));
         };
         let mut body = String::new();
         let mut rest = file.take(most);

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, KNOB_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
 use super::model::{ContactKind, Event, Scene, Surface};
-use super::shape::{check_hardness, check_load, check_shape};
+use super::shape::{check_carried, check_hardness, check_load, check_shape};
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
 pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
@@ -307,7 +307,8 @@ fn check_event_load(scene: &Scene, full: &str, name: &str, value: f64) -> Result
         ContactKind::Line => "load.force_n_per_m",
     };
     if name == own {
-        check_force(scene, full, value)
+        check_force(scene, full, value)?;
+        check_carried(scene, full, value)
     } else {
         Err(SceneError::value(
             full,

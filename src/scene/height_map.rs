@@ -4,12 +4,13 @@
 //! is a height in m, positive towards the mating body. `.npy`: two-dimensional, C order, little-endian
 //! `f4` or `f8` (format versions 1 to 3, NumPy's `numpy.lib.format`). `.csv`, `.txt`: numbers and nothing
 //! else, one row of the map a line, separated by commas, semicolons, tabs or spaces; empty lines and lines
-//! that begin with `#` are skipped.
+//! that begin with `#` are skipped. `builtin:NAME` is a map that comes with the program (scenes of `evidence/`).
 
 use std::path::Path;
 
 use super::error::{SceneError, shortened};
 use super::keys::{joined, short};
+use super::presets;
 use crate::files::{Fnv, read_up_to};
 use crate::physics::height_map::{Beyond, HeightMap};
 
@@ -53,7 +54,11 @@ pub(super) fn read(
         let found = format!("{} ({})", shortened(file), r.found);
         SceneError::map(joined(table, "file"), found, r.allowed)
     };
-    let matrix = matrix(&base.join(file)).map_err(refused)?;
+    let matrix = match file.strip_prefix(presets::BUILTIN) {
+        Some(name) => builtin(name),
+        None => matrix(&base.join(file)),
+    };
+    let matrix = matrix.map_err(refused)?;
     check(&matrix, unit_m).map_err(refused)?;
     let heights: Vec<f64> = matrix.values.iter().map(|v| v * unit_m).collect();
     let map = HeightMap::new(matrix.columns, &heights, beyond)
@@ -77,10 +82,17 @@ pub(super) fn changed(table: &str, file: &str, found: &str) -> SceneError {
         joined(table, "file"),
         format!("{} (its numbers have changed)", shortened(file)),
         format!(
-            "the map that the scene was run with; to take the new one, leave {} out (it would be {found})",
+            "the map that the scene was run with; to use the new one, omit {} (it would be {found})",
             joined(table, "digest")
         ),
     )
+}
+
+/// A map that comes with the program.
+fn builtin(name: &str) -> Result<Matrix, Refusal> {
+    let text = presets::map(name)
+        .ok_or_else(|| refusal("no such map", "a map that comes with the program"))?;
+    parse_csv(text.as_bytes())
 }
 
 fn matrix(path: &Path) -> Result<Matrix, Refusal> {

@@ -81,12 +81,12 @@ use Need::{Defaulted, Optional, Required};
 const BODY: &[Key] = &[
     key("young_pa", "Pa", Number(1e6, 1e13), Defaulted, "Young's modulus"),
     key("poisson", "", Number(0.0, 0.5), Defaulted, "Poisson's ratio"),
-    key("hardness_pa", "Pa", NumberOrInf(1e6, 1e12), Optional("it stays elastic"), "greatest pressure that its surface carries: what would exceed it flows for good; inf: elastic"),
+    key("hardness_pa", "Pa", NumberOrInf(1e6, 1e12), Optional("it stays elastic"), "greatest pressure that its surface carries: what would exceed it flows for good (a surface whose amplitude is turned down later takes its flattened crests along); inf: elastic"),
 ];
 #[rustfmt::skip]
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
-    key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file"),
+    key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file; or builtin:NAME"),
     key("digest", "", Text(16), Optional("the file is taken as it is"), "digest of the file's numbers: a file of another is refused; written by the program"),
     key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
     key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean subtracted), or once (mean of the rim subtracted, tapered to 0)"),
@@ -156,7 +156,7 @@ pub const SECTIONS: &[Section] = &[
             key("density_law", "", Choice(&["incompressible", "dowson_higginson", "venner_lubrecht"]), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law with other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
             key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
             key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
-            key("eyring_flow", "", Choice(&["secant", "along_across"]), Defaulted, "viscosity that the pressure's flow meets in sheared oil: one for both directions (secant of Eyring's law), or its tangent along the sliding and its secant across; read when rheology = \"eyring\""),
+            key("eyring_flow", "", Choice(&["secant", "along_across"]), Defaulted, "viscosity that the pressure's flow meets in sheared oil: the secant of Eyring's law in both directions, as in Zhu and Hu's codes and the paper; or along the sliding that of the law itself, across it its secant; read when rheology = \"eyring\""),
             key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),
             key("cavitation", "", Choice(&["reynolds", "jfo"]), Defaulted, "how the film ruptures"),
         ],

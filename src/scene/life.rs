@@ -47,6 +47,8 @@ impl LifeModel {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CycleBasis {
+    /// Counted by depth, each cycle by the damage it does, in loading cycles of the faster body.
+    Damage,
     /// One global n for the whole volume (the paper's form; an upper bound on damage).
     Global,
     /// n(z): the formula's down to half a wavelength, falling to 1 at two.
@@ -59,13 +61,48 @@ pub enum CycleBasis {
 
 impl CycleBasis {
     /// Every basis.
-    pub const ALL: [Self; 4] = [Self::Global, Self::Depth, Self::Peaks, Self::Ranges];
+    pub const ALL: [Self; 5] = [
+        Self::Damage,
+        Self::Global,
+        Self::Depth,
+        Self::Peaks,
+        Self::Ranges,
+    ];
+
+    /// The volume integral that belongs to it, where the scene names none.
+    pub fn integral(self) -> VolumeIntegral {
+        match self {
+            Self::Damage => VolumeIntegral::Material,
+            Self::Global | Self::Depth | Self::Peaks | Self::Ranges => VolumeIntegral::Snapshot,
+        }
+    }
+
+    /// Of whose loading cycles its lives are.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Damage => "loading cycles of the faster body",
+            Self::Global | Self::Depth | Self::Peaks | Self::Ranges => "own loading cycles",
+        }
+    }
+
+    /// Name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Damage => "counted by damage",
+            Self::Global => "the paper's count",
+            Self::Depth => "n by depth",
+            Self::Peaks => "counted by peaks",
+            Self::Ranges => "counted by ranges",
+        }
+    }
 }
 
 /// Which volume integral is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VolumeIntegral {
+    /// Mean over material points of the greatest stress that each meets.
+    Material,
     /// Mean of the integral over the phases of a passage.
     Snapshot,
     /// Greatest stress of every track over the passage: the bound.
@@ -128,8 +165,9 @@ pub struct Life {
     pub survival: f64,
     /// Cycle basis.
     pub cycles: CycleBasis,
-    /// Volume integral.
-    pub volume: VolumeIntegral,
+    /// Volume integral; `None`: the one that belongs to `cycles`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volume: Option<VolumeIntegral>,
     /// Whose life it is.
     pub body: BodyChoice,
     /// h of Lundberg-Palmgren and Ioannides-Harris.
@@ -165,7 +203,7 @@ impl Default for Life {
             weibull_slope: 10.0 / 9.0,
             survival: 0.5,
             cycles: CycleBasis::Global,
-            volume: VolumeIntegral::Snapshot,
+            volume: None,
             body: BodyChoice::Weaker,
             depth_exponent: 7.0 / 3.0,
             cut_off_a: 0.05,
@@ -185,6 +223,11 @@ impl Life {
     /// Cycles and Hertz pressure (Pa) of the calibration point.
     pub fn calibration(&self) -> Option<(f64, f64)> {
         self.calibration_cycles.zip(self.calibration_pressure_pa)
+    }
+
+    /// The volume integral that is taken.
+    pub fn integral(&self) -> VolumeIntegral {
+        self.volume.unwrap_or(self.cycles.integral())
     }
 
     /// Whether damage is mapped for body 1 and body 2.

@@ -223,7 +223,8 @@ impl Scene {
                 }
                 *map = Some(Arc::new(heights));
                 *digest = Some(found);
-                if let Ok(absolute) = std::path::absolute(folder.join(&*file))
+                if !file.starts_with(presets::BUILTIN)
+                    && let Ok(absolute) = std::path::absolute(folder.join(&*file))
                     && let Some(text) = absolute.to_str()
                 {
                     text.clone_into(file);

@@ -40,7 +40,9 @@ pub enum Rheology {
 pub enum EyringFlow {
     /// One effective viscosity in both directions, the secant of the law: as in Zhu and Hu's codes.
     Secant,
-    /// Its tangent along the sliding, its secant across (Ehret, Dowson and Taylor 1998).
+    /// Along the sliding the law's own flow at any slope of the pressure (Conry, Wang and Cusano 1987), across its secant
+    /// (Ehret, Dowson and Taylor 1998). What is left of ridges that were measured under sliding
+    /// (Šperka, Křupka and Hartl 2016) depends on the sliding no more than it does with this form.
     AlongAcross,
 }
 

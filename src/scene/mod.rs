@@ -30,3 +30,4 @@ pub use model::{
     StressMeasure, Surface,
 };
 pub use numerics::{ErrorSource, Numerics, Time};
+pub use shape::LEAST_HARDNESS;

@@ -69,11 +69,12 @@ fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
     )
 }
 
+/// Least hardness over the Hertz pressure: the contact is then at most 4/3 (a line: π/2) of Hertz's, which its domain holds.
+pub const LEAST_HARDNESS: f64 = 0.5;
+
 /// A body that is too soft for the load would give way as a whole.
 pub(super) fn check_hardness(scene: &Scene) -> Result<(), SceneError> {
-    /// Least hardness over the Hertz pressure: the contact is then at most 4/3 (a line: π/2) of Hertz's, which its domain holds.
-    const LEAST: f64 = 0.5;
-    let least_pa = LEAST * scene.hertz().p_max_pa;
+    let least_pa = LEAST_HARDNESS * scene.hertz().p_max_pa;
     let bodies = [
         ("body_1.hardness_pa", &scene.body_1),
         ("body_2.hardness_pa", &scene.body_2),
@@ -92,6 +93,27 @@ pub(super) fn check_hardness(scene: &Scene) -> Result<(), SceneError> {
         ));
     }
     Ok(())
+}
+
+/// A load that an event sets is carried as the scene's own is.
+pub(super) fn check_carried(scene: &Scene, key: &str, force: f64) -> Result<(), SceneError> {
+    let p_max_pa = scene.hertz_at(force).p_max_pa;
+    let unit = match scene.contact.kind {
+        ContactKind::Point => "N",
+        ContactKind::Line => "N/m",
+    };
+    match scene.hardness_pa() {
+        Some(hardness_pa) if hardness_pa < LEAST_HARDNESS * p_max_pa => Err(SceneError::value(
+            key,
+            format!("{} {unit}", short(force)),
+            format!(
+                "a Hertz pressure of at most {} Pa, twice the hardness of the softer body; this load makes {} Pa: the body gives way as a whole and not by its asperities",
+                short(hardness_pa / LEAST_HARDNESS),
+                short(p_max_pa)
+            ),
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Exactly one load, of the kind that the contact takes.

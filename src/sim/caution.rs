@@ -35,7 +35,7 @@ pub enum CautionCode {
     MeshFilm,
     /// The edges of the domain starve the film.
     ShortDomain,
-    /// A body stands (|S| = 2) and is left out of the life.
+    /// A body stands (|S| = 2): lives are in the other's cycles, or the other's alone.
     StandingBody,
     /// Models and cycle bases differ by a large factor.
     ModelRange,
@@ -83,6 +83,8 @@ pub struct Grounds {
     pub short_domain: Option<f64>,
     /// Whether the scene computes a life.
     pub has_life: bool,
+    /// Whether cycles count by their damage.
+    pub by_damage: bool,
     /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.
     pub hardness_pa: Option<f64>,
     /// Part of all that has flowed that did so in the last passage (or period); `None`: nothing has.
@@ -91,8 +93,8 @@ pub struct Grounds {
 
 /// Error of the film by the mesh that is worth a word.
 const MESH_WORTH_A_WORD: f64 = 0.05;
-/// Share of all flow in one passage that is.
-const RUN_IN: f64 = 0.01;
+/// Share of all flow in one passage that is: what the interpolation of its columns misses (`yielded.rs`) is less.
+const RUN_IN: f64 = 1e-3;
 /// Factor between models that is.
 const RANGE_WORTH_A_WORD: f64 = 2.0;
 
@@ -255,6 +257,12 @@ fn standing(m: &Metrics, grounds: &Grounds) -> Option<String> {
         (Some(_), None) => (2, 1),
         _ => return None,
     };
+    if grounds.by_damage {
+        return Some(format!(
+            "body {body} stands (S = {}): none of its loading cycles ends; lives are in those of body {other}",
+            sig(m.slide_roll, 3)
+        ));
+    }
     Some(format!(
         "body {body} stands (S = {}): its loading cycle never ends, so it is left out, and the life is body {other}'s, which is \
          why it rises again here",

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::damage_count::DamageCount;
 use super::stress_stage::StressStage;
 use crate::math::grid::Grid;
 use crate::physics::cycles::{BodyId, Kinematics};
@@ -10,6 +11,7 @@ use crate::plan::Plan;
 use crate::scene::CycleBasis;
 use crate::solve::damage::{BlockSpec, DamageMap, Pit};
 use crate::solve::material::{DamageBasis, Line, MaterialTracker, Sample, TrackerSpec};
+use crate::solve::stress::StressLaw;
 
 /// Depth, in a, at which the shown material point lies: shallow enough to feel single asperities.
 const SHOWN_DEPTH: f64 = 0.1;
@@ -34,6 +36,8 @@ pub(super) struct Counting {
     /// c: damage grows as its power with the size, and with it the pressure.
     exponent: f64,
     basis: DamageBasis,
+    /// Cycles by their damage, where a life is asked for.
+    by_damage: Option<DamageCount>,
 }
 
 /// Counted and equivalent cycles of a body by depth, on one basis.
@@ -55,6 +59,10 @@ pub(super) struct CountingSpec {
     pub(super) basis: DamageBasis,
     /// Blocks of both bodies for which damage is mapped: length and way from a crest, a.
     pub(super) blocks: [Option<(f64, f64)>; 2],
+    /// How life integrates stress (models of one depth: not at all); `None`: no life is asked for.
+    pub(super) laws: Option<Vec<StressLaw>>,
+    /// Wavelengths of both bodies' crests along x, a.
+    pub(super) waves: [Option<f64>; 2],
 }
 
 impl Counting {
@@ -95,6 +103,8 @@ impl Counting {
             reference_size: 1.0,
             exponent: spec.exponent,
             basis: spec.basis,
+            by_damage: (spec.laws.as_ref())
+                .map(|laws| DamageCount::new(grid, spec.depths, laws, spec.waves)),
         }
     }
 
@@ -135,6 +145,10 @@ impl Counting {
             && saved.shown_depth < depths.max(1)
             && saved.profiles.iter().flatten().all(whole)
             && trackers.all(|(own, saved)| own.fits(saved))
+            && match (&self.by_damage, &saved.by_damage) {
+                (Some(own), Some(saved)) => own.fits(saved),
+                (own, saved) => own.is_none() && saved.is_none(),
+            }
     }
 
     /// Forgets all counts; the bodies have moved by `travelled` (in a).
@@ -145,15 +159,19 @@ impl Counting {
         for profile in self.profiles.iter_mut().flatten() {
             profile.is_known = false;
         }
+        if let Some(by_damage) = &mut self.by_damage {
+            by_damage.restart();
+        }
     }
 
-    /// Moves the points by `travel` (in a) and samples the line y = 0.
+    /// Moves the points by `travel` (in a) and samples the line y = 0 of a contact of `size` times the scene's.
     pub(super) fn step(
         &mut self,
         grid: &Grid,
         travel: [f64; 2],
         pressure: &[f64],
         stress: Option<&StressStage>,
+        size: f64,
     ) {
         let axis = grid.axis_row() * grid.nx;
         for (to, &from) in self.row.iter_mut().zip(&pressure[axis..axis + grid.nx]) {
@@ -174,6 +192,9 @@ impl Counting {
             let i = body.index();
             let before = self.trackers[i].crossings();
             self.trackers[i].step(travel[i], &line(body));
+            if let Some(by_damage) = &mut self.by_damage {
+                by_damage.step(body, travel[i], &line(body), size);
+            }
             if self.trackers[i].crossings() == before {
                 continue;
             }
@@ -182,6 +203,9 @@ impl Counting {
                 let (counted, equivalent) = (&mut profile.counted, &mut profile.equivalent);
                 profile.is_known = self.trackers[i].cycles_by_depth(basis, counted, equivalent);
             }
+        }
+        if let Some(by_damage) = &mut self.by_damage {
+            by_damage.take(travel, &self.trackers);
         }
         let shown = self.shown_body;
         self.shown = Some(self.trackers[shown.index()].shown(&line(shown)));
@@ -218,12 +242,27 @@ impl Counting {
         let basis = match basis {
             CycleBasis::Ranges => DamageBasis::Ranges,
             CycleBasis::Peaks => DamageBasis::Peaks,
+            CycleBasis::Damage => {
+                let cycles = self.by_damage.as_ref()?.cycles(body)?;
+                return Some(CycleProfile::Counted(cycles));
+            }
             CycleBasis::Global | CycleBasis::Depth => return None,
         };
         let profile = &self.profiles[body.index()][basis_index(basis)];
         profile
             .is_known
             .then_some(CycleProfile::Counted(&profile.equivalent))
+    }
+
+    /// Part of a `period` (in a, at U) over which crossings by damage have finished; 1 where they are not followed.
+    pub(super) fn covers(&self, period: f64) -> f64 {
+        let by_damage = self.by_damage.as_ref();
+        by_damage.map_or(1.0, |by_damage| by_damage.covers(period))
+    }
+
+    /// ln of what the swept integral of a law becomes as the mean over material points, by depth.
+    pub(super) fn ln_ratios(&self, body: BodyId, law: usize) -> Option<&[f64]> {
+        Some(self.by_damage.as_ref()?.ln_ratios(body, law))
     }
 
     /// Counts of signed shear by depth; `None` until a crossing has been counted.

@@ -113,6 +113,7 @@ impl Door {
                     EyringFlow::Secant => ShearedFlow::Secant,
                     EyringFlow::AlongAcross => ShearedFlow::AlongAcross {
                         limit: oil.limiting_shear_ratio * p / oil.eyring_stress_pa,
+                        steepness: 0.5 * a * p / (rx * oil.eyring_stress_pa),
                     },
                 };
             }

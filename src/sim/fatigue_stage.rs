@@ -1,9 +1,10 @@
 //! What the passage costs: mean life integrals of the scene's model and of the variants beside it.
 //!
 //! The reference is the same scene smooth, frictionless, with S = 0, at the load and speed of now (`reference.rs`);
-//! n_ref = 1. A body's life is counted in its own loading cycles, and the weaker body gives the life of the
-//! scene unless it names one. As a system both bodies are compared in time, as equal discs:
-//! `L = [½ Σ (N_i U/|U_i|)^{−e}]^{−1/e}` relative to the two bodies of the reference.
+//! n_ref = 1. A body's life is counted in its own loading cycles, by [`CycleBasis::Damage`] in those of the faster body
+//! ([`super::damage_count`]), and the weaker body gives the life of the scene unless it names one. As a system both
+//! bodies are compared in time, as equal discs: `L = [½ Σ (N_i U/|U_i|)^{−e}]^{−1/e}` relative to the two bodies of the
+//! reference (U_fast in place of U_i where N_i are its cycles).
 
 use serde::{Deserialize, Serialize};
 
@@ -14,12 +15,13 @@ use super::settling::Settling;
 use super::smooth::Conditions;
 use super::stress_stage::StressStage;
 use super::variant::{Shared, Variant, models};
+use crate::math::ln_sum::ln_sum;
 use crate::physics::cycles::BodyId;
-use crate::physics::fatigue::{LifeFactors, LifeLaw};
-use crate::physics::life_models::CycleProfile;
+use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
-use crate::scene::{BodyChoice, ContactKind, CycleBasis, Life, Scene, Spread, VolumeIntegral};
-use crate::solve::life::{Shares, Sweep, Window, factors};
+use crate::scene::{ContactKind, CycleBasis, Life, Scene, VolumeIntegral};
+use crate::solve::life::{Shares, Sweep, Window};
+use crate::solve::marks::Marks;
 use crate::solve::stress::{Loading, StressLaw};
 
 /// Conditions of an estimate.
@@ -40,7 +42,7 @@ pub(super) struct Now {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct LifeStage {
     pub(super) law: LifeLaw,
-    asked: Life,
+    pub(super) asked: Life,
     /// The scene's model first.
     pub(super) variants: Vec<Variant>,
     pub(super) laws: Vec<StressLaw>,
@@ -48,7 +50,7 @@ pub(super) struct LifeStage {
     scratch: Shares,
     pub(super) depths: Vec<f64>,
     /// Wavelength along x of the mating crests, a.
-    wavelengths: [Option<f64>; 2],
+    pub(super) wavelengths: [Option<f64>; 2],
     pub(super) calibration: Option<Calibration>,
     /// Directions in which the contact grows with the pressure.
     pub(super) sides: f64,
@@ -59,6 +61,8 @@ pub(super) struct LifeStage {
     /// Cycles of the smooth contact of that size.
     pub(super) reference_cycles: Option<f64>,
     settling: Settling,
+    /// How far ln of the damage of both bodies moved, where cycles count by it.
+    damage: Marks,
 }
 
 impl LifeStage {
@@ -109,6 +113,7 @@ impl LifeStage {
             reference_at: Conditions::default(),
             reference_cycles: None,
             settling: Settling::new(law, scene.numerics.tolerance),
+            damage: Marks::new(),
         })
     }
 
@@ -153,11 +158,18 @@ impl LifeStage {
         }
     }
 
+    /// How cycles are counted, and of whose loading cycles lives are.
+    pub(super) fn count_text(&self) -> String {
+        let basis = self.asked.cycles;
+        format!("{}, in {}", basis.name(), basis.unit())
+    }
+
     /// Makes the room again that a copy or a file does not keep.
     pub(super) fn make_room(&mut self) {
         for variant in &mut self.variants {
             variant.make_room();
         }
+        self.damage.make_room();
     }
 
     /// Whether a stage that was saved is of the same make as this one.
@@ -170,6 +182,7 @@ impl LifeStage {
             && self.depths == saved.depths
             && saved.sweep.is_sound(rows)
             && saved.scratch.is_sound(depths)
+            && saved.damage.is_sound()
             && self.variants.len() == saved.variants.len()
             && self
                 .variants
@@ -185,6 +198,7 @@ impl LifeStage {
 
     /// Takes the mean over `window` (in a) from now on.
     pub(super) fn set_window(&mut self, window: Window) {
+        self.damage.forget();
         for variant in &mut self.variants {
             variant.set_window(window);
         }
@@ -203,18 +217,50 @@ impl LifeStage {
             variant.restart();
         }
         self.settling.restart();
+        self.damage.forget();
     }
 
     /// Whether the average may be called settled, after a sample without anything of a ramp in it.
-    pub(super) fn judge(&mut self, stress_error: f64, repeat: Option<Repeat>) {
+    pub(super) fn judge(
+        &mut self,
+        stress_error: f64,
+        repeat: Option<Repeat>,
+        counting: Option<&Counting>,
+    ) {
+        let by_damage = self.asked.cycles == CycleBasis::Damage;
         let meter = self.variants[0].meter();
-        self.settling.judge(meter, stress_error, repeat);
+        let (way, period) = meter.way();
+        let covered = counting.map_or(1.0, |counting| counting.covers(period));
+        if by_damage && covered >= 0.5 && self.damage.is_due(way) {
+            let ln = BodyId::BOTH.map(|body| self.ln_damage(body, counting));
+            self.damage.take(way, period, ln);
+        }
+        let damage = by_damage.then_some((&self.damage, covered));
+        let meter = self.variants[0].meter();
+        self.settling.judge(meter, stress_error, repeat, damage);
     }
 
-    /// Takes the surface loaded last, which stands for a `way` (in a).
-    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage) {
+    /// `ln Σ_k n_k^e J_k` of a body by its damage.
+    fn ln_damage(&self, body: BodyId, counting: Option<&Counting>) -> f64 {
+        let e = self.law.weibull_slope;
+        let cycles = counting.and_then(|counting| counting.profile(body, CycleBasis::Damage));
+        let shares = self.variants[0].shares(VolumeIntegral::Material);
+        let (Some(cycles), Some(shares)) = (cycles, shares) else {
+            return f64::NEG_INFINITY;
+        };
+        let shares = shares.of(Loading::Full(body)).iter().zip(&self.depths);
+        ln_sum(
+            shares
+                .enumerate()
+                .map(|(k, (ln, z))| (1.0, ln + e * cycles.at(k, *z).ln())),
+        )
+    }
+
+    /// Takes the surface loaded last, which stands for a `way` (in a), and what has been counted up to it.
+    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, counting: Option<&Counting>) {
         self.each(stress, |variant, stress, shared| {
             variant.push(way, stress, shared);
+            variant.weigh_material(counting);
         });
     }
 
@@ -241,7 +287,7 @@ impl LifeStage {
 
     /// The estimate for the conditions of now.
     pub(super) fn estimate(&self, now: &Now, counting: Option<&Counting>) -> Option<LifeEstimate> {
-        let (basis, form) = (self.asked.cycles, self.asked.volume);
+        let (basis, form) = (self.asked.cycles, self.asked.integral());
         let scene = &self.variants[0];
         let lives = self.lives(scene, (basis, form), now, counting)?;
         let (body, f) = self.governing(lives)?;
@@ -252,7 +298,16 @@ impl LifeStage {
             let lives = self.lives(scene, (basis, form), now, counting)?;
             lives[body.index()].map(|f| f.relative)
         };
+        let by = |basis: CycleBasis| {
+            let lives = self.lives(scene, (basis, basis.integral()), now, counting)?;
+            Some(self.governing(lives)?.1.relative)
+        };
         let spread = self.spread(now, counting, f.relative);
+        // What the load costs the smooth contact is the same whatever is counted of the rough one.
+        let smooth = match form {
+            VolumeIntegral::Material => VolumeIntegral::Snapshot,
+            form => form,
+        };
         let shares = scene.shares(form)?;
         let ln_unit = self.growth(scene, form) * now.size.ln();
         let cycles_now = self.cycles_ratio(now.size / self.reference_size);
@@ -264,7 +319,7 @@ impl LifeStage {
             stress_factor: f.stress,
             peak_factor: f.peak,
             traction_factor: f.traction,
-            load_factor: self.load_factor(scene, (body, form), now.size),
+            load_factor: self.load_factor(scene, (body, smooth), now.size),
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
@@ -274,6 +329,8 @@ impl LifeStage {
                 body: body.index() as u8 + 1,
                 life_body: lives.map(|f| f.map(|f| f.relative)),
                 life_system: self.system(lives, now.slide_roll),
+                life_global: by(CycleBasis::Global),
+                life_damage: by(CycleBasis::Damage),
                 life_snapshot: other(VolumeIntegral::Snapshot),
                 life_swept: other(VolumeIntegral::Swept),
                 spread_low: spread.0,
@@ -284,85 +341,5 @@ impl LifeStage {
                     .map(|cycles| cycles * cycles_now * f.relative),
             },
         })
-    }
-
-    /// Factors of both bodies; `None` for a body that stands or is not counted yet, and for all where
-    /// nothing was sampled.
-    fn lives(
-        &self,
-        variant: &Variant,
-        (basis, form): (CycleBasis, VolumeIntegral),
-        now: &Now,
-        counting: Option<&Counting>,
-    ) -> Option<[Option<LifeFactors>; 2]> {
-        let shares = variant.shares(form)?;
-        Some(BodyId::BOTH.map(|body| {
-            let profile = self.profile(body, basis, now.n[body.index()]?, counting)?;
-            let ln_reference = self.ln_reference(variant, (body, form), now.size);
-            let f = factors(self.law, shares, body, ln_reference, profile, &self.depths);
-            f.relative.is_finite().then_some(f)
-        }))
-    }
-
-    fn profile<'a>(
-        &self,
-        body: BodyId,
-        basis: CycleBasis,
-        n: f64,
-        counting: Option<&'a Counting>,
-    ) -> Option<CycleProfile<'a>> {
-        match basis {
-            CycleBasis::Global => Some(CycleProfile::Global(n)),
-            CycleBasis::Depth => Some(CycleProfile::Depth {
-                n,
-                wavelength: self.wavelengths[body.index()].unwrap_or(f64::INFINITY),
-            }),
-            CycleBasis::Peaks | CycleBasis::Ranges => counting?.profile(body, basis),
-        }
-    }
-
-    /// The body that gives the life.
-    fn governing(&self, lives: [Option<LifeFactors>; 2]) -> Option<(BodyId, LifeFactors)> {
-        let of = |body: BodyId| lives[body.index()].map(|f| (body, f));
-        match self.asked.body {
-            BodyChoice::Body1 => of(BodyId::One),
-            BodyChoice::Body2 => of(BodyId::Two),
-            BodyChoice::Weaker => BodyId::BOTH
-                .into_iter()
-                .filter_map(of)
-                .min_by(|a, b| a.1.relative.total_cmp(&b.1.relative)),
-        }
-    }
-
-    /// Both bodies together, in time, relative to both bodies of the reference.
-    fn system(&self, lives: [Option<LifeFactors>; 2], s: f64) -> Option<f64> {
-        let [one, two] = lives;
-        let turns = [1.0 - 0.5 * s, 1.0 + 0.5 * s].map(f64::abs);
-        let time = |f: Option<LifeFactors>, turns: f64| Some(f?.relative / turns);
-        let both = self
-            .law
-            .system_life(time(one, turns[0])?, time(two, turns[1])?);
-        let life = both / self.law.system_life(1.0, 1.0);
-        life.is_finite().then_some(life)
-    }
-
-    /// Least and greatest life over the variants, cycle bases and forms of the integral, and how many.
-    fn spread(&self, now: &Now, counting: Option<&Counting>, life: f64) -> (f64, f64, u32) {
-        let (mut low, mut high, mut count) = (life, life, 0);
-        if self.asked.spread == Spread::Off {
-            return (low, high, 1);
-        }
-        for variant in &self.variants {
-            for form in [VolumeIntegral::Snapshot, VolumeIntegral::Swept] {
-                for basis in CycleBasis::ALL {
-                    let lives = self.lives(variant, (basis, form), now, counting);
-                    if let Some((_, f)) = lives.and_then(|lives| self.governing(lives)) {
-                        (low, high) = (low.min(f.relative), high.max(f.relative));
-                        count += 1;
-                    }
-                }
-            }
-        }
-        (low, high, count)
     }
 }

@@ -36,7 +36,7 @@ impl Simulation {
     pub(super) fn check(&self, state: &State) -> Result<(), SimError> {
         demand(
             climb(&self.plan).any(|n| n == state.nodes),
-            "its grid is none of this scene's",
+            "its grid is not this scene's",
         )?;
         let finest = self.plan.domain.nodes;
         let grid = |nodes| grid_of(&self.plan, nodes, self.door.b_over_a);
@@ -54,11 +54,14 @@ impl Simulation {
             )?;
         }
         let fine = grid(finest);
-        demand(state.orbit.fits(fine.len()), "its orbit is spoiled")?;
+        demand(
+            state.orbit.fits(fine.len()),
+            "its repeating period is damaged",
+        )?;
         demand(
             state.counting.is_some() == self.state.counting.is_some()
                 && state.life.is_some() == self.state.life.is_some(),
-            "it was saved with other stages for stress and life",
+            "it was saved with other settings for stress and life",
         )?;
         let depths = self
             .work
@@ -70,12 +73,12 @@ impl Simulation {
             (Some(own), Some(saved)) => own.fits(saved),
             _ => false,
         };
-        demand(yielded_fits, "what it has yielded is of other bodies")?;
+        demand(yielded_fits, "its yielded surfaces belong to other bodies")?;
         if let (Some(own), Some(saved)) = (&self.state.counting, &state.counting) {
-            demand(own.fits(saved, depths), "its counts are spoiled")?;
+            demand(own.fits(saved, depths), "its cycle counts are damaged")?;
         }
         if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {
-            demand(own.fits(saved), "its life is of another make")?;
+            demand(own.fits(saved), "its life was computed in another way")?;
         }
         Ok(())
     }
@@ -92,26 +95,26 @@ impl Simulation {
             Phase::Develop { left } => on_finest && left <= start_up,
             Phase::Passage => on_finest,
         };
-        demand(phase_fits, "its start-up is none of this scene's")?;
+        demand(phase_fits, "its start-up is not this scene's")?;
         let steps = [state.step, state.start_up_steps.0, state.start_up_steps.1];
         let counted = steps.into_iter().chain(state.stats.all());
         demand(
             counted.into_iter().all(|n| n <= MOST_STEPS) && state.way >= 0.0 && state.time_s >= 0.0,
-            "its steps or times are none",
+            "its steps or times are not valid",
         )?;
         demand(
             self.state.motion.fits(&state.motion) && state.pace.is_sound(),
-            "its motion is of another make",
+            "its motion does not fit the scene",
         )?;
         if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {
-            demand(own.same_waves(saved), "its life is of other waves")?;
+            demand(own.same_waves(saved), "its life belongs to other waves")?;
         }
         let smooth = state.smooth.as_ref();
         demand(
             smooth.is_none_or(|smooth| {
                 smooth.left <= self.smooth_steps(smooth.nodes, true) && self.can_be(smooth.at)
             }),
-            "its smooth contact is none of this scene's",
+            "its smooth contact is not this scene's",
         )?;
         for drive in [&state.drive, &state.wanted]
             .into_iter()

@@ -355,10 +355,17 @@ pub struct LifeDetail {
     pub model: Option<LifeModel>,
     /// Body that gives the life, 1 or 2.
     pub body: u8,
-    /// Relative life of body 1 and 2 in own loading cycles; `None`: the body stands, or is not counted yet.
+    /// Relative life of body 1 and 2 in own loading cycles (by damage: of the faster body); `None`: the body stands, or is
+    /// not counted yet.
     pub life_body: [Option<f64>; 2],
     /// Both together in time, as equal discs, relative to both of the reference.
     pub life_system: Option<f64>,
+    /// Life by the paper's count, one n by formula times the mean of snapshots; `None`: the body stands.
+    #[serde(default)]
+    pub life_global: Option<f64>,
+    /// Life with every cycle by the damage it does.
+    #[serde(default)]
+    pub life_damage: Option<f64>,
     /// Same life by the mean of snapshots.
     pub life_snapshot: Option<f64>,
     /// Same life by the swept integral.

@@ -65,7 +65,7 @@ pub(super) fn measure(fields: &Fields, traction: &mut [f64], rows: &mut [RowSums
             &fields.p[j * nx..(j + 1) * nx],
             &fields.h[j * nx..(j + 1) * nx],
         );
-        fields.law.traction_row(p, h, q);
+        fields.law.traction_row(grid.dx, p, h, q);
         *row = sum_row(grid, fields.law, (a, grid.y(j) / b), p, h, q);
     });
     let mut total = RowSums {

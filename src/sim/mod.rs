@@ -2,6 +2,8 @@
 
 mod caution;
 mod counting;
+mod counting_spec;
+mod damage_count;
 mod door;
 mod drive;
 mod error;
@@ -11,6 +13,7 @@ mod fitness;
 mod follow;
 mod frame;
 mod knob;
+mod lives;
 mod lubrication;
 mod measure;
 mod motion;

@@ -114,7 +114,7 @@ impl LifeStage {
     }
 
     pub(super) fn growth(&self, variant: &Variant, form: VolumeIntegral) -> f64 {
-        let swept = form == VolumeIntegral::Swept;
+        let swept = form != VolumeIntegral::Snapshot;
         variant.model.growth(self.law, self.sides, swept)
     }
 

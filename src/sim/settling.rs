@@ -7,6 +7,8 @@
 //!           fields come back                      c · drift ≤ B/2 settled
 //!           no common period, 3 P                 settled; the band is as much wider as the mean wandered in 2 P
 //!                                                 (the mean of all that was seen, which comes to rest as 1/way)
+//!           cycles by their damage            when the surfaces of a period have crossed the contact; the band is wider by
+//!                                             what their mean moved from half of that on
 //! B = c max(ε, 2 tol)                             ε relative error of stress by the mesh, tol a step's of pressure
 //! ```
 //! L ∝ (σ)^{−c}: an error ε of stress is c ε of ln L. B is never below what two means of steps that are solved to
@@ -20,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use super::frame::{Repeat, Rhythm};
 use crate::physics::fatigue::LifeLaw;
 use crate::solve::life::LifeMeter;
+use crate::solve::marks::Marks;
 
 /// Whether the average has stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -49,7 +52,13 @@ impl Settling {
     }
 
     /// Takes what the meter's mean did, after a sample.
-    pub(super) fn judge(&mut self, meter: &LifeMeter, stress_error: f64, repeat: Option<Repeat>) {
+    pub(super) fn judge(
+        &mut self,
+        meter: &LifeMeter,
+        stress_error: f64,
+        repeat: Option<Repeat>,
+        damage: Option<(&Marks, f64)>,
+    ) {
         if !meter.covers() {
             return;
         }
@@ -60,14 +69,19 @@ impl Settling {
             drift.is_some_and(|drift| self.law.stress_exponent * drift <= 0.5 * band)
         });
         if repeat.is_some_and(|repeat| repeat.rhythm == Rhythm::Statistics) {
-            self.wander = life(meter.wandered());
-            self.settled = meter.moved(2.0).is_some();
+            let marks = damage.map_or(meter.marks(), |(marks, _)| marks);
+            self.wander = life(marks.wandered());
+            self.settled = meter.marks().moved(2.0).is_some();
             return;
         }
-        let moved = meter.moved(0.5).map(life);
+        let moved = meter.marks().moved(0.5).map(life);
         let most = if self.settled { band } else { 0.5 * band };
         self.settled = comes_back || moved.is_some_and(|moved| moved <= most);
         self.wander = 0.0;
+        if let Some((marks, covered)) = damage {
+            self.settled &= covered >= 1.0 - 1e-9;
+            self.wander = life(marks.wandered());
+        }
     }
 
     /// Whether it has.

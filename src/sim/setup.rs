@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::counting::{Counting, CountingSpec};
-use super::door::{Door, Heading};
+use super::counting::Counting;
+use super::counting_spec::counting_spec;
+use super::door::Door;
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
 use super::measure::RowSums;
@@ -22,11 +23,11 @@ use super::totals::Totals;
 use super::yielded::Yielded;
 use super::{Grounds, Knob, Metrics, SimError, Stats};
 use crate::math::grid::{Grid, Symmetry};
+use crate::physics::fluid::ShearedFlow;
 use crate::physics::strength::{self, Strength};
 use crate::plan::Plan;
 use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
 use crate::solve::march::{Flow, Shape, Solver};
-use crate::solve::material::DamageBasis;
 use crate::solve::newton::Tolerance;
 use crate::solve::stress::{Cut, Purpose};
 use crate::solve::traction::{FilmShear, TractionLaw};
@@ -143,7 +144,8 @@ impl Stages {
             .as_ref()
             .and_then(|stress| LifeStage::new(scene, plan, stress));
         let counting = stress.as_ref().map(|stress| {
-            let spec = counting_spec(scene, plan, door.heading, stress.depth_count());
+            let mut spec = counting_spec(scene, plan, door.heading, stress.depth_count());
+            spec.laws = life.as_ref().map(|life| life.laws.clone());
             Counting::new(grid, stress.depths(), &spec)
         });
         Ok(Self {
@@ -282,31 +284,6 @@ fn cuts(scene: &Scene) -> Vec<Cut> {
     .collect()
 }
 
-/// What material points count: damage by ranges where the scene's life goes by ranges, else by peaks.
-fn counting_spec(scene: &Scene, plan: &Plan, heading: Heading, depths: usize) -> CountingSpec {
-    let life = scene.life.as_ref();
-    let maps = life.map_or([false; 2], crate::scene::Life::maps);
-    let a_m = plan.hertz.a_m;
-    let track = plan.domain.x_max_a - plan.domain.x_min_a;
-    let surfaces = scene.surfaces();
-    let block = |body: usize| {
-        let repeated = surfaces[body].block_m();
-        repeated.map_or((track, 0.0), |(length_m, offset_m)| {
-            (length_m / a_m, heading.sign() * offset_m / a_m)
-        })
-    };
-    CountingSpec {
-        depths,
-        exponent: life.map_or(9.0, |life| life.stress_exponent),
-        basis: match life.map(|life| life.cycles) {
-            Some(CycleBasis::Ranges) => DamageBasis::Ranges,
-            _ => DamageBasis::Peaks,
-        },
-        blocks: [0, 1]
-            .map(|body: usize| (maps[body] && surfaces[body].has_block()).then(|| block(body))),
-    }
-}
-
 /// What the scene says of the grounds of cautions.
 fn grounds_of(scene: &Scene) -> Grounds {
     Grounds {
@@ -317,6 +294,7 @@ fn grounds_of(scene: &Scene) -> Grounds {
         }),
         hardness_pa: scene.hardness_pa(),
         has_life: scene.life.is_some(),
+        by_damage: (scene.life.as_ref()).is_some_and(|life| life.cycles == CycleBasis::Damage),
         ..Grounds::default()
     }
 }
@@ -367,6 +345,10 @@ fn traction_law(scene: &Scene, door: &Door) -> TractionLaw {
         eyring: (oil.rheology == crate::scene::Rheology::Eyring)
             .then_some(oil.eyring_stress_pa / door.p_hertz_pa),
         limit: oil.limiting_shear_ratio,
+        steepness: match door.medium(1.0, 0.0).sheared {
+            ShearedFlow::AlongAcross { steepness, .. } => steepness,
+            ShearedFlow::Secant => 0.0,
+        },
     });
     TractionLaw {
         film,

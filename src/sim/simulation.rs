@@ -286,6 +286,11 @@ impl Simulation {
         }
         let most = self.plan.most_force_n();
         if knob == self.door.load_knob() && value > most * (1.0 + 1e-9) {
+            if self.plan.carried_force_n() <= most {
+                return Err(refuse(format!(
+                    "at most {most:.4e}, which makes a Hertz pressure of twice the hardness of the softer body: with more it gives way as a whole and not by its asperities"
+                )));
+            }
             return Err(refuse(format!(
                 "at most {most:.4e} in this domain: a greater contact would reach its edge (grid.x_min_a, grid.x_max_a and grid.y_half_a widen it; a load that an event of the scene sets is foreseen)"
             )));

@@ -146,15 +146,20 @@ pub(super) fn place_surfaces(
         solver.gap.copy_from_slice(&solver.macroscopic);
         return;
     }
-    let rough = [Knob::Amplitude1M, Knob::Amplitude2M];
-    let amplitude = rough.map(|knob| door.h_from_m(drive.get(knob).now));
-    for (body, (way, amplitude)) in motion.ways().into_iter().zip(amplitude).enumerate() {
+    let now = motion.ways().into_iter().zip(amplitudes(door, drive));
+    for (body, (way, amplitude)) in now.enumerate() {
         terrain.place(grid, body, way, amplitude);
         if let Some(yielded) = yielded {
-            yielded.lower(grid, body, way, &mut terrain.heights[body]);
+            let lowered = &mut terrain.heights[body];
+            yielded.lower(grid, body, (way, amplitude), lowered);
         }
     }
     terrain.gap_into(&solver.macroscopic, &mut solver.gap);
+}
+
+/// Amplitudes of both bodies as the knobs are, film units.
+fn amplitudes(door: &Door, drive: &Drive) -> [f64; 2] {
+    [Knob::Amplitude1M, Knob::Amplitude2M].map(|knob| door.h_from_m(drive.get(knob).now))
 }
 
 /// Everything that a step moves.
@@ -312,8 +317,9 @@ impl Mover<'_> {
             done.overlap = done.overlap.max(overlap);
         }
         self.solver.commit(self.state, nodes);
+        let amplitudes = amplitudes(self.door, self.drive);
         if let (Some((_, yielded)), Some(depth)) = (&mut self.yielding, self.solver.yielded())
-            && yielded.take(&self.solver.grid, depth, self.motion.ways())
+            && yielded.take(&self.solver.grid, depth, self.motion.ways(), amplitudes)
         {
             // The surfaces are seen as the step leaves them.
             self.place_surfaces();

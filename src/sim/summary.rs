@@ -118,16 +118,22 @@ pub struct Summary {
     pub counters: Stats,
     /// Life model.
     pub life_model: Option<String>,
+    /// How cycles were counted, and of whose loading cycles lives are.
+    pub life_count: Option<String>,
     /// What lives are relative to, and why.
     pub life_basis: Option<String>,
     /// Body that gives `life_relative`, 1 or 2.
     pub life_body: Option<u8>,
-    /// Relative life of body 1 in own loading cycles.
+    /// Relative life of body 1 in own loading cycles; by damage in those of the faster body.
     pub life_body_1: Option<f64>,
     /// Same of body 2.
     pub life_body_2: Option<f64>,
     /// Both bodies together, in time, as equal discs, relative to both of the reference.
     pub life_system: Option<f64>,
+    /// Relative life by the paper's count: n by formula times the mean of snapshots (`life.cycles = "global"`).
+    pub life_global: Option<f64>,
+    /// Relative life with every cycle by the damage it does (`life.cycles = "damage"`).
+    pub life_damage: Option<f64>,
     /// Relative life by the mean of snapshots.
     pub life_snapshot: Option<f64>,
     /// Relative life by the swept integral, the bound.

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::counting::Counting;
 use super::stress_stage::StressStage;
 use crate::math::ln_sum::ln_list;
 use crate::physics::cycles::BodyId;
@@ -21,6 +22,8 @@ pub(super) struct Variant {
     meter: LifeMeter,
     /// Greatest shares over all samples (models of one depth), or the swept integral.
     swept: Shares,
+    /// The swept integral as the mean over material points, where it is counted; else as it is: the bound.
+    material: Shares,
     /// ln J of the reference of now, `[2 · body + form]`, in the scene's units.
     #[serde(with = "ln_list")]
     reference: Vec<f64>,
@@ -51,6 +54,7 @@ impl Variant {
             law,
             meter: LifeMeter::new(depths, window, capacity),
             swept: Shares::new(depths),
+            material: Shares::new(depths),
             reference: vec![f64::NEG_INFINITY; 4],
             base: vec![f64::NEG_INFINITY; 4],
             by_depth: [vec![0.0; depths], vec![0.0; depths]],
@@ -107,6 +111,7 @@ impl Variant {
             && self.law == saved.law
             && self.meter.fits(&saved.meter)
             && saved.swept.is_sound(depths)
+            && saved.material.is_sound(depths)
             && [&saved.reference, &saved.base].map(Vec::len) == [4; 2]
             && saved.by_depth.iter().all(|list| list.len() == depths)
     }
@@ -115,12 +120,27 @@ impl Variant {
     pub(super) fn restart(&mut self) {
         self.meter.restart();
         self.swept.clear();
+        self.material.clear();
     }
 
     /// Takes the surface loaded last; the volume pass has been made.
     pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, shared: &mut Shared) {
         self.take(stress, shared);
         self.meter.push(way, shared.scratch);
+    }
+
+    /// What has been swept, as the mean over the material points of `counting`.
+    pub(super) fn weigh_material(&mut self, counting: Option<&Counting>) {
+        for loading in Loading::ALL {
+            let target = self.material.of_mut(loading);
+            target.copy_from_slice(self.swept.of(loading));
+            let ratios = self
+                .law
+                .and_then(|law| counting?.ln_ratios(loading.body(), law));
+            for (share, ln) in target.iter_mut().zip(ratios.unwrap_or_default()) {
+                *share += ln;
+            }
+        }
     }
 
     /// Shares of the surface loaded last into the scratch, and what has been swept.
@@ -174,6 +194,7 @@ impl Variant {
         Some(match form {
             VolumeIntegral::Snapshot => mean,
             VolumeIntegral::Swept => &self.swept,
+            VolumeIntegral::Material => &self.material,
         })
     }
 
@@ -190,7 +211,8 @@ impl Variant {
 fn form_index(form: VolumeIntegral) -> usize {
     match form {
         VolumeIntegral::Snapshot => 0,
-        VolumeIntegral::Swept => 1,
+        // Of a smooth contact all points meet the same.
+        VolumeIntegral::Swept | VolumeIntegral::Material => 1,
     }
 }
 

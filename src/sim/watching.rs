@@ -16,8 +16,11 @@ impl Simulation {
         self.state.watched = self.state.motion.travelled;
         let on_fine = self.work.solver.grid.nx == self.plan.domain.nodes;
         let measured = self.measure();
-        if on_fine && self.stage_has_stress() {
-            self.measure_stress(&measured);
+        let size = self.size_now();
+        let looks = on_fine && self.stage_has_stress();
+        if looks && let Some(stress) = &mut self.work.stress {
+            let (p, q) = (&self.state.contact.pressure, &self.work.traction);
+            self.pool.install(|| stress.slice(p, q, measured.friction));
         }
         if on_fine
             && self.state.phase == Phase::Passage
@@ -30,17 +33,21 @@ impl Simulation {
                 travel,
                 pressure,
                 self.work.stress.as_ref(),
+                size,
             );
+        }
+        if looks {
+            self.sample_life();
         }
         self.publish(attempted, &measured);
     }
 
-    fn measure_stress(&mut self, measured: &Measured) {
+    /// The volume under the slice's surface, with the counts up to it.
+    fn sample_life(&mut self) {
         let stress_error = self.stress_error_now();
         let Some(stress) = &mut self.work.stress else {
             return;
         };
-        let (p, q) = (&self.state.contact.pressure, &self.work.traction);
         let every = self.plan.life.map_or(f64::INFINITY, |life| {
             life.volume_every_steps as f64 * self.stepping.usual() * self.work.solver.grid.dx
         });
@@ -49,14 +56,14 @@ impl Simulation {
             self.state.phase == Phase::Passage && self.state.way >= self.state.next_volume - 1e-9;
         let flushed = self.state.motion.is_flushed();
         let repeat = self.state.metrics.repeat;
+        let counting = self.state.counting.as_ref();
         self.pool.install(|| {
-            stress.slice(p, q, measured.friction);
             if let Some(life) = &mut self.state.life
                 && due
             {
-                life.push(every, stress);
+                life.push(every, stress, counting);
                 if flushed {
-                    life.judge(stress_error, repeat);
+                    life.judge(stress_error, repeat, counting);
                 }
                 self.state.stats.stress_volumes += u64::from(life.integrates());
                 self.state.next_volume = next_due(self.state.next_volume, self.state.way, every);

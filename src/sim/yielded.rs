@@ -12,8 +12,13 @@
 //! in the domain; what enters is virgin.
 //!
 //! Columns and nodes are interpolated by cubics, not below zero; a column keeps its material, so nothing is worn down by
-//! being moved. What the interpolation misses, some 1e-3 of the depth, flows in the steps that follow. A knob that turns
-//! an amplitude scales the virgin relief; what has flowed stays.
+//! being moved. What the interpolation misses, some 1e-3 of the depth, flows in the steps that follow.
+//!
+//! *Amplitudes that are turned.* w belongs to the amplitude A_w at which it flowed. Below it the whole surface is scaled as
+//! it has become, w by A/A_w: a ripple that is turned away takes its flattened crests along and leaves no dents behind.
+//! Above it w stays, the crests are higher by what the relief has gained, and flow on by themselves. Where nothing flows
+//! meanwhile the way back finds the same surface. A smooth body, whose dents are the other's doing, has no amplitude and
+//! keeps them. The volume that is told has flowed, whatever became of the amplitude since.
 
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +51,8 @@ struct Skin {
     volume: f64,
     /// Way of the body when it was looked at last.
     way: f64,
+    /// A_w, film units; 0: the body is smooth, or nothing has flowed.
+    amplitude: f64,
 }
 
 impl Yielded {
@@ -79,23 +86,37 @@ impl Yielded {
         })
     }
 
-    /// Lowers the heights of body `body` by what has flowed.
-    pub(super) fn lower(&self, grid: &Grid, body: usize, way: Way, heights: &mut [f64]) {
+    /// Lowers the heights of body `body`, whose relief has an amplitude, by what has flowed.
+    pub(super) fn lower(
+        &self,
+        grid: &Grid,
+        body: usize,
+        (way, amplitude): (Way, f64),
+        heights: &mut [f64],
+    ) {
         if let Some(skin) = &self.skins[body]
             && skin.volume > 0.0
         {
-            skin.lower(grid, way.travelled, heights);
+            skin.lower(grid, way.travelled, skin.scale(amplitude), heights);
         }
     }
 
-    /// Takes what a step has yielded, with the bodies where the step has brought them; whether anything has.
-    pub(super) fn take(&mut self, grid: &Grid, yielded: &[f64], ways: [Way; 2]) -> bool {
+    /// Takes what a step has yielded, with the bodies where the step has brought them and their amplitudes; whether
+    /// anything has.
+    pub(super) fn take(
+        &mut self,
+        grid: &Grid,
+        yielded: &[f64],
+        ways: [Way; 2],
+        amplitudes: [f64; 2],
+    ) -> bool {
         let volume = grid.integrate(|n| yielded[n]);
-        for (skin, way) in self.skins.iter_mut().zip(ways) {
+        for ((skin, way), amplitude) in self.skins.iter_mut().zip(ways).zip(amplitudes) {
             let Some(skin) = skin else { continue };
             skin.renew(grid, way.travelled);
             if volume > 0.0 {
                 skin.volume += skin.share * volume;
+                skin.belong_to(amplitude);
                 skin.deepen(grid, yielded);
             }
         }
@@ -126,7 +147,26 @@ impl Skin {
             share,
             volume: 0.0,
             way: 0.0,
+            amplitude: 0.0,
         }
+    }
+
+    /// What is left of w at an amplitude.
+    fn scale(&self, amplitude: f64) -> f64 {
+        if amplitude < self.amplitude {
+            amplitude / self.amplitude
+        } else {
+            1.0
+        }
+    }
+
+    /// From now on w is that of this amplitude.
+    fn belong_to(&mut self, amplitude: f64) {
+        let scale = self.scale(amplitude);
+        if scale < 1.0 {
+            self.depth.iter_mut().for_each(|w| *w *= scale);
+        }
+        self.amplitude = amplitude;
     }
 
     fn fits(&self, saved: &Self) -> bool {
@@ -138,11 +178,13 @@ impl Skin {
             share,
             volume,
             way: _,
+            amplitude,
         } = saved;
         (*length, *returns, *columns, *share)
             == (self.length, self.returns, self.columns, self.share)
             && depth.len() == self.depth.len()
             && *volume >= 0.0
+            && *amplitude >= 0.0
             && depth.iter().all(|w| *w >= 0.0)
     }
 
@@ -159,7 +201,7 @@ impl Skin {
         ([0, 1, 2, 3].map(wrapped), weights)
     }
 
-    fn lower(&self, grid: &Grid, way: f64, heights: &mut [f64]) {
+    fn lower(&self, grid: &Grid, way: f64, scale: f64, heights: &mut [f64]) {
         let n = self.columns;
         for i in 0..grid.nx {
             let (columns, weights) = self.around(grid.x(i) - way);
@@ -167,7 +209,7 @@ impl Skin {
                 let depth = &self.depth[j * n..(j + 1) * n];
                 let pairs = columns.iter().zip(weights);
                 let w: f64 = pairs.map(|(&k, weight)| weight * depth[k]).sum();
-                row[i] -= w.max(0.0);
+                row[i] -= scale * w.max(0.0);
             }
         }
     }
@@ -237,11 +279,11 @@ mod tests {
         let grid = Grid::new(65, -3.0, 2.0, 2.0, Symmetry::MirrorY);
         for (repeats, back) in [(Some(0.7), true), (None, false)] {
             let mut yielded = Yielded::new(&grid, [true, false], [repeats; 2]);
-            yielded.take(&grid, &spot(&grid, -1.0), [way(0.33); 2]);
+            yielded.take(&grid, &spot(&grid, -1.0), [way(0.33); 2], [0.0; 2]);
             let round = yielded.skins[0].as_ref().map_or(0.0, |skin| skin.length);
             let seen = |yielded: &Yielded, travelled: f64, x: f64| {
                 let mut heights = vec![0.0; grid.len()];
-                yielded.lower(&grid, 0, way(travelled), &mut heights);
+                yielded.lower(&grid, 0, (way(travelled), 0.0), &mut heights);
                 let there = spot(&grid, x);
                 let off = heights.iter().zip(&there).map(|(z, w)| (z + w).abs());
                 off.fold(0.0, f64::max) / 1e-3
@@ -253,7 +295,7 @@ mod tests {
             let nothing = vec![0.0; grid.len()];
             for k in 1..=40 {
                 let travelled = 0.33 + round * f64::from(k) / 40.0;
-                yielded.take(&grid, &nothing, [way(travelled); 2]);
+                yielded.take(&grid, &nothing, [way(travelled); 2], [0.0; 2]);
             }
             let off = seen(&yielded, 0.33 + round, -1.0);
             assert_eq!(off < 0.02, back, "{off}");
@@ -261,5 +303,33 @@ mod tests {
             let whole = grid.integrate(|n| spot(&grid, -1.0)[n]);
             assert!((one / whole - 1.0).abs() < 1e-12 && two == 0.0);
         }
+    }
+
+    #[test]
+    fn a_surface_that_is_turned_down_takes_along_what_has_flowed() {
+        let grid = Grid::new(33, -3.0, 2.0, 2.0, Symmetry::MirrorY);
+        let mut yielded = Yielded::new(&grid, [true, true], [Some(0.7); 2]);
+        let deepest = |yielded: &Yielded, body: usize, amplitude: f64| {
+            let mut heights = vec![0.0; grid.len()];
+            yielded.lower(&grid, body, (way(0.0), amplitude), &mut heights);
+            heights.into_iter().fold(0.0, f64::min)
+        };
+        // Body 2 is smooth.
+        let (spot, at_rest) = (spot(&grid, 0.0), [way(0.0); 2]);
+        yielded.take(&grid, &spot, at_rest, [2.0, 0.0]);
+        let whole = deepest(&yielded, 0, 2.0);
+        assert!(whole < 0.0);
+        for (amplitude, left) in [(3.0, 1.0), (2.0, 1.0), (1.0, 0.5), (0.0, 0.0)] {
+            let off = deepest(&yielded, 0, amplitude) - left * whole;
+            assert!(off.abs() < 1e-15, "{amplitude}");
+            assert_eq!(deepest(&yielded, 1, 0.0), whole);
+        }
+        // What flows at half the amplitude comes to what is left at that amplitude, and stays on the way up.
+        yielded.take(&grid, &spot, at_rest, [1.0, 0.0]);
+        for amplitude in [1.0, 2.0] {
+            let off = deepest(&yielded, 0, amplitude) - 1.5 * whole;
+            assert!(off.abs() < 1e-12 * whole.abs(), "{off:e}");
+        }
+        assert_eq!(deepest(&yielded, 1, 0.0), 2.0 * whole);
     }
 }

@@ -3,12 +3,14 @@
 //! ```text
 //! secant         g = (1/η̄) ζ/asinh ζ                                  both ways
 //! along, across  g_x = cosh σ/η̄,   g_y = sinh σ/(σ η̄),   σ = min(asinh ζ, ℓP)
+//! steep          τ ← τ Φ(ε, r²) at faces along x,   ε = G H (P_b − P_a)/ΔX,   r² = 1/cosh²σ    means of both nodes
 //! ζ = Z η̄/H,     ∂ ln g/∂P = f' ∂σ/∂P − ∂ ln η̄/∂P,   ∂ ln g/∂H = f' ∂σ/∂H
 //! ```
 //! | symbol | meaning | shape |
 //! |---|---|---|
 //! | g | 1/η̄*, of which the faces take the logarithmic mean | ny × nx |
-//! | Z, ζ, σ, ℓ | as in `physics/fluid.rs` | |
+//! | Φ | what is left of the flow where the pressure is steep (`physics/eyring.rs`) | faces |
+//! | Z, ζ, σ, ℓ, G | as in `physics/fluid.rs` | |
 //!
 //! Both bodies move along x, so x is the direction of the sliding everywhere and the flow has no cross terms. Sliding at
 //! an angle φ to x would make of g a tensor, g_x cos²φ + g_y sin²φ on ∂P/∂x and (g_x − g_y) sin φ cos φ on ∂P/∂y in the
@@ -22,11 +24,11 @@ use rayon::prelude::*;
 
 use super::faces::{Nodes, Slopes};
 use super::reynolds::Medium;
-use crate::math::elementary::{asinh, exp};
+use super::steep::{Slid, Steep, SteepRows};
+use crate::math::elementary::exp;
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{
-    ShearedFlow, Viscosity, eyring_across, eyring_along, eyring_ln_factor,
-};
+use crate::physics::eyring;
+use crate::physics::fluid::{ShearedFlow, Viscosity};
 
 /// g of all nodes in one direction, its logarithm and the logarithm's derivatives by P and H.
 struct Values {
@@ -88,6 +90,8 @@ pub(super) struct Fluidity {
     across: Option<Values>,
     /// Whether `across` is meant.
     is_directed: bool,
+    /// What the flow along the sliding needs where the pressure is steep; no room before it is asked for.
+    steep: Steep,
 }
 
 impl Fluidity {
@@ -97,6 +101,7 @@ impl Fluidity {
             along: Values::new(n),
             across: None,
             is_directed: false,
+            steep: Steep::default(),
         }
     }
 
@@ -109,28 +114,39 @@ impl Fluidity {
         h: &[f64],
         block: usize,
     ) {
-        let limit = match medium.sheared {
-            ShearedFlow::AlongAcross { limit } => Some(limit),
+        let directed = match medium.sheared {
+            ShearedFlow::AlongAcross { limit, steepness } => Some((limit, steepness)),
             ShearedFlow::Secant => None,
         };
-        let two = limit.is_some() && grid.symmetry != Symmetry::Line;
+        let slides = medium.sliding > 0.0;
+        let two = directed.is_some() && grid.symmetry != Symmetry::Line;
+        // Made with the first evaluation, sliding or not: a knob that starts the sliding finds it.
         if two && self.across.is_none() {
-            // Made with the first evaluation, sliding or not: a knob that starts the sliding finds it.
             self.across = Some(Values::new(grid.len()));
         }
-        self.is_directed = two && medium.sliding > 0.0;
+        if directed.is_some() {
+            self.steep.make_room(grid.len());
+        }
+        self.is_directed = two && slides;
+        self.steep
+            .set(directed.filter(|_| slides).map(|d| d.1 / grid.dx));
         let states = || p.par_chunks(block).zip(h.par_chunks(block));
         let along = self.along.blocks(block).zip(states());
-        match (limit.filter(|_| medium.sliding > 0.0), &mut self.across) {
+        match (directed.filter(|_| slides), &mut self.across) {
             (None, _) => along.for_each(|(along, (p, h))| one_values(medium, p, h, along)),
-            (Some(limit), Some(across)) if two => {
-                let both = along.zip(across.blocks(block));
-                both.for_each(|((along, (p, h)), across)| {
-                    directed_values(medium, limit, p, h, along, across);
+            (Some((limit, _)), Some(across)) if two => {
+                let ways = along
+                    .zip(self.steep.blocks(block))
+                    .zip(across.blocks(block));
+                ways.for_each(|(((along, (p, h)), slid), across)| {
+                    directed_values(medium, limit, p, h, along, slid, across);
                 });
             }
-            (Some(limit), _) => {
-                along.for_each(|(along, (p, h))| along_values(medium, limit, p, h, along));
+            (Some((limit, _)), _) => {
+                let rows = along.zip(self.steep.blocks(block));
+                rows.for_each(|((along, (p, h)), slid)| {
+                    along_values(medium, limit, p, h, along, slid);
+                });
             }
         }
     }
@@ -155,6 +171,18 @@ impl Fluidity {
             g: &g[range.clone()],
             ln_g: &ln_g[range],
         }
+    }
+
+    /// What is left of the flow through the faces between the nodes from `start` on, along the sliding, where the pressure
+    /// is steep: `None` where its direction does not matter.
+    pub(super) fn steep<'a>(
+        &'a self,
+        (p, h): (&'a [f64], &'a [f64]),
+        start: usize,
+        faces: usize,
+    ) -> Option<SteepRows<'a>> {
+        let ln_g_h = &self.along.ln_g_h;
+        self.steep.rows((p, h, ln_g_h), start, faces)
     }
 
     /// What their derivatives need; `q_p` and `q_h` are those of ρ̄H³ of all nodes.
@@ -202,7 +230,7 @@ fn one_values(medium: &Medium, p: &[f64], h: &[f64], out: Rows) {
             let (ln_eta, slope) = (ln_g[i], ln_g_p[i]);
             // A closed gap conducts nothing, whatever its viscosity.
             let open = if h[i] > 0.0 { h[i] } else { 1.0 };
-            let (factor, by_zeta) = eyring_ln_factor(medium.sliding / open * exp(ln_eta));
+            let (factor, by_zeta) = eyring::ln_secant(medium.sliding / open * exp(ln_eta));
             ln_g[i] = factor - ln_eta;
             ln_g_p[i] = slope * (by_zeta - 1.0);
             ln_g_h[i] = if h[i] > 0.0 { -by_zeta / open } else { 0.0 };
@@ -219,70 +247,86 @@ fn one_values(medium: &Medium, p: &[f64], h: &[f64], out: Rows) {
 }
 }
 
-/// σ, ∂σ/∂P and ∂σ/∂H of a node.
+/// e^σ, 1/η̄, and of σ the derivatives by P and H.
 #[inline(always)]
 fn shear(
     (sliding, limit): (f64, f64),
     (ln_eta, slope): (f64, f64),
     p: f64,
     h: f64,
-) -> (f64, f64, f64) {
+) -> (f64, f64, f64, f64) {
+    let fluidity = exp(-ln_eta);
     // A closed gap conducts nothing, whatever its viscosity.
     let open = if h > 0.0 { h } else { 1.0 };
-    let zeta = sliding / open * exp(ln_eta);
-    let free = asinh(zeta);
-    let most = limit * p.max(0.0);
-    // dσ/d ln ζ = ζ/√(1 + ζ²), which is 1 to rounding beyond 1e8.
+    let zeta = sliding / (open * fluidity);
+    // e^asinh ζ = ζ + √(1 + ζ²), whose root is ζ to rounding beyond 1e8.
     let cut = zeta.min(1e8);
-    let by_ln_zeta = cut / (1.0 + cut * cut).sqrt();
-    let by_h = if h > 0.0 { -by_ln_zeta / open } else { 0.0 };
+    let root = (1.0 + cut * cut).sqrt();
+    let free = zeta + if zeta < 1e8 { root } else { zeta };
+    let most = exp(limit * p.max(0.0));
     if free < most {
-        (free, by_ln_zeta * slope, by_h)
+        let by_ln_zeta = cut / root;
+        let by_h = if h > 0.0 { -by_ln_zeta / open } else { 0.0 };
+        (free, fluidity, by_ln_zeta * slope, by_h)
     } else {
-        (most, limit, 0.0)
+        (most, fluidity, limit, 0.0)
     }
 }
 
 dispatched! {
 /// The fluidity along the sliding alone: of a line.
-fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: Rows) {
+fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: Rows, slid: Slid) {
     let n = p.len();
     let (h, g, ln_g) = (&h[..n], &mut out.g[..n], &mut out.ln_g[..n]);
     let (ln_g_p, ln_g_h) = (&mut out.ln_g_p[..n], &mut out.ln_g_h[..n]);
+    let (rest, rest_p) = (&mut slid.rest[..n], &mut slid.rest_p[..n]);
     viscosities(medium.viscosity, p, ln_g, ln_g_p);
     for i in 0..n {
         let (ln_eta, slope) = (ln_g[i], ln_g_p[i]);
-        let (sigma, by_p, by_h) = shear((medium.sliding, limit), (ln_eta, slope), p[i], h[i]);
-        let (factor, by_sigma) = eyring_along(sigma);
-        ln_g[i] = factor - ln_eta;
+        let (grown, thin, by_p, by_h) = shear((medium.sliding, limit), (ln_eta, slope), p[i], h[i]);
+        let (factor, ln_factor, by_sigma) = eyring::along(grown);
+        g[i] = factor * thin;
+        ln_g[i] = ln_factor - ln_eta;
         ln_g_p[i] = by_sigma * by_p - slope;
         ln_g_h[i] = by_sigma * by_h;
-        g[i] = exp(ln_g[i]);
+        rest[i] = 1.0 / (factor * factor);
+        rest_p[i] = -2.0 * rest[i] * by_sigma * by_p;
     }
 }
 }
 
 dispatched! {
 /// Both fluidities.
-fn directed_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], along: Rows, across: Rows) {
+fn directed_values(
+    medium: &Medium,
+    limit: f64,
+    p: &[f64],
+    h: &[f64],
+    along: Rows,
+    slid: Slid,
+    across: Rows,
+) {
     let n = p.len();
     let (h, x, y) = (&h[..n], along, across);
     let (x_g, x_ln, y_g, y_ln) = (&mut x.g[..n], &mut x.ln_g[..n], &mut y.g[..n], &mut y.ln_g[..n]);
     let (x_p, x_h, y_p, y_h) = (&mut x.ln_g_p[..n], &mut x.ln_g_h[..n], &mut y.ln_g_p[..n], &mut y.ln_g_h[..n]);
+    let (rest, rest_p) = (&mut slid.rest[..n], &mut slid.rest_p[..n]);
     viscosities(medium.viscosity, p, x_ln, x_p);
     for i in 0..n {
         let (ln_eta, slope) = (x_ln[i], x_p[i]);
-        let (sigma, by_p, by_h) = shear((medium.sliding, limit), (ln_eta, slope), p[i], h[i]);
-        let (x_factor, x_slope) = eyring_along(sigma);
-        let (y_factor, y_slope) = eyring_across(sigma);
-        x_ln[i] = x_factor - ln_eta;
+        let (grown, thin, by_p, by_h) = shear((medium.sliding, limit), (ln_eta, slope), p[i], h[i]);
+        let (x_factor, x_ln_factor, x_slope) = eyring::along(grown);
+        let (y_factor, y_ln_factor, y_slope) = eyring::across(grown);
+        x_g[i] = x_factor * thin;
+        x_ln[i] = x_ln_factor - ln_eta;
         x_p[i] = x_slope * by_p - slope;
         x_h[i] = x_slope * by_h;
-        x_g[i] = exp(x_ln[i]);
-        y_ln[i] = y_factor - ln_eta;
+        rest[i] = 1.0 / (x_factor * x_factor);
+        rest_p[i] = -2.0 * rest[i] * x_slope * by_p;
+        y_g[i] = y_factor * thin;
+        y_ln[i] = y_ln_factor - ln_eta;
         y_p[i] = y_slope * by_p - slope;
         y_h[i] = y_slope * by_h;
-        y_g[i] = exp(y_ln[i]);
     }
 }
 }

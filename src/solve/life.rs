@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use std::collections::VecDeque;
 
+use super::marks::Marks;
 use super::stress::Loading;
 use crate::math::ln_sum::{ln_list, ln_sum};
 use crate::physics::cycles::BodyId;
@@ -113,18 +114,11 @@ pub struct LifeMeter {
     total: f64,
     samples: u32,
     mean: Shares,
-    /// Way pushed since the last restart, and at which the next mark is due.
+    /// Way pushed since the last restart.
     way: f64,
-    next_mark: f64,
-    /// ln J under the full load of body 1 and of body 2, mark by mark, the oldest first.
-    #[serde(with = "ln_list")]
-    marks: Vec<f64>,
+    /// ln J under the full load of both bodies.
+    marks: Marks,
 }
-
-/// Marks in a period.
-const MARKS: f64 = 8.0;
-/// Marks kept: those of two periods, and the one that they began with.
-const MARKS_KEPT: usize = 17;
 
 impl LifeMeter {
     /// Meter of `depths` depths over `window`, with memory for `capacity` samples (at least 16).
@@ -143,8 +137,7 @@ impl LifeMeter {
             samples: 0,
             mean: Shares::new(depths),
             way: 0.0,
-            next_mark: 0.0,
-            marks: Vec::with_capacity(2 * (MARKS_KEPT + 1)),
+            marks: Marks::new(),
         }
     }
 
@@ -158,8 +151,7 @@ impl LifeMeter {
             && saved.phases.iter().all(|phase| phase.span > 0.0)
             && saved.window.period > 0.0
             && shares.all(|shares| shares.is_sound(depths))
-            && saved.marks.len() <= 2 * MARKS_KEPT
-            && saved.marks.len().is_multiple_of(2)
+            && saved.marks.is_sound()
     }
 
     /// Makes the room again that a copy or a file does not keep.
@@ -167,22 +159,15 @@ impl LifeMeter {
         let room = |held: usize| (self.capacity + 1).saturating_sub(held);
         self.phases.reserve_exact(room(self.phases.len()));
         self.spare.reserve_exact(room(self.spare.len()));
-        let marks = 2 * (MARKS_KEPT + 1);
-        self.marks
-            .reserve_exact(marks.saturating_sub(self.marks.len()));
+        self.marks.make_room();
     }
 
     /// Takes the mean over `window` from now on.
     pub fn set_window(&mut self, window: Window) {
         if window != self.window {
             self.window = window;
-            self.forget_marks();
+            self.marks.forget();
         }
-    }
-
-    fn forget_marks(&mut self) {
-        self.marks.clear();
-        self.next_mark = 0.0;
     }
 
     /// Forgets the samples (after a change of load, speed or roughness).
@@ -190,7 +175,7 @@ impl LifeMeter {
         self.spare.extend(self.phases.drain(..));
         (self.total, self.samples, self.way) = (0.0, 0, 0.0);
         self.mean.clear();
-        self.forget_marks();
+        self.marks.forget();
     }
 
     /// Takes the shares of a step of length `span`.
@@ -218,31 +203,20 @@ impl LifeMeter {
             self.merge_pairs();
         }
         self.take_mean();
-        if self.covers() && self.way >= self.next_mark * (1.0 - 1e-9) {
-            self.mark();
+        if self.covers() && self.marks.is_due(self.way) {
+            let now = BodyId::BOTH.map(|body| self.mean.ln(Loading::Full(body)));
+            self.marks.take(self.way, self.window.period, now);
         }
     }
 
-    fn mark(&mut self) {
-        self.next_mark = self.way + self.window.period / MARKS;
-        if self.marks.len() == 2 * MARKS_KEPT {
-            self.marks.drain(..2);
-        }
-        let now = BodyId::BOTH.map(|body| self.mean.ln(Loading::Full(body)));
-        self.marks.extend(now);
+    /// How far ln J moved since the mean first covered a period.
+    pub fn marks(&self) -> &Marks {
+        &self.marks
     }
 
-    /// Greatest change of ln J of either body over the last so many `periods`, at most two; `None` where the mean
-    /// has not covered a period for so long. Shifted by whole periods the two ends of the mean meet the same phases.
-    pub fn moved(&self, periods: f64) -> Option<f64> {
-        let back = 2 * (MARKS * periods).round() as usize;
-        let recent = self.marks.get(self.marks.len().checked_sub(back + 2)?..)?;
-        Some(range(recent))
-    }
-
-    /// Same since the mean first covered a period, two periods back at most; 0 where it has not.
-    pub fn wandered(&self) -> f64 {
-        range(&self.marks)
+    /// Way since the last restart, and the period of the mean.
+    pub fn way(&self) -> (f64, f64) {
+        (self.way, self.window.period)
     }
 
     fn merge_pairs(&mut self) {
@@ -292,19 +266,6 @@ impl LifeMeter {
         let span: f64 = self.phases.iter().map(|p| p.span).sum();
         span >= self.window.period * (1.0 - 1e-9)
     }
-}
-
-/// Greatest difference between marks of one body, the greater of both bodies.
-fn range(marks: &[f64]) -> f64 {
-    let of = |body: usize| {
-        let ln = marks.iter().skip(body).step_by(2);
-        let (low, high) = ln.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), ln| {
-            (low.min(*ln), high.max(*ln))
-        });
-        // Nothing at any time has not moved.
-        if low < high { high - low } else { 0.0 }
-    };
-    of(0).max(of(1))
 }
 
 /// The greatest of every row, or of every depth, over all samples since the last restart.
@@ -430,10 +391,10 @@ mod tests {
             let drift = at(way) * (0.01 * way).exp();
             drifting.push(1.0, &shares(drift, drift));
             if way < 1.5 * period - 1.0 {
-                assert_eq!(still.moved(0.5), None, "{way}");
+                assert_eq!(still.marks().moved(0.5), None, "{way}");
             }
         }
-        let [still, drifting] = [&still, &drifting].map(|m| m.moved(0.5).expect("marks"));
+        let [still, drifting] = [&still, &drifting].map(|m| m.marks().moved(0.5).expect("marks"));
         println!("moved: periodic {still:.4}, drifting {drifting:.4}");
         // Samples are taken for constant over their length: of the one that is cut at f its mean is off by f (1 - f)/2 of
         // the change to the next (0.98 at most), in each of the two windows, over a period's sum of 12.8: 0.019.
@@ -462,11 +423,11 @@ mod tests {
             closed.push(0.1, &shares(at(way), at(way)));
             if way > 12.0 {
                 // What is shown as its error holds the mean of all times, and shrinks.
-                assert!(far(&open) <= open.wandered(), "{way}");
+                assert!(far(&open) <= open.marks().wandered(), "{way}");
                 most_closed = most_closed.max(far(&closed));
             }
             if way > 100.0 {
-                most_open = most_open.max(open.wandered());
+                most_open = most_open.max(open.marks().wandered());
             }
         }
         println!("open wanders {most_open:.4}, closed is off by {most_closed:.4}");

@@ -34,6 +34,7 @@
 //!
 //! Lengths in a, stress in p_h. Memory is made once; steps allocate nothing.
 
+mod counts;
 mod spec;
 
 use serde::{Deserialize, Serialize};
@@ -41,7 +42,7 @@ use serde::{Deserialize, Serialize};
 pub use self::spec::TrackerSpec;
 pub use super::axis::Line;
 use super::damage::DamageMap;
-use super::tally::{Crossing, History, mean};
+use super::tally::{Crossing, History};
 pub use super::tally::{DamageBasis, Tally};
 use crate::physics::turning::{Peak, Peaks};
 
@@ -103,6 +104,8 @@ pub struct MaterialTracker {
     spec: TrackerSpec,
     points: Vec<Point>,
     crossings: u64,
+    /// Damage of all ended crossings' shear by depth, each without its greatest cycle.
+    ended: Vec<f64>,
     /// Samples of the shown point's crossing, oldest first from `oldest` on.
     trace: Vec<Sample>,
     oldest: usize,
@@ -138,6 +141,7 @@ impl MaterialTracker {
             spec,
             points: (0..count).map(point).collect(),
             crossings: 0,
+            ended: vec![0.0; spec.depths],
             trace: Vec::with_capacity(spec.trace.max(1)),
             oldest: 0,
             shown: 0,
@@ -169,6 +173,7 @@ impl MaterialTracker {
             && spec.shown_depth < spec.depths.max(1)
             && self.points.len() == saved.points.len()
             && points.all(|(own, saved)| own.fits(saved))
+            && self.ended.len() == saved.ended.len()
             && self.map.is_some() == saved.map.is_some()
             && self
                 .map
@@ -198,6 +203,7 @@ impl MaterialTracker {
             map.clear();
         }
         self.crossings = 0;
+        self.ended.fill(0.0);
         self.trace.clear();
         self.oldest = 0;
     }
@@ -241,6 +247,11 @@ impl MaterialTracker {
             let crossing = point.crossing;
             for history in point.histories() {
                 history.end(exponent, crossing);
+            }
+            for (ended, history) in self.ended.iter_mut().zip(&point.shear) {
+                *ended += history.tally.small_damage(exponent);
+            }
+            for history in point.histories() {
                 history.start(exponent);
             }
             point.peaks.start();
@@ -324,43 +335,6 @@ impl MaterialTracker {
     /// Whole crossings finished since the start.
     pub fn crossings(&self) -> u64 {
         self.crossings
-    }
-
-    /// Mean over the points' last whole crossings of the pressure's cycles; `None` until one is finished.
-    pub fn pressure_cycles(&self) -> Option<Tally> {
-        mean(self.points.iter().filter_map(|p| p.pressure.last))
-    }
-
-    /// Same of the signed shear at depth `k`.
-    pub fn shear_cycles(&self, k: usize) -> Option<Tally> {
-        mean(self.points.iter().filter_map(|p| p.shear.get(k)?.last))
-    }
-
-    /// Same of the effective stress at depth `k`; sizes are peaks.
-    pub fn effective_cycles(&self, k: usize) -> Option<Tally> {
-        mean(self.points.iter().filter_map(|p| p.effective.get(k)?.last))
-    }
-
-    /// Mean of the counts and of the equivalent cycles of every depth, on a basis, into `counted` and
-    /// `equivalent`; false until a crossing is finished.
-    pub fn cycles_by_depth(
-        &self,
-        basis: DamageBasis,
-        counted: &mut [f64],
-        equivalent: &mut [f64],
-    ) -> bool {
-        let mut known = !counted.is_empty();
-        for (k, (counted, equivalent)) in counted.iter_mut().zip(equivalent).enumerate() {
-            let tally = match basis {
-                DamageBasis::Ranges => self.shear_cycles(k),
-                DamageBasis::Peaks => self.effective_cycles(k),
-            };
-            known &= tally.is_some();
-            let tally = tally.unwrap_or_default();
-            // What never passes the gate is one loading cycle all the same.
-            (*counted, *equivalent) = (tally.count.max(1.0), tally.equivalent.max(1.0));
-        }
-        known
     }
 
     /// Damage of the block so far.

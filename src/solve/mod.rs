@@ -1,6 +1,7 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
 
-mod axis;
+pub(crate) mod axis;
+pub mod columns;
 mod converge;
 pub mod critical;
 pub mod damage;
@@ -14,6 +15,7 @@ pub mod krylov;
 pub mod life;
 mod line_sweep;
 pub mod march;
+pub mod marks;
 pub mod material;
 pub mod newton;
 mod newton_rows;
@@ -21,6 +23,7 @@ pub mod precondition;
 pub mod reynolds;
 mod reynolds_rows;
 mod shift;
+mod steep;
 pub mod stress;
 mod tally;
 pub mod tangential;

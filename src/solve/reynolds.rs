@@ -3,7 +3,8 @@
 //!
 //! ```text
 //! F = ρ̄H − C* − s ∇·(τ ∇P) = 0 where P > 0,   F ≥ 0 where P = 0
-//! τ at a face = harmonic mean of ρ̄H³ × logarithmic mean of g, over λ;   g: fluidity 1/η̄* along or across (`fluidity.rs`)
+//! τ at a face = harmonic mean of ρ̄H³ × logarithmic mean of g, over λ;   g: fluidity 1/η̄* along or across (`fluidity.rs`);
+//!     along the sliding of Eyring oil less where the pressure is steep (`steep.rs`)
 //! J v = A_P v + A_H (K v + h0),   A_P = ∂F/∂P at fixed H,   A_H = ∂F/∂H
 //! ```
 //! | symbol | meaning | shape |
@@ -140,7 +141,7 @@ impl Reynolds {
     }
 
     /// Conductances of all faces.
-    fn fill_faces(&mut self, grid: &Grid, lambda: f64) {
+    fn fill_faces(&mut self, grid: &Grid, lambda: f64, p: &[f64], h: &[f64]) {
         let nx = grid.nx;
         let (mut east, mut north) = (
             std::mem::take(&mut self.east),
@@ -157,6 +158,9 @@ impl Reynolds {
                 let b = nodes(Way::Along, j * nx + 1..(j + 1) * nx);
                 let out = &mut east[..nx - 1];
                 conductances(a.q, a.g, a.ln_g, b.q, b.g, b.ln_g, 1.0 / lambda, out);
+                if let Some(steep) = this.fluidity.steep((p, h), j * nx, nx - 1) {
+                    steep.lessen(out);
+                }
                 if j + 1 < grid.ny {
                     let a = nodes(Way::Across, j * nx..(j + 1) * nx);
                     let b = nodes(Way::Across, (j + 1) * nx..(j + 2) * nx);
@@ -177,7 +181,7 @@ impl Reynolds {
         c_star: &[f64],
         s: &[f64],
     ) {
-        self.fill_faces(grid, lambda);
+        self.fill_faces(grid, lambda, p, h);
         let nx = grid.nx;
         let weights = grid.flow_weights();
         let interior = grid.interior_rows();
@@ -290,12 +294,22 @@ mod tests {
         (reynolds, h)
     }
 
-    /// One law for both directions; tangent along and secant across, nowhere at the limiting stress; at
-    /// it at some of the nodes.
-    const FLOWS: [ShearedFlow; 3] = [
+    /// One law for both directions; along and across, nowhere at the limiting stress; at it at some of the nodes; with
+    /// slopes that are steep.
+    const FLOWS: [ShearedFlow; 4] = [
         ShearedFlow::Secant,
-        ShearedFlow::AlongAcross { limit: 1e3 },
-        ShearedFlow::AlongAcross { limit: 6.0 },
+        ShearedFlow::AlongAcross {
+            limit: 1e3,
+            steepness: 0.0,
+        },
+        ShearedFlow::AlongAcross {
+            limit: 6.0,
+            steepness: 0.0,
+        },
+        ShearedFlow::AlongAcross {
+            limit: 6.0,
+            steepness: 3.0,
+        },
     ];
 
     #[test]

@@ -41,6 +41,11 @@ impl Tally {
         self.range = self.range.max(size);
         self.equivalent = self.damage / self.range.powf(exponent);
     }
+
+    /// Damage without that of one greatest cycle.
+    pub(super) fn small_damage(&self, exponent: f64) -> f64 {
+        (self.damage - self.range.powf(exponent)).max(0.0)
+    }
 }
 
 /// One history: its counter and tally.
@@ -84,6 +89,11 @@ impl History {
             flow, tally, basis, ..
         } = self;
         flow.push(value, &mut |cycle| tally.add(cycle, *basis, exponent));
+    }
+
+    /// Least and greatest value so far.
+    pub(super) fn ends(&self) -> (f64, f64) {
+        self.flow.open_ends()
     }
 
     /// Starts a crossing at zero stress.

@@ -83,6 +83,9 @@ pub struct Shear {
     deflection: Vec<f64>,
     /// ω.
     share: f64,
+    /// Nodes of a row and the distance between them.
+    nx: usize,
+    dx: f64,
 }
 
 /// Least ω.
@@ -109,6 +112,8 @@ impl Shear {
             next: zero.clone(),
             deflection: zero,
             share: 1.0,
+            nx: grid.nx,
+            dx: grid.dx,
         }
     }
 
@@ -161,7 +166,10 @@ impl Shear {
     pub(super) fn aim(&mut self, sheared: &Sheared, p: &[f64], h: &[f64], least: f64) -> f64 {
         let law = sheared.law;
         for (n, q) in self.traction.iter_mut().enumerate() {
-            *q = law.traction_of(p[n], h[n], sheared.film[n] <= law.contact_film);
+            let inside = (1..self.nx - 1).contains(&(n % self.nx));
+            let rise = if inside { p[n + 1] - p[n - 1] } else { 0.0 };
+            let touches = sheared.film[n] <= law.contact_film;
+            *q = law.traction_of(p[n], h[n], 0.5 * rise / self.dx, touches);
         }
         self.tangential.deflect(&self.traction, &mut self.next);
         let (mut way, mut film) = (0.0, f64::MIN_POSITIVE);

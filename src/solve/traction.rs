@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! film      q = τ0 asinh(η|U2−U1|/(τ0 h))  (Ree-Eyring)   or  η|U2−U1|/h  (Newtonian),  at most γ p
+//! steep     q ← τ0 asinh(sinh(q/τ0) ε/sinh ε),   ε = h ∂p/∂x/(2τ0)       where the flow has a direction
 //! contact   q = μ_b p                                      where h is at or below the contact film
 //! ```
 //! | symbol | meaning | unit |
@@ -11,9 +12,12 @@
 //! | μ_b | boundary friction | 1 |
 //!
 //! Positive on body 1 when body 2 is the faster: it drags the slower body forward. Without sliding
-//! there is none. Sources: Eyring (1936); Bair and Winer (1979) for the limit.
+//! there is none. It is the mean over the film; the walls' own ± h ∂p/∂x/2 is left out. Where the pressure is steep the
+//! sliding needs less of it: the flow and the traction follow one law (`physics/eyring.rs`). The slope is that between
+//! both neighbours along x. Sources: Eyring (1936); Bair and Winer (1979) for the limit.
 
 use crate::math::elementary::{asinh, exp};
+use crate::physics::eyring::steep_stress;
 use crate::physics::fluid::Viscosity;
 
 /// The law, dimensionless.
@@ -40,6 +44,16 @@ pub struct FilmShear {
     pub eyring: Option<f64>,
     /// γ.
     pub limit: f64,
+    /// G = a p_h/(2 Rx τ0): ε of H ∂P/∂X = 1; 0: the stress knows no slope.
+    pub steepness: f64,
+}
+
+impl FilmShear {
+    /// Stress of a film where the pressure is steep, from that where it is not.
+    #[inline(always)]
+    fn on_slope(&self, tau0: f64, shear: f64, h: f64, slope: f64) -> f64 {
+        tau0 * steep_stress(shear / tau0, self.steepness * h * slope)
+    }
 }
 
 impl TractionLaw {
@@ -56,8 +70,8 @@ impl TractionLaw {
         p > 0.0 && h <= self.contact_film
     }
 
-    /// q of a row of nodes.
-    pub fn traction_row(&self, p: &[f64], h: &[f64], q: &mut [f64]) {
+    /// q of a row of nodes a distance `dx` apart.
+    pub fn traction_row(&self, dx: f64, p: &[f64], h: &[f64], q: &mut [f64]) {
         match (self.direction == 0.0, self.film) {
             (true, _) => q.fill(0.0),
             (false, None) => {
@@ -65,19 +79,19 @@ impl TractionLaw {
                     *q = self.direction * self.boundary * p.max(0.0);
                 }
             }
-            (false, Some(film)) => film_row(self, &film, p, h, q),
+            (false, Some(film)) => film_row(self, &film, dx, p, h, q),
         }
     }
 
-    /// q of one node.
+    /// q of one node where the pressure has no slope.
     #[inline]
     pub fn traction(&self, p: f64, h: f64) -> f64 {
-        self.traction_of(p, h, h <= self.contact_film)
+        self.traction_of(p, h, 0.0, h <= self.contact_film)
     }
 
-    /// The same where it is known whether the node is in contact.
+    /// The same with ∂P/∂X, where it is known whether the node is in contact.
     #[inline]
-    pub fn traction_of(&self, p: f64, h: f64, touches: bool) -> f64 {
+    pub fn traction_of(&self, p: f64, h: f64, slope: f64, touches: bool) -> f64 {
         if self.direction == 0.0 || p <= 0.0 {
             return 0.0;
         }
@@ -94,13 +108,18 @@ impl TractionLaw {
             Some(tau0) => tau0 * asinh(newtonian / tau0),
             None => newtonian,
         };
-        self.direction * shear.min(film.limit * p)
+        let shear = shear.min(film.limit * p);
+        let shear = match film.eyring {
+            Some(tau0) if film.steepness > 0.0 => film.on_slope(tau0, shear, open, slope),
+            _ => shear,
+        };
+        self.direction * shear
     }
 }
 
 dispatched! {
 /// [`TractionLaw::traction`] of a row, without branches inside its loops.
-fn film_row(law: &TractionLaw, film: &FilmShear, p: &[f64], h: &[f64], q: &mut [f64]) {
+fn film_row(law: &TractionLaw, film: &FilmShear, dx: f64, p: &[f64], h: &[f64], q: &mut [f64]) {
     let n = q.len();
     let (p, h) = (&p[..n], &h[..n]);
     // One loop a law, so that the law is no branch inside of it.
@@ -125,8 +144,19 @@ fn film_row(law: &TractionLaw, film: &FilmShear, p: &[f64], h: &[f64], q: &mut [
     }
     for i in 0..n {
         let most = film.limit * p[i];
-        let sheared = if q[i] < most { q[i] } else { most };
-        let size = if h[i] <= law.contact_film { law.boundary * p[i] } else { sheared };
+        q[i] = if q[i] < most { q[i] } else { most };
+    }
+    if let Some(tau0) = film.eyring.filter(|_| film.steepness > 0.0) {
+        for i in 1..n - 1 {
+            let slope = 0.5 * (p[i + 1] - p[i - 1]) / dx;
+            q[i] = film.on_slope(tau0, q[i], h[i].max(law.contact_film), slope);
+        }
+        for i in [0, n - 1] {
+            q[i] = film.on_slope(tau0, q[i], 0.0, 0.0);
+        }
+    }
+    for i in 0..n {
+        let size = if h[i] <= law.contact_film { law.boundary * p[i] } else { q[i] };
         q[i] = if p[i] > 0.0 { law.direction * size } else { 0.0 };
     }
 }
@@ -142,16 +172,18 @@ mod tests {
             .map(|n| (0.07 * f64::from(n) - 0.2).max(0.0))
             .collect();
         let h: Vec<f64> = (0..40).map(|n| 0.02 * (0.5 * f64::from(n)).sin()).collect();
+        let dx = 0.05;
         for viscosity in [
             Viscosity::barus(2e-8, 1.5e9),
             Viscosity::roelands(0.08, 2e-8, 1.5e9),
         ] {
-            for eyring in [None, Some(3e-3)] {
+            for (eyring, steepness) in [(None, 0.0), (Some(3e-3), 0.0), (Some(3e-3), 40.0)] {
                 let law = TractionLaw {
                     film: Some(FilmShear {
                         rate: 1e-6,
                         eyring,
                         limit: 0.08,
+                        steepness,
                     }),
                     viscosity,
                     boundary: 0.1,
@@ -160,9 +192,16 @@ mod tests {
                 };
                 let mut q = vec![f64::NAN; 40];
                 for law in [law, TractionLaw { film: None, ..law }] {
-                    law.traction_row(&p, &h, &mut q);
+                    law.traction_row(dx, &p, &h, &mut q);
                     for n in 0..40 {
-                        assert_eq!(q[n], law.traction(p[n], h[n]), "node {n}");
+                        let inside = (1..39).contains(&n);
+                        let slope = if inside {
+                            0.5 * (p[n + 1] - p[n - 1]) / dx
+                        } else {
+                            0.0
+                        };
+                        let node = law.traction_of(p[n], h[n], slope, h[n] <= 1e-4);
+                        assert_eq!(q[n], node, "node {n}");
                     }
                 }
             }
@@ -176,6 +215,7 @@ mod tests {
                 rate: 1e-6,
                 eyring: Some(3e-3),
                 limit: 0.08,
+                steepness: 2.0,
             }),
             viscosity: Viscosity::barus(0.0, 1e9),
             boundary: 0.1,
@@ -189,6 +229,13 @@ mod tests {
         // Limit.
         law.viscosity = Viscosity::barus(2e-8, 1e9 * 10.0);
         assert!((law.traction(1.0, 0.1) - 0.08).abs() < 1e-15);
+        // On a slope the sliding needs less; film and slope count, whatever the slope's sign.
+        let [flat, up, down] =
+            [0.0, 0.5, -0.5].map(|slope| law.traction_of(1.0, 0.1, slope, false));
+        assert!(
+            up < flat && up == down && (flat / 0.08 - 1.0).abs() < 1e-12,
+            "{flat} {up}"
+        );
         law.direction = -1.0;
         assert!((law.traction(1.0, 0.1) + 0.08).abs() < 1e-15);
         law.direction = 0.0;

@@ -1,16 +1,18 @@
 //! What the numbers were measured on, as far as it matters for ratios.
 
+use crate::math::number::counted;
+
 /// Cores and family of the processor, such as `2 cores of family 6 (x86_64)`.
 pub fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let plural = if cores == 1 { "" } else { "s" };
+    let cores = counted(cores as u64, "core");
     let family = std::fs::read_to_string("/proc/cpuinfo")
         .ok()
         .and_then(|text| family_of(&text));
     let vectors = vectors();
     match family {
-        Some(family) => format!("{cores} core{plural} of {family} ({vectors})"),
-        None => format!("{cores} core{plural} ({vectors})"),
+        Some(family) => format!("{cores} of {family} ({vectors})"),
+        None => format!("{cores} ({vectors})"),
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod crew;
+pub mod evidence;
 mod machine;
 mod peers;
 pub mod pruning;

@@ -2,11 +2,13 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use crate::physics::estimate::{EstimateBasis, FilmBasis, OilBasis, SurfaceWave, ln_tractions};
+use crate::physics::estimate::{
+    Count, EstimateBasis, FilmBasis, OilBasis, SurfaceWave, ln_tractions,
+};
 use crate::physics::fatigue::LifeLaw;
 use crate::physics::hertz::HertzShape;
 use crate::physics::waviness::Waviness;
-use crate::scene::{Rheology, Scene, Surface, ViscosityLaw};
+use crate::scene::{CycleBasis, Rheology, Scene, Surface, ViscosityLaw};
 use crate::tui::app::Setup;
 
 /// Ellipses from this b/a on are taken for lines.
@@ -40,6 +42,10 @@ pub fn basis(setup: &Setup) -> EstimateBasis {
         e_prime_pa: scene.e_prime_pa(),
         poisson,
         law,
+        count: match life.cycles {
+            CycleBasis::Damage => Count::Damage,
+            _ => Count::Contacts,
+        },
         oil: oil(scene),
         boundary: scene.friction.boundary,
         ln_traction: ln_tractions(section, poisson, law),

@@ -14,11 +14,11 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::Duration;
 
+use crate::common::tui_fixture::setup_planned;
 use asperity::plan::Plan;
 use asperity::scene::{ContactKind, Override, Scene};
 use asperity::sim::{Frame, Simulation};
-use asperity::tui::app::{App, Leading, Setup};
-use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
+use asperity::tui::app::{App, Leading};
 use asperity::tui::view;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -293,20 +293,7 @@ impl Screen {
         let scene = Scene::load_with(&case.scene, &sets).unwrap();
         let (kind, plan) = (scene.kind(), Plan::new(&scene).unwrap());
         let mut sim = Simulation::new(&scene, plan.clone(), 2).unwrap();
-        let mut app = App::new(Setup {
-            scene: Arc::new(scene),
-            name: case.scene.clone(),
-            load_n: plan.force_n,
-            half_width_m: plan.hertz.a_m,
-            p_hertz_pa: plan.hertz.p_max_pa,
-            plan_text: String::new(),
-            left_out: Vec::new(),
-            errands: Vec::new(),
-            theme: Theme::new(Capabilities {
-                depth: ColorDepth::Mono,
-                glyphs: Glyphs::Unicode,
-            }),
-        });
+        let mut app = App::new(setup_planned(&scene, &case.scene, &plan));
         while !sim.is_done() {
             sim.step().unwrap();
         }
@@ -458,6 +445,11 @@ fn of_the_last_step(w: &Written, screen: &Screen, line: bool) -> Vec<Row> {
         "series/load_N"
     };
     let rows = [
+        three(
+            "yielded_body_1_m3",
+            w.recorded("series/yielded_um3", 0, 1e18),
+            None,
+        ),
         three(
             "p_max_pa",
             w.recorded("series/pressure_GPa", 0, 1e-9),

@@ -1,6 +1,6 @@
 //! A contact given by Moes' groups, marched by the solver alone: what the tables are made of.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
@@ -42,6 +42,21 @@ impl Fluid {
             sheared: ShearedFlow::Secant,
         }
     }
+}
+
+/// No oil at all.
+pub(crate) const DRY: Medium = Medium {
+    viscosity: Viscosity::Barus { alpha_p: 0.0 },
+    density: Density::Incompressible,
+    lambda: f64::INFINITY,
+    sliding: 0.0,
+    sheared: ShearedFlow::Secant,
+};
+
+/// Gap `−cos cos` over one wave of length 1, of Johnson, Greenwood and Higginson (1985).
+pub(crate) fn bisinusoidal_gap(grid: &Grid) -> Vec<f64> {
+    let wave = |n: usize| (TAU * grid.x(n % grid.nx)).cos() * (TAU * grid.y(n / grid.nx)).cos();
+    (0..grid.len()).map(|n| -wave(n)).collect()
 }
 
 /// A circular contact.

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Duration;
 
+use asperity::plan::Plan;
 use asperity::run::{Command, Settled};
 use asperity::scene::{Body, Contact, ContactKind, Life, Load, Motion, Record, Scene, Surface};
 use asperity::sim::{
@@ -413,6 +414,18 @@ pub(crate) fn setup_of(scene: Scene) -> Setup {
         left_out: Vec::new(),
         errands: vec![ErrandKind::Rebuild],
         theme: plain(),
+    }
+}
+
+/// The explorer's set-up of a scene as its plan has it, with nothing to run errands.
+pub(crate) fn setup_planned(scene: &Scene, name: &str, plan: &Plan) -> Setup {
+    Setup {
+        name: name.into(),
+        load_n: plan.force_n,
+        half_width_m: plan.hertz.a_m,
+        p_hertz_pa: plan.hertz.p_max_pa,
+        errands: Vec::new(),
+        ..setup_of(scene.clone())
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
+use crate::common::contact::bisinusoidal_gap;
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::solve::dry::{Dry, DryProblem};
 use asperity::solve::film::Elastic;
@@ -21,8 +22,7 @@ fn solved(nodes: usize, mean: f64) -> Solved {
     // K̂ = 2πκ/k and gap amplitude 1 at k = √2 2π: p* = k/(2πκ) = 1.
     let mut elastic = Elastic::periodic(&grid, SQRT_2);
     let mut dry = Dry::new(&grid, &elastic);
-    let wave = |n: usize| (TAU * grid.x(n % nodes)).cos() * (TAU * grid.y(n / nodes)).cos();
-    let gap: Vec<f64> = (0..grid.len()).map(|n| -wave(n)).collect();
+    let gap = bisinusoidal_gap(&grid);
     let (mut p, mut h, mut h0) = (vec![0.0; grid.len()], vec![0.0; grid.len()], 0.0);
     let report = dry.solve(
         &mut elastic,

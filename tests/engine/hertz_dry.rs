@@ -1,24 +1,14 @@
 //! The dry limit: Hertz by constrained conjugate gradients, from nothing and from a poor guess, against
 //! the errors of public codes on as many nodes (`assets/reference/dry.csv`).
 
-use crate::common::contact::{CIRCLE, LOAD, conditions};
+use crate::common::contact::{CIRCLE, DRY, LOAD, conditions};
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{
     Iterate, Newton, NewtonReport, Problem, Sheared, Tolerance, Verdict,
 };
-use asperity::solve::reynolds::Medium;
 use asperity::solve::tangential::{Shear, Tangential};
 use asperity::solve::traction::TractionLaw;
-
-const DRY: Medium = Medium {
-    viscosity: Viscosity::Barus { alpha_p: 0.0 },
-    density: Density::Incompressible,
-    lambda: f64::INFINITY,
-    sliding: 0.0,
-    sheared: ShearedFlow::Secant,
-};
 
 fn tolerance(pressure: f64) -> Tolerance {
     Tolerance {

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::contact::Fluid;
+use crate::common::contact::{DRY, Fluid};
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::plan::{LINE_ROWS, Plan};
 use asperity::scene::{ContactKind, Override, Scene, StressMeasure};
 use asperity::sim::{Frame, Knob, Simulation};
@@ -35,13 +34,6 @@ fn conditions(medium: &Medium, tolerance: Tolerance) -> Conditions<'_> {
 
 #[test]
 fn dry_hertz() {
-    let dry = Medium {
-        viscosity: Viscosity::barus(0.0, 1e9),
-        density: Density::Incompressible,
-        lambda: f64::INFINITY,
-        sliding: 0.0,
-        sheared: ShearedFlow::Secant,
-    };
     let tolerance = Tolerance {
         pressure: 1e-8,
         film: f64::INFINITY,
@@ -60,7 +52,7 @@ fn dry_hertz() {
             *p = (0.8 - grid.x(n).powi(2)).max(0.0);
         }
         march.state.history.h0[0] -= 0.3;
-        let report = march.attempt(&conditions(&dry, tolerance), 1.0, Guess::Last);
+        let report = march.attempt(&conditions(&DRY, tolerance), 1.0, Guess::Last);
         assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
         march.commit(1.0);
         let (p, grid) = (&march.state.pressure, &march.solver.grid);

@@ -22,6 +22,7 @@ mod motions;
 mod plan;
 mod random_scenes;
 mod regime;
+mod ripple;
 mod scene;
 mod session;
 mod simulation;

@@ -6,14 +6,12 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use crate::common::contact::{CIRCLE, LOAD, conditions};
+use crate::common::contact::{CIRCLE, DRY, LOAD, bisinusoidal_gap, conditions};
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::solve::dry::{Dry, DryProblem};
 use asperity::solve::film::Elastic;
 use asperity::solve::march::{Flow, Guess, March};
 use asperity::solve::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
-use asperity::solve::reynolds::Medium;
 use asperity::solve::yielding::Yielding;
 
 /// A periodic surface of length 1 that is pressed and let go; pressures in p*.
@@ -29,10 +27,9 @@ struct Block {
 impl Block {
     fn new(nodes: usize) -> Self {
         let grid = Grid::new(nodes, 0.0, 1.0, 0.5, Symmetry::General);
-        let wave = |n: usize| (TAU * grid.x(n % nodes)).cos() * (TAU * grid.y(n / nodes)).cos();
         Self {
             elastic: Elastic::periodic(&grid, SQRT_2),
-            gap: (0..grid.len()).map(|n| -wave(n)).collect(),
+            gap: bisinusoidal_gap(&grid),
             p: vec![0.0; grid.len()],
             h: vec![0.0; grid.len()],
             h0: 0.0,
@@ -214,13 +211,6 @@ fn unloading_leaves_the_shape_and_reloading_is_elastic() {
 /// and the same depth.
 #[test]
 fn conjugate_gradients_and_newton_yield_alike() {
-    const DRY: Medium = Medium {
-        viscosity: Viscosity::Barus { alpha_p: 0.0 },
-        density: Density::Incompressible,
-        lambda: f64::INFINITY,
-        sliding: 0.0,
-        sheared: ShearedFlow::Secant,
-    };
     let asked = Tolerance {
         pressure: 1e-7,
         film: f64::INFINITY,

@@ -4,7 +4,7 @@
 use crate::common::stiff::{self, Stiff};
 use asperity::plan::Plan;
 use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation, Stage};
+use asperity::sim::{CautionCode, Frame, Knob, Simulation, Stage};
 
 /// Hardness of steel of 60 HRC, Pa.
 const H_PA: f64 = 6.84e9;
@@ -16,12 +16,12 @@ fn simulation(preset: &str, sets: &[String]) -> Simulation {
 }
 
 /// The stiff set with a hardness of both bodies.
-fn stiff(p_hertz_pa: f64, speed_m_s: f64, slide_roll: f64, hardness: Option<f64>) -> Vec<String> {
+fn stiff(nodes: usize, speed_m_s: f64, slide_roll: f64, hardness: Option<f64>) -> Vec<String> {
     let mut sets = stiff::sets(Stiff {
-        p_hertz_pa,
+        p_hertz_pa: 4.3e9,
         speed_m_s,
         slide_roll,
-        nodes: 65,
+        nodes,
     });
     for body in [1, 2] {
         let given = hardness.map_or("none".to_owned(), |pa| format!("{pa:e}"));
@@ -87,16 +87,27 @@ fn the_stiff_set_stays_at_the_hardness() {
         (1e-3, 2.0),
         (1e-4, -2.0),
     ] {
-        let elastic = run(&stiff(4.3e9, speed, slide_roll, None), 20);
-        println!("{speed} {slide_roll} elastic {elastic:?}");
-        for hardness in [H_PA, 5e9] {
-            let yields = run(&stiff(4.3e9, speed, slide_roll, Some(hardness)), 20);
-            println!("{speed} {slide_roll} {hardness:e} {yields:?}");
-            assert!(yields.p_max_pa <= hardness * (1.0 + 1e-9));
-            assert!(yields.load <= 1e-5 && yields.mass <= 1e-4 && yields.not_converged == 0);
-            assert_eq!(yields.yielded_m3 > 0.0, elastic.p_max_pa > hardness);
-            assert!(yields.newton <= elastic.newton, "{speed} {slide_roll}");
-        }
+        stays_at_the_hardness(65, speed, slide_roll, &[H_PA, 5e9]);
+    }
+}
+
+#[test]
+#[ignore = "minutes: one of the set at twice the nodes, for assets/reports/hardness.md"]
+fn a_stiff_case_on_a_finer_grid_stays_at_the_hardness() {
+    stays_at_the_hardness(129, 0.1, 2.0, &[H_PA]);
+}
+
+/// Twenty steps of a stiff case, elastic and with each hardness: bounds, and what it costs.
+fn stays_at_the_hardness(nodes: usize, speed: f64, slide_roll: f64, hardnesses: &[f64]) {
+    let elastic = run(&stiff(nodes, speed, slide_roll, None), 20);
+    println!("{nodes} {speed} {slide_roll} elastic {elastic:?}");
+    for &hardness in hardnesses {
+        let yields = run(&stiff(nodes, speed, slide_roll, Some(hardness)), 20);
+        println!("{nodes} {speed} {slide_roll} {hardness:e} {yields:?}");
+        assert!(yields.p_max_pa <= hardness * (1.0 + 1e-9));
+        assert!(yields.load <= 1e-5 && yields.mass <= 1e-4 && yields.not_converged == 0);
+        assert_eq!(yields.yielded_m3 > 0.0, elastic.p_max_pa > hardness);
+        assert!(yields.newton <= elastic.newton, "{speed} {slide_roll}");
     }
 }
 
@@ -287,14 +298,138 @@ fn a_body_too_soft_for_the_load_is_refused() {
     assert!(refused.contains("half the Hertz pressure"), "{refused}");
 }
 
+#[test]
+fn a_load_that_no_body_carries_is_refused_from_events_and_from_hands() {
+    let scene = Scene::load("demonstration").unwrap();
+    let (force, p_hertz_pa) = (scene.force_n(), scene.hertz().p_max_pa);
+    let hardness: Override = format!("body_2.hardness_pa={:e}", 0.55 * p_hertz_pa)
+        .parse()
+        .unwrap();
+    let soft = Scene::load_with("demonstration", &[hardness]).unwrap();
+    let with = |load: f64| {
+        let event = format!("[[event]]\nat_s = 1e-3\nset = {{ \"load.force_n\" = {load} }}\n");
+        Scene::from_toml(&format!("{}\n{event}", soft.to_toml()))
+    };
+    // Hertz's pressure goes with the cube root of the load.
+    let most = force * 1.1_f64.powi(3);
+    assert!(with(0.999 * most).is_ok());
+    let refused = with(1.001 * most).unwrap_err().to_string();
+    assert!(
+        refused.contains("event[0].set") && refused.contains("twice the hardness"),
+        "{refused}"
+    );
+    let mut sim = Simulation::new(&soft, Plan::new(&soft).unwrap(), 1).unwrap();
+    sim.set(Knob::ForceN, 0.999 * most).unwrap();
+    let refused = sim.set(Knob::ForceN, 1.001 * most).unwrap_err().to_string();
+    assert!(refused.contains("twice the hardness"), "{refused}");
+}
+
+#[test]
+fn what_has_flowed_goes_with_an_amplitude_that_is_turned_away() {
+    let sets = [
+        "grid.nodes=65",
+        "time.passages=4",
+        "life=none",
+        "stress=none",
+        "body_1.hardness_pa=2e9",
+        "body_2.hardness_pa=2e9",
+    ]
+    .map(str::to_owned);
+    let mut sim = simulation("demonstration", &sets);
+    let mut frame = Frame::default();
+    let step = |sim: &mut Simulation, frame: &mut Frame| {
+        sim.step().unwrap();
+        assert!(sim.metrics().converged);
+        sim.fill(frame);
+    };
+    while sim.passage_steps() < 8 {
+        step(&mut sim, &mut frame);
+    }
+    let highest = |frame: &Frame| {
+        let heights = frame.roughness_1_m.iter().chain(&frame.roughness_2_m);
+        heights.fold(0.0_f32, |most, z| most.max(z.abs()))
+    };
+    let flowed = sim.metrics().yielded_m3.unwrap();
+    assert!(highest(&frame) > 1e-8 && flowed[0] > 0.0 && flowed[1] > 0.0);
+    for knob in [Knob::Amplitude1M, Knob::Amplitude2M] {
+        sim.set(knob, 0.0).unwrap();
+    }
+    while sim.metrics().amplitude_1_m + sim.metrics().amplitude_2_m > 0.0 {
+        step(&mut sim, &mut frame);
+    }
+    // Neither crests nor the dents in their places.
+    assert!(highest(&frame) < 1e-12, "{}", highest(&frame));
+    let told = sim.metrics().yielded_m3.unwrap();
+    assert!(told[0] >= flowed[0] && told[1] >= flowed[1]);
+}
+
+#[test]
+fn what_flows_passage_after_passage_is_named() {
+    let mut sets = GROUND.map(str::to_owned).to_vec();
+    sets.extend(["life=none", "stress=none", "record=none", "time.passages=2"].map(str::to_owned));
+    let mut sim = simulation("fzg_point_b", &sets);
+    while !sim.is_done() {
+        sim.step().unwrap();
+    }
+    let summary = sim.summary();
+    let named = summary
+        .cautions
+        .iter()
+        .find(|caution| caution.code == CautionCode::StillYielding);
+    println!("{:?} {named:?}", summary.yielded_last_share);
+    assert!(summary.yielded_last_share.unwrap() > 0.001 && named.is_some());
+}
+
 /// Flanks as ground, 1.5 µm Ra in all, of the gear presets: crests that no steel carries (as in `tests/life/counts.rs`).
-const GROUND: &[&str] = &[
+const GROUND: [&str; 5] = [
     "grid.nodes=513",
     "body_1.surface.amplitude_m=7.212e-7",
     "body_1.surface.wavelength_x_m=3e-5",
     "body_2.surface.amplitude_m=5.657e-7",
     "body_2.surface.wavelength_x_m=3e-5",
 ];
+
+/// Lives of the gear presets after each part of what decides them: flow along the sliding, hardness, how cycles count.
+///
+/// `cargo test --release --test engine yielding_steps::gear_lives -- --ignored --nocapture`; the table stands in
+/// `assets/reports/hardness.md`. The last column's count is the preset's own, the others' the paper's.
+#[test]
+#[ignore = "minutes: prints a table"]
+fn gear_lives() {
+    println!(
+        "| case | secant, elastic, global | along_across, elastic, global | along_across, 6.84 GPa, global | along_across, 6.84 GPa, its own count |"
+    );
+    println!("|---|---|---|---|---|");
+    for preset in [
+        "fzg_pitch_point",
+        "fzg_point_b",
+        "fzg_point_a",
+        "fzg_point_e",
+    ] {
+        for (label, surfaces) in [("", &[][..]), (" as ground", &GROUND[..])] {
+            let life = |flow: &str, hardness: &str, cycles: Option<&str>| {
+                let mut sets: Vec<String> = surfaces.iter().map(ToString::to_string).collect();
+                sets.extend(["record=none".to_owned(), "time.passages=2".to_owned()]);
+                sets.push(format!("lubricant.eyring_flow={flow}"));
+                sets.extend([1, 2].map(|body| format!("body_{body}.hardness_pa={hardness}")));
+                sets.extend(cycles.map(|cycles| format!("life.cycles={cycles}")));
+                let mut sim = simulation(preset, &sets);
+                while !sim.is_done() {
+                    sim.step().unwrap();
+                }
+                format!("{:.2e}", sim.summary().life_relative.unwrap())
+            };
+            let global = Some("global");
+            println!(
+                "| {preset}{label} | {} | {} | {} | {} |",
+                life("secant", "none", global),
+                life("along_across", "none", global),
+                life("along_across", "6.84e9", global),
+                life("along_across", "6.84e9", None),
+            );
+        }
+    }
+}
 
 /// Writes assets/reports/hardness.md: lives of gear flanks, elastic and at the hardness of 60 HRC.
 #[test]
@@ -321,8 +456,8 @@ fn report() {
     ] {
         for (label, sets, passages) in [
             ("", &[][..], 2),
-            (" as ground", GROUND, 2),
-            (" as ground", GROUND, 6),
+            (" as ground", &GROUND[..], 2),
+            (" as ground", &GROUND[..], 6),
         ] {
             let run = |hardness: &str| {
                 let mut sets: Vec<String> = sets.iter().map(ToString::to_string).collect();

@@ -1,6 +1,8 @@
 //! The floors of the house: imports go downward only, foreign crates stay in their room, files stay short.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+mod guide;
+
 use std::path::Path;
 
 /// From the cellar to the roof. A file may import its own floor and those before it.

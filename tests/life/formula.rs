@@ -6,16 +6,14 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::fmt::Write as _;
-use std::sync::Arc;
 
+use crate::common::tui_fixture::setup_planned;
 use asperity::math::number::sig;
 use asperity::physics::estimate::{EstimateBasis, Factors, OperatingPoint};
 use asperity::plan::Plan;
 use asperity::scene::{ContactKind, Override, Scene, Surface};
 use asperity::sim::{LifeEstimate, Simulation, Stage};
-use asperity::tui::app::Setup;
 use asperity::tui::estimate::basis;
-use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 
 const COMMAND: &str = "cargo test --release --test life formula:: -- --ignored --nocapture";
 const REPORT: &str = "assets/reports/formula.md";
@@ -27,20 +25,7 @@ fn scene(name: &str, sets: &[&str]) -> Scene {
 
 fn basis_of(scene: &Scene) -> EstimateBasis {
     let plan = Plan::new(scene).unwrap();
-    basis(&Setup {
-        scene: Arc::new(scene.clone()),
-        name: String::new(),
-        load_n: plan.force_n,
-        half_width_m: plan.hertz.a_m,
-        p_hertz_pa: plan.hertz.p_max_pa,
-        plan_text: String::new(),
-        left_out: Vec::new(),
-        errands: Vec::new(),
-        theme: Theme::new(Capabilities {
-            depth: ColorDepth::Mono,
-            glyphs: Glyphs::Unicode,
-        }),
-    })
+    basis(&setup_planned(scene, "", &plan))
 }
 
 fn point_of(scene: &Scene) -> OperatingPoint {

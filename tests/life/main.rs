@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod counts;
+mod damage;
 mod formula;
 mod integrals;
 mod passages;

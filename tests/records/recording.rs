@@ -341,6 +341,29 @@ fn scalars_come_back_as_they_were() {
 }
 
 #[test]
+fn what_both_bodies_have_yielded_is_a_curve_once_something_has() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    // Elastic; then with a hardness, and from the third step on something flows.
+    let flown = |step: u64| [2e-18 * (step.max(2) - 2) as f64, 0.0];
+    for (has_hardness, rows) in [(false, 0), (true, STEPS - 2)] {
+        let mut frames = frames(STEPS);
+        for frame in frames.iter_mut().filter(|_| has_hardness) {
+            let frame = Arc::make_mut(frame);
+            frame.metrics.yielded_m3 = Some(flown(frame.step));
+        }
+        let _ = std::fs::remove_file(&path);
+        record(&path, &every_step(), &frames);
+        let curve = Contents::read(&path).scalars("series/yielded_um3");
+        assert_eq!(curve.len() as u64, rows);
+        for (step, both) in curve {
+            let expected = flown(u64::try_from(step).unwrap()).map(|volume| volume * 1e18);
+            assert_eq!(both, expected);
+        }
+    }
+}
+
+#[test]
 fn what_stays_is_logged_once_and_the_file_explains_itself() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");

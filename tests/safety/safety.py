@@ -124,12 +124,16 @@ def memory(program, folder):
                 steps = table.read_text().count("\n") - 1
                 if found and steps > 0:
                     seen.append((steps, int(found[1]) / 1024))
-        # Before the end, when the finished recording is bound into its last form.
-        last = next(look for look in seen if look[0] >= 0.98 * seen[-1][0])
-        early = next(rss for steps, rss in seen if steps >= 0.1 * last[0])
-        growth = last[1] / early - 1
-        what = f"{early:.1f} MB after a tenth, {last[1]:.1f} MB after {last[0]} steps: {100 * growth:+.1f} %"
+        # After the last step the recording is bound, which takes a chunk of each entity into memory: apart from the steps.
+        total = seen[-1][0]
+        stepping = [rss for steps, rss in seen if steps < total]
+        last = stepping[-1]
+        early = next(rss for steps, rss in seen if steps >= 0.1 * total)
+        growth = last / early - 1
+        what = f"{early:.1f} MB after a tenth, {last:.1f} MB before the last of {total} steps: {100 * growth:+.1f} %"
         check(abs(growth) < 0.03, f"memory, {name}: {what}")
+        bound = max(rss for steps, rss in seen if steps == total) - last
+        check(bound < 64, f"memory, {name}, at the end: {bound:+.1f} MB")
 
 
 def live(program, folder):

@@ -7,14 +7,14 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use crate::common::tui_fixture::setup_planned;
 use asperity::physics::cycles::{BodyId, Kinematics};
 use asperity::plan::Plan;
 use asperity::run::Command;
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Frame, Knob, Metrics, Simulation, Stage};
 use asperity::tui::action::Action;
-use asperity::tui::app::{App, Effect, Leading, Setup};
-use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
+use asperity::tui::app::{App, Effect, Leading};
 use asperity::tui::units::sig;
 use asperity::tui::view;
 use ratatui::Terminal;
@@ -72,20 +72,7 @@ impl Bench {
     fn new(scene: &Scene) -> Self {
         let plan = Plan::new(scene).unwrap();
         let sim = Simulation::new(scene, plan.clone(), 1).unwrap();
-        let app = App::new(Setup {
-            scene: Arc::new(scene.clone()),
-            name: "demonstration".into(),
-            load_n: plan.force_n,
-            half_width_m: plan.hertz.a_m,
-            p_hertz_pa: plan.hertz.p_max_pa,
-            plan_text: String::new(),
-            left_out: Vec::new(),
-            errands: Vec::new(),
-            theme: Theme::new(Capabilities {
-                depth: ColorDepth::Mono,
-                glyphs: Glyphs::Unicode,
-            }),
-        });
+        let app = App::new(setup_planned(scene, "demonstration", &plan));
         Self {
             app,
             sim,

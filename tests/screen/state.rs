@@ -14,7 +14,7 @@ use asperity::scene::{Event, Scene, Surface};
 use asperity::sim::Knob;
 use asperity::study::sweep::Along;
 use asperity::tui::action::Action;
-use asperity::tui::app::{App, Effect, ErrandKind, Leading, Setup};
+use asperity::tui::app::{App, Effect, ErrandKind, Leading};
 use asperity::tui::view;
 use crossterm::event::{MouseButton, MouseEventKind};
 use ratatui::layout::Rect;
@@ -182,17 +182,7 @@ fn the_saved_scene_is_the_one_on_the_screen() {
 fn a_smooth_surface_has_nothing_to_turn() {
     let mut smooth = scene();
     smooth.body_1.surface = Surface::Smooth {};
-    let mut app = App::new(Setup {
-        scene: Arc::new(smooth),
-        name: "demonstration".into(),
-        load_n: 800.0,
-        half_width_m: tui_fixture::A_M,
-        p_hertz_pa: tui_fixture::P_HERTZ_PA,
-        plan_text: String::new(),
-        left_out: Vec::new(),
-        errands: Vec::new(),
-        theme: plain(),
-    });
+    let mut app = App::new(setup_of(smooth));
     app.apply(Action::Choose(2));
     assert_eq!(app.apply(Action::Turn(1)), []);
     assert!(app.message().unwrap().contains("smooth"));
@@ -325,17 +315,7 @@ fn captions_of_a_scripted_scene_are_shown() {
         set: std::collections::BTreeMap::new(),
         caption: "Now S = 1.".into(),
     });
-    let mut app = App::new(Setup {
-        scene: Arc::new(scripted),
-        name: "demonstration".into(),
-        load_n: 800.0,
-        half_width_m: tui_fixture::A_M,
-        p_hertz_pa: tui_fixture::P_HERTZ_PA,
-        plan_text: String::new(),
-        left_out: Vec::new(),
-        errands: Vec::new(),
-        theme: plain(),
-    });
+    let mut app = App::new(setup_of(scripted));
     play(&mut app, 1..=5, &State::default());
     assert!(text(&app, 80, 24).contains("Now S = 1."));
     // Half a passage later it has been read.

@@ -9,12 +9,16 @@ On a machine without a graphics card the viewer draws in software; on Debian and
         libxkbcommon-x11-0 libxkbcommon0 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libwayland-client0
 
 One picture per tab of the layout that the recording brings with it: `contact.png`, `maps.png`, ...
+The viewer follows the theme of the system; `--theme light` or `--theme dark` draws in its browser form with that theme
+asked for, which needs `pip install playwright` and Chromium (`--chromium PATH`).
+
 The viewer knows no command for choosing a tab, so the recording's own layout is sent to it once per
 tab with that tab made the active one. The layout's cameras and bounds rest on a convention of the
 viewer (`src/observe/rerun/layout.rs`): if a picture shows the default camera, it no longer holds.
 """
 
 import argparse
+import contextlib
 import os
 import pathlib
 import re
@@ -40,6 +44,8 @@ def parse_arguments():
     parser.add_argument("--port", type=int, default=9988, help="free port (default: %(default)s)")
     parser.add_argument("--wait", type=float, default=15.0, help="seconds for loading (default: %(default)s)")
     parser.add_argument("--settle", type=float, default=4.0, help="seconds per tab (default: %(default)s)")
+    parser.add_argument("--theme", choices=["light", "dark"], help="theme of the viewer in a browser (default: no browser)")
+    parser.add_argument("--chromium", default="/usr/bin/chromium", help="browser for --theme (default: %(default)s)")
     return parser.parse_args()
 
 
@@ -109,31 +115,62 @@ def connect(url, seconds):
             time.sleep(0.5)
 
 
+@contextlib.contextmanager
+def viewer(arguments, options):
+    """The viewer's process, ended when done; a group of its own: the command is a script that starts the viewer proper."""
+    program = pathlib.Path(sys.executable).parent / "rerun"
+    command = [program, "--bind", "127.0.0.1", "--port", str(arguments.port), "--memory-limit", "2GB", *options]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    process = subprocess.Popen([*command, arguments.recording], start_new_session=True, **quiet)
+    try:
+        yield
+    finally:
+        os.killpg(process.pid, signal.SIGTERM)
+        process.wait()
+
+
+@contextlib.contextmanager
+def native(arguments, url):
+    """Takes a picture of the viewer itself."""
+    with viewer(arguments, ["--headless", "--window-size", arguments.size]):
+        client = connect(url, arguments.wait)
+        time.sleep(arguments.wait)
+        yield lambda file: client.save_screenshot(str(file.resolve()))
+
+
+@contextlib.contextmanager
+def in_browser(arguments, url):
+    """Takes a picture of the viewer in a browser that asks for a theme."""
+    from playwright.sync_api import sync_playwright
+
+    width, height = map(int, arguments.size.split("x"))
+    web_port = arguments.port + 1
+    with viewer(arguments, ["--serve-web", "--web-viewer-port", str(web_port)]), sync_playwright() as playwright:
+        time.sleep(3)
+        software = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+        browser = playwright.chromium.launch(executable_path=arguments.chromium, args=software)
+        page = browser.new_page(viewport={"width": width, "height": height}, color_scheme=arguments.theme)
+        page.goto(f"http://127.0.0.1:{web_port}/?renderer=webgl&url={url.replace('+', '%2B')}")
+        time.sleep(arguments.wait)
+        yield lambda file: page.screenshot(path=str(file), timeout=120_000)
+        browser.close()
+
+
 def main():
     arguments = parse_arguments()
     if rr.__version__ != VERSION:
         sys.exit(f"rerun-sdk {rr.__version__} is installed; the recording is of {VERSION}")
     arguments.folder.mkdir(parents=True, exist_ok=True)
     application, chunks, root, tabs = layout(arguments.recording)
-    viewer = pathlib.Path(sys.executable).parent / "rerun"
-    command = [viewer, "--headless", "--bind", "127.0.0.1", "--port", str(arguments.port)]
-    command += ["--window-size", arguments.size, "--memory-limit", "2GB", arguments.recording]
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    # A group of its own: the command is a script that starts the viewer proper.
-    process = subprocess.Popen(command, start_new_session=True, **quiet)
     url = f"rerun+http://127.0.0.1:{arguments.port}/proxy"
-    try:
-        client = connect(url, arguments.wait)
-        time.sleep(arguments.wait)
+    shown = in_browser if arguments.theme else native
+    with shown(arguments, url) as save:
         for name, tab in tabs:
             activate(application, chunks, root, tab, url)
             time.sleep(arguments.settle)
             file = arguments.folder / (re.sub(r"[^a-z0-9]+", "_", name.lower()) + ".png")
-            client.save_screenshot(str(file.resolve()))
-            print(file)
-    finally:
-        os.killpg(process.pid, signal.SIGTERM)
-        process.wait()
+            save(file)
+            print(file, flush=True)
 
 
 if __name__ == "__main__":

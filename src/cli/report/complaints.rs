@@ -1,5 +1,6 @@
 //! What went wrong with a run, in words.
 
+use asperity::math::number::counted;
 use asperity::run::{End, Outcome};
 
 /// What went wrong, for stderr; empty when nothing did.
@@ -28,8 +29,8 @@ pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {
     }
     if outcome.n_unconverged > NAMED as u64 {
         list.push(format!(
-            "and {} more steps did not converge",
-            outcome.n_unconverged - NAMED as u64
+            "and {} did not converge",
+            counted(outcome.n_unconverged - NAMED as u64, "more step")
         ));
     }
     for error in &outcome.output_errors {

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use crate::math::number::counted;
+
 /// How a queue was used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct QueueStats {
@@ -28,14 +30,14 @@ impl std::fmt::Display for QueueStats {
         let busy = self.busy.as_secs_f64();
         write!(
             f,
-            "{} frames offered, {} taken, {} skipped; at most {} of {} waited; the run waited {} times, {:.2} s; \
-             {:.2} ms of work a frame",
-            self.frames + self.skipped,
+            "{} offered, {} taken, {} skipped; at most {} of {} waited; the run waited {}, {:.2} s; \
+             {:.2} ms of work per frame",
+            counted(self.frames + self.skipped, "frame"),
             self.done,
             self.skipped,
             self.max_depth,
             self.capacity,
-            self.waits,
+            counted(self.waits, "time"),
             self.waited.as_secs_f64(),
             1e3 * busy / self.done.max(1) as f64,
         )

@@ -29,7 +29,7 @@ pub(super) fn bind(path: &Path, more: Vec<Chunk>) -> Result<u64, String> {
     // Behind a link lies the file itself, which alone may be replaced; and only a file.
     let path = path.canonicalize().map_err(|error| error.to_string())?;
     if !path.is_file() {
-        return Err("it is no regular file".to_owned());
+        return Err("it is not a regular file".to_owned());
     }
     let beside = beside(&path);
     let written = write(&path, &beside, more)
@@ -111,7 +111,7 @@ impl Binder {
     fn append_chunk(&mut self, chunk: &Chunk, store: Option<StoreId>) -> Result<(), String> {
         let store = store
             .or_else(|| self.store.clone())
-            .ok_or("it holds no recording")?;
+            .ok_or("it does not hold a recording")?;
         let message = chunk.to_arrow_msg().map_err(|error| error.to_string())?;
         self.append(&LogMsg::ArrowMsg(store, message))
     }

@@ -148,8 +148,8 @@ impl Cadence {
             ", within".to_owned()
         };
         format!(
-            "Scalars are recorded in {} that was handed to the recording; maps, slice and \
-             3-D view in {}{why} the budget of {:.1} MB. If that changed on the way, the log \
+            "Scalars are recorded in {} handed to the recording; maps, slice and \
+             3-D view in {}{why} the budget of {:.1} MB. If this changed during the run, the log \
              says so.",
             every(self.scalars.steps),
             every(self.fields.steps),

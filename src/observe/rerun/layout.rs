@@ -24,6 +24,7 @@ use super::kymograph;
 use super::maps;
 use super::moment::{STEP, check_clock};
 use super::plot::{Margin, PlotBox};
+use super::series::YIELDED;
 use super::slice;
 use super::stream::{APPLICATION, Stream};
 use super::text;
@@ -48,6 +49,8 @@ pub(super) struct Shown {
     /// Bodies whose damage is mapped.
     pub(super) damaged: [bool; 2],
     pub(super) life: bool,
+    /// Whether a body has a hardness at which it flows.
+    pub(super) yields: bool,
 }
 
 /// Sends the layout to a recording.
@@ -87,7 +90,7 @@ fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
     if shown.life {
         tabs.push(life_tab(views, shown));
     }
-    tabs.push(convergence_tab(views, shown.kind));
+    tabs.push(convergence_tab(views, shown));
     tabs.push(scene_tab(views));
     tabs
 }
@@ -112,7 +115,7 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     if let Some(plot) = &shown.slice {
         let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT, slice::HERTZ];
         lower.push(views.plot(
-            "Effective stress below body 1, a row per depth",
+            "Effective stress, a row per depth",
             &contents,
             plot,
             Margin::Legend,
@@ -145,10 +148,7 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
 }
 
 fn life_series(views: &mut Views) -> ContainerLike {
-    let view = views.series(
-        "Relative life, log10 (grey: band)",
-        &["life/log10_relative"],
-    );
+    let view = views.series("Life, log10 (grey: band)", &["life/log10_relative"]);
     // The title says it, and the curves need the room.
     views.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
     view
@@ -175,7 +175,7 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     }
     if let Some(plot) = &shown.slice {
         all.push(views.plot(
-            "Orthogonal shear stress, a row per depth",
+            "Shear τxz, a row per depth",
             &[slice::TAU_XZ, slice::HERTZ],
             plot,
             Margin::Legend,
@@ -211,9 +211,9 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     }
     if let Some(plot) = &shown.slice {
         let contents = [slice::EFFECTIVE, slice::POINT];
-        upper.push(views.plot("Where it is", &contents, plot, Margin::Legend));
+        upper.push(views.plot("Where the point is", &contents, plot, Margin::Legend));
     }
-    let cycles = views.series("Cycles in this crossing", &["material_point/cycles"]);
+    let cycles = views.series("Peaks in this crossing", &["material_point/cycles"]);
     // The count climbs from the lower left to the formula's line.
     let lower_right = PlotLegend::new().with_corner(Corner2D::RightBottom);
     views.set(&cycles, "PlotLegend", lower_right);
@@ -223,7 +223,7 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
             &["material_point/stress_GPa"],
         ),
         cycles,
-        views.series("Where it is, mm", &["material_point/position_mm"]),
+        views.series("Where the point is, mm", &["material_point/position_mm"]),
     ];
     let shares = if upper.len() > 1 {
         vec![1.6, 1.0]
@@ -242,10 +242,7 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
 fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let left = Vertical::new([
         life_series(views),
-        views.series(
-            "Its factors, log10 (they add up; load apart)",
-            &["life/log10_factors"],
-        ),
+        views.series("Factors of life, log10", &["life/log10_factors"]),
     ]);
     let middle = Vertical::new([
         views.series(
@@ -267,7 +264,7 @@ fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         .collect();
     let right = Vertical::new([
         views.document("Now", text::NOW),
-        views.series("Slide-to-roll ratio and speed", &["series/motion"]),
+        views.series("S, and U in m/s", &["series/motion"]),
     ]);
     let mut columns = vec![left.into(), middle.into()];
     let mut shares = vec![1.0, 0.9];
@@ -283,8 +280,9 @@ fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         .into()
 }
 
-fn convergence_tab(views: &mut Views, kind: ContactKind) -> ContainerLike {
-    Grid::new([
+fn convergence_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+    let kind = shown.kind;
+    let mut all = vec![
         views.series("Errors, log10", &["convergence/log10_errors"]),
         views.series("Iterations", &["convergence/iterations"]),
         views.series("Pressure, GPa", &["series/pressure_GPa"]),
@@ -297,16 +295,21 @@ fn convergence_tab(views: &mut Views, kind: ContactKind) -> ContainerLike {
         },
         views.series("Hertz half-width, µm", &["series/half_width_um"]),
         views.series("λ ratio", &["series/lambda_ratio"]),
-        views.series(
-            "Regime (0 dry, 1 boundary, 2 mixed, 3 full film)",
-            &["series/regime"],
-        ),
+        views.series("Regime: 0 dry to 3 full film", &["series/regime"]),
         views.series("Cautions (1: holds)", &["series/cautions"]),
         TextLogView::new("Log").with_origin("/log").into(),
-    ])
-    .with_grid_columns(4)
-    .with_name("Convergence")
-    .into()
+    ];
+    if shown.yields {
+        let title = match kind {
+            ContactKind::Point => "Yielded for good, µm³",
+            ContactKind::Line => "Yielded for good, µm³ per metre",
+        };
+        all.push(views.series(title, &[YIELDED]));
+    }
+    Grid::new(all)
+        .with_grid_columns(4)
+        .with_name("Convergence")
+        .into()
 }
 
 fn scene_tab(views: &mut Views) -> ContainerLike {

@@ -47,9 +47,9 @@ pub(super) fn read(
 ) -> Result<(Ends, u64), String> {
     let mut head = [0; FILE_HEAD as usize];
     file.read_exact(&mut head)
-        .map_err(|_| "no Rerun recording: it has no head".to_owned())?;
+        .map_err(|_| "not a Rerun recording: it has no header".to_owned())?;
     if !head.starts_with(FOUR_CC) {
-        return Err("no Rerun recording".to_owned());
+        return Err("not a Rerun recording".to_owned());
     }
     let (mut at, mut unreadable) = (FILE_HEAD, 0);
     let mut message = Vec::new();
@@ -72,7 +72,7 @@ pub(super) fn read(
 fn next(file: &mut impl Read, left: u64, message: &mut Vec<u8>) -> Result<Option<u64>, String> {
     let mut head = [0; MESSAGE_HEAD as usize];
     if left < MESSAGE_HEAD {
-        return Err(format!("{left} bytes are no message"));
+        return Err(format!("{left} trailing bytes are not a message"));
     }
     let broken = |error: std::io::Error| match error.kind() {
         ErrorKind::UnexpectedEof => "the file became shorter".to_owned(),

@@ -1,8 +1,7 @@
 //! Scalars against time, each with its unit in the name.
 //!
-//! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second);
-//! what is not known yet is left out. Steps are collected and sent as columns once a second: row by row they
-//! would cost more than all the pictures.
+//! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second); what is
+//! not known yet is left out. Columns of a second are sent at once: row by row they would cost more than all pictures.
 
 use rerun::{Color, EntityPath, SeriesLines};
 
@@ -16,6 +15,9 @@ use crate::sim::{CautionCode, Frame, LifeEstimate, LubricationRegime};
 /// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
 const LEAST_ERROR: f64 = 1e-12;
 
+/// Yielded for good.
+pub(super) const YIELDED: &str = "series/yielded_um3";
+
 /// Series that share an entity: path, then name and colour of each.
 struct Group {
     entity: &'static str,
@@ -24,7 +26,7 @@ struct Group {
     values: fn(&Frame, &mut Vec<f64>),
 }
 
-static GROUPS: [Group; 26] = [
+static GROUPS: [Group; 27] = [
     Group {
         entity: "series/pressure_GPa",
         lines: &[("p_max, GPa", ORANGE), ("p_Hertz, GPa", GREY)],
@@ -82,7 +84,7 @@ static GROUPS: [Group; 26] = [
     },
     Group {
         entity: "series/regime",
-        lines: &[("lubrication regime", SKY)],
+        lines: &[("0 dry, 1 boundary, 2 mixed, 3 full film", SKY)],
         values: |frame, out| out.push(regime(frame.metrics.regime)),
     },
     Group {
@@ -107,6 +109,19 @@ static GROUPS: [Group; 26] = [
             {
                 out[from + line] = 1.0;
             }
+        },
+    },
+    Group {
+        entity: YIELDED,
+        lines: &[
+            ("body 1 has yielded, µm³", SKY),
+            ("body 2 has yielded, µm³", ORANGE),
+        ],
+        values: |frame, out| {
+            // Nothing until something has flowed: most runs never do.
+            let flowed = frame.metrics.yielded_m3;
+            let flowed = flowed.filter(|both| both.iter().any(|&volume| volume > 0.0));
+            out.extend(flowed.into_iter().flatten().map(|volume| volume * 1e18));
         },
     },
     Group {

@@ -8,7 +8,7 @@ use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
 use super::note::Note;
 use super::raster::{Beyond, Scale};
 use super::stream::Stream;
-use crate::math::number::{seconds, sig, sig_or_dash};
+use crate::math::number::{counted, seconds, sig, sig_or_dash};
 use crate::observe::scales::number;
 use crate::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
 use crate::scene::ContactKind;
@@ -137,7 +137,8 @@ fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
         let greatest = sig(f64::from(*greatest), 3);
         let _ = writeln!(
             text,
-            "| above the colours | {entity}: {above} nodes, up to {greatest} {unit} |"
+            "| above the colours | {entity}: {nodes}, up to {greatest} {unit} |",
+            nodes = counted(*above, "node")
         );
     }
     for caution in cautions.iter().filter(always) {
@@ -162,6 +163,10 @@ fn push_life(text: &mut String, life: &LifeEstimate) {
         text,
         "### Relative life {value}{settled}\n\n{low} to {high}; cycles {cycles} × peaks {peaks} × traction {traction}\n"
     );
+    if let (Some(global), Some(damage)) = (life.detail.life_global, life.detail.life_damage) {
+        let [global, damage] = [global, damage].map(|life| sig(life, 3));
+        let _ = writeln!(text, "paper's count {global}; counted by damage {damage}\n");
+    }
     if life.load_factor > 0.0 {
         let factor = sig(life.load_factor, 3);
         let _ = writeln!(
@@ -188,16 +193,9 @@ fn push_table(text: &mut String, frame: &Frame) {
         format!("{}, passage {:.2}", seconds(frame.time_s), frame.passages),
     );
     row("---", "---".to_owned());
-    row(
-        "S",
-        format!(
-            "{}, going to {}",
-            digits(m.slide_roll),
-            digits(m.slide_roll_target)
-        ),
-    );
+    row("S", towards(m.slide_roll, m.slide_roll_target, ""));
     row("U1, U2", format!("{} m/s", speeds.join(", ")));
-    row("load", format!("{} {unit}", digits(m.load_n)));
+    row("load", towards(m.load_n, m.load_target_n, unit));
     row(
         "p_Hertz, a",
         format!(
@@ -233,6 +231,17 @@ fn push_table(text: &mut String, frame: &Frame) {
         let counted = pair([m.n_counted_body_1, m.n_counted_body_2]);
         row("n of 1, 2", format!("{}; counted {counted}", pair(formula)));
     }
+}
+
+/// A knob's value, and where it goes while it moves.
+fn towards(value: f64, target: f64, unit: &str) -> String {
+    let [now, then] = [value, target].map(|value| sig(value, 4));
+    let text = if now == then {
+        format!("{now} {unit}")
+    } else {
+        format!("{now}, going to {then} {unit}")
+    };
+    text.trim_end().to_owned()
 }
 
 /// How far the recording goes; `ended`: nothing comes after.
@@ -290,4 +299,17 @@ pub(super) fn log_event(stream: &Stream, event: &RunEvent, turns: u64) -> Result
 /// A line of the log.
 pub(super) fn log_line(stream: &Stream, text: &str, level: &str) -> Result<(), ObserveError> {
     stream.log(LOG, &TextLog::new(text).with_level(level))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_knob_that_rests_goes_nowhere() {
+        assert_eq!(towards(0.5, 0.5, ""), "0.5000");
+        assert_eq!(towards(0.5, 1.0, ""), "0.5000, going to 1.000");
+        assert_eq!(towards(800.0, 800.0, "N"), "800.0 N");
+        assert_eq!(towards(800.0, 900.0, "N"), "800.0, going to 900.0 N");
+    }
 }

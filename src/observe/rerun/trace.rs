@@ -9,7 +9,7 @@ use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
 use super::stream::Stream;
 use super::waiting::Curves;
-use crate::math::number::sig;
+use crate::math::number::{counted, sig};
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, divisions, ticks};
 use crate::sim::{Frame, MaterialPoint};
@@ -226,10 +226,35 @@ fn counts(point: &MaterialPoint, frame: &Frame) -> String {
         1 => frame.metrics.n_body_1,
         _ => frame.metrics.n_body_2,
     };
-    let counted = point.cycles_counted;
-    let mut parts = vec![format!("body {}: {counted} peaks so far", point.body)];
+    let peaks = counted(point.cycles_counted as u64, "peak");
+    let mut parts = vec![format!("body {}: {peaks} so far", point.body)];
     let before = point.cycles_before;
-    parts.extend(before.map(|closed| format!("{closed} cycles in the crossing before")));
+    parts.extend(before.map(|closed| {
+        let closed = counted(closed as u64, "cycle");
+        format!("{closed} in the crossing before")
+    }));
     parts.extend(expected.map(|n| format!("{} expected on average", sig(n, 3))));
     parts.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_peak_is_one_peak() {
+        let frame = Frame::default();
+        let point = |cycles_counted, cycles_before| MaterialPoint {
+            body: 1,
+            cycles_counted,
+            cycles_before,
+            ..MaterialPoint::default()
+        };
+        assert_eq!(counts(&point(1.0, None), &frame), "body 1: 1 peak so far");
+        let text = counts(&point(2.0, Some(1.0)), &frame);
+        assert_eq!(
+            text,
+            "body 1: 2 peaks so far, 1 cycle in the crossing before"
+        );
+    }
 }

@@ -77,6 +77,9 @@ impl Reynolds {
         let (start, south, north) = (j * nx, grid.row_below(j) * nx, grid.row_above(j) * nx);
         let here = start..start + nx;
         self.fill_run(Way::Along, (start, start + 1), nx - 1, &mut scratch.east);
+        if let Some(steep) = self.fluidity.steep((at.p, at.h), start, nx - 1) {
+            steep.lessen_faces(&mut scratch.east);
+        }
         self.fill_run(Way::Across, (start, south), nx, &mut scratch.south);
         self.fill_run(Way::Across, (start, north), nx, &mut scratch.north);
         let (row, local) = row.split_at_mut(2 * STENCIL * nx);

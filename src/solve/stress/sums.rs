@@ -36,6 +36,13 @@ impl StressLaw {
         }
     }
 
+    /// The law at a stress in p_h.
+    pub fn of(self, stress: f32) -> f64 {
+        (f64::from(stress) - self.limit)
+            .max(0.0)
+            .powf(self.exponent)
+    }
+
     /// ln of the law at a squared stress.
     fn ln(self, square: f32) -> f64 {
         let beyond = f64::from(square).sqrt() - self.limit;

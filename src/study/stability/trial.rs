@@ -279,7 +279,7 @@ impl Watch {
             .zip(self.smooth)
             .map(|(film, (h, _))| h / film.central_m);
         if trial.not_finite > 0 {
-            return Ending::Quiet(format!("{} values are no numbers", trial.not_finite));
+            return Ending::Quiet(format!("{} values are not numbers", trial.not_finite));
         }
         if self.negative > 0 {
             return Ending::Quiet(format!("{} negative pressures", self.negative));

@@ -63,7 +63,7 @@ impl Folder {
         refuse(root, &mark, found.as_ref(), existing)?;
         if let Some(input) = mark::input_in_the_way(root, &sweep.inputs, is_same) {
             let reason = format!(
-                "the sweep would write over {}, which it reads; take another --out",
+                "the sweep would write over {}, which it reads; choose another --out",
                 input.display()
             );
             return Err(SweepError::folder(root, reason));
@@ -272,12 +272,12 @@ fn refuse(
     };
     if found.digest != mark.digest {
         return refused(
-            "holds another sweep (an edited one, or one with another height map); take another --out, or --force replaces it",
+            "holds another sweep (an edited one, or one with another height map); choose another --out, or --force replaces it",
         );
     }
     if found.build != mark.build {
         return refused(&format!(
-            "was filled by build {}, this is build {}: one table would mix the numbers of both; take another --out, or --force starts anew",
+            "was filled by build {}, this is build {}: one table would mix the numbers of both; choose another --out, or --force starts anew",
             found.build, mark.build
         ));
     }

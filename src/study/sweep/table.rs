@@ -17,7 +17,7 @@ use crate::files::fnv;
 use crate::observe::cells::Cells;
 
 /// Columns after those of the path and the axes, in the order of [`numbers`].
-pub const COLUMNS: [&str; 54] = [
+pub const COLUMNS: [&str; 56] = [
     "h_regression_m",
     "h_min_regression_m",
     "lambda_ratio",
@@ -50,6 +50,8 @@ pub const COLUMNS: [&str; 54] = [
     "life_body_1",
     "life_body_2",
     "life_system",
+    "life_global",
+    "life_damage",
     "life_snapshot",
     "life_swept",
     "life_models_low",
@@ -113,6 +115,8 @@ pub fn numbers(record: &CaseRecord) -> [Option<f64>; COLUMNS.len()] {
         s.life_body_1,
         s.life_body_2,
         s.life_system,
+        s.life_global,
+        s.life_damage,
         s.life_snapshot,
         s.life_swept,
         s.life_models_low,

@@ -4,7 +4,8 @@ use super::{Beat, Claim, Figure, Lesson, Setting, Staging};
 use crate::sim::Knob;
 use crate::tui::app::MapKind::{Contact, Film, Pressure, Roughness, Stress};
 use Figure::{
-    ContactPercent, Counted1, Counted2, Lambda, LeftPercent, Life, N1, N2, PeakDepth, PeakPressure,
+    ContactPercent, Counted1, Counted2, DamageLife, Lambda, LeftPercent, Life, N1, N2, PeakDepth,
+    PeakPressure,
 };
 use Setting::{TimesHome, To};
 
@@ -125,7 +126,7 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "S = 0.5: the trace below has become a comb, n = 14. Life falls by the count alone, before any peak has grown.",
+                caption: "S = 0.5: the trace below has become a comb, n = 14. Each tooth counted as a whole cycle, as in the paper, life falls to 0.07 by the count alone.",
                 sets: &[(S, To(0.5))],
                 passages: 3.0,
                 claims: &[
@@ -136,13 +137,14 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "n is an upper bound on damage: it counts a small ripple like a full cycle. Not modelled: wear, which can reverse the trend with S.",
+                caption: "But the teeth are low, and n an upper bound. Each by the damage it does, they count for next to nothing: life is 0.8. Not modelled: wear, which can reverse the trend with S.",
                 passages: 1.0,
                 claims: &[
                     claim(N1, 13.5, 14.5),
                     claim(Counted1, 12.0, 14.5),
                     claim(N2, 8.0, 10.0),
                     claim(Counted2, 6.5, 10.0),
+                    claim(DamageLife, 0.6, 1.0),
                 ],
                 ..Beat::PLAIN
             },

@@ -56,9 +56,10 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     }
     mechanisms::mechanisms(app, &mut rows, buffer);
     if roomy {
-        rows.skip();
+        mechanisms::scale(app.theme, rows.take(1), buffer);
     }
     counts::counts(app, &mut rows, buffer);
+    counts::other_count(app, &mut rows, buffer);
     if app.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }

@@ -130,6 +130,7 @@ impl Views {
             rough: self.maps.rough(),
             damaged: self.damaged,
             life: first.metrics.life.is_some(),
+            yields: first.metrics.yielded_m3.is_some(),
         }
     }
 

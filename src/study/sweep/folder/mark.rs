@@ -69,7 +69,7 @@ pub(super) fn seen(root: &Path) -> Result<Option<Mark>, SweepError> {
     let since = Mark::read(root);
     if since.is_none() {
         let reason = format!(
-            "holds {name}, and no sweep has marked the folder: what is in it is somebody else's; take another --out"
+            "holds {name}, and no sweep has marked the folder: its contents are somebody else's; choose another --out"
         );
         return Err(SweepError::folder(root, reason));
     }

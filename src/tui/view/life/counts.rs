@@ -4,6 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::text::{Line, Span};
 
 use super::{Rows, simulated};
+use crate::scene::CycleBasis;
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
@@ -44,6 +45,26 @@ pub(super) fn counts(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
         ]);
         put(row, 0, &line, buffer);
     }
+}
+
+/// The life by the count that is not the headline's: the paper's, or that by damage.
+pub(super) fn other_count(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+    let (Some(life), Some(asked)) = (app.life(), &app.setup.scene.life) else {
+        return;
+    };
+    let (word, other) = match asked.cycles {
+        CycleBasis::Damage => ("paper's count", life.detail.life_global),
+        _ => ("by damage", life.detail.life_damage),
+    };
+    let theme = app.theme;
+    let line = Line::from(vec![
+        Span::styled(format!("{word} "), theme.style(Role::Dim)),
+        Span::styled(
+            ascii_text(theme, &sig_or_dash(other, 2)),
+            simulated(app, theme.style(Role::Text)),
+        ),
+    ]);
+    put(rows.take(1), 0, &line, buffer);
 }
 
 /// "3.4 times shorter than pinned".

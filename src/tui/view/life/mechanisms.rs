@@ -5,9 +5,10 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::Rows;
+use crate::math::number::sig;
 use crate::scene::ContactKind;
 use crate::tui::app::App;
-use crate::tui::theme::Role;
+use crate::tui::theme::{Role, Theme};
 use crate::tui::units::sig_or_dash;
 use crate::tui::view::{ascii_text, put, put_right};
 
@@ -27,7 +28,7 @@ pub(super) fn mechanisms(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
         let row = rows.take(1);
         let to = from * factor.unwrap_or(1.0);
         waterfall_value(app, row, (name, factor, role), buffer);
-        waterfall_bar(app, row, [from, to], role, buffer);
+        waterfall_bar(app.theme, row, [from, to], role, buffer);
         from = to;
     }
     let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
@@ -72,17 +73,27 @@ fn waterfall_value(
     put_right(row, 0, &Line::styled(value, style), buffer);
 }
 
-fn waterfall_bar(app: &App, row: Rect, [from, to]: [f64; 2], role: Role, buffer: &mut Buffer) {
-    let theme = app.theme;
+/// Where the bars of a row stand, between their names and values; `None`: there is no room.
+fn track(row: Rect) -> Option<Rect> {
     let (before, after) = (9, 7);
-    if row.is_empty() || row.width < before + after + 3 {
-        return;
-    }
-    let track = Rect {
+    (!row.is_empty() && row.width >= before + after + 3).then(|| Rect {
         x: row.x + before,
         width: row.width - before - after,
         ..row
-    };
+    })
+}
+
+/// The ends of the decades that every bar has.
+pub(super) fn scale(theme: Theme, row: Rect, buffer: &mut Buffer) {
+    let Some(track) = track(row) else { return };
+    let [least, most] = DECADES.map(|decade| sig(10_f64.powf(decade), 1));
+    let dim = theme.style(Role::Dim);
+    put(track, 0, &Line::styled(least, dim), buffer);
+    put_right(track, 0, &Line::styled(most, dim), buffer);
+}
+
+fn waterfall_bar(theme: Theme, row: Rect, [from, to]: [f64; 2], role: Role, buffer: &mut Buffer) {
+    let Some(track) = track(row) else { return };
     let last = track.width - 1;
     let part = |value: f64| (value.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
     let column = |value: f64| (part(value).clamp(0.0, 1.0) * f64::from(last)).round() as u16;
@@ -103,5 +114,58 @@ fn waterfall_bar(app: &App, row: Rect, [from, to]: [f64; 2], role: Role, buffer:
         if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
             cell.set_symbol(symbol).set_style(theme.style(role));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::theme::{Capabilities, ColorDepth, Glyphs};
+
+    /// A bar on a track of 21 columns: five to a decade.
+    fn bar(from: f64, to: f64) -> String {
+        let row = Rect::new(0, 0, 37, 1);
+        let mut buffer = Buffer::empty(row);
+        waterfall_bar(ascii(), row, [from, to], Role::Cycles, &mut buffer);
+        drawn(&buffer, row)
+    }
+
+    fn ascii() -> Theme {
+        Theme::new(Capabilities {
+            depth: ColorDepth::Mono,
+            glyphs: Glyphs::Ascii,
+        })
+    }
+
+    fn drawn(buffer: &Buffer, row: Rect) -> String {
+        let cells = (0..row.width).filter_map(|x| buffer.cell((x, row.y)));
+        let text: String = cells.map(ratatui::buffer::Cell::symbol).collect();
+        text.trim().to_owned()
+    }
+
+    #[test]
+    fn bars_keep_their_decades_and_have_arrows_beyond_them() {
+        assert_eq!(bar(1.0, 1.0), "....................#");
+        assert_eq!(bar(1.0, 0.1), "...............######");
+        assert_eq!(
+            bar(0.1, 1e-4),
+            "################.....",
+            "the end itself is no arrow"
+        );
+        assert_eq!(bar(0.1, 1e-8), "<###############.....");
+        assert_eq!(bar(1e-6, 1e-8), "<....................", "all of it beyond");
+        assert_eq!(bar(1.0, 30.0), "....................>");
+        assert_eq!(bar(1e-5, 30.0), "<###################>");
+        let nan = bar(1.0, f64::NAN);
+        assert!(!nan.contains(['<', '>']), "{nan}");
+    }
+
+    #[test]
+    fn the_ends_of_the_bars_are_told() {
+        let row = Rect::new(0, 0, 37, 1);
+        let mut buffer = Buffer::empty(row);
+        scale(ascii(), row, &mut buffer);
+        assert_eq!(drawn(&buffer, row), "1e-4                1");
+        scale(ascii(), Rect::new(0, 0, 18, 1), &mut buffer);
     }
 }

@@ -1,0 +1,42 @@
+//! What material points of a scene count.
+
+use super::counting::CountingSpec;
+use super::door::Heading;
+use crate::plan::Plan;
+use crate::scene::{CycleBasis, Scene};
+use crate::solve::material::DamageBasis;
+
+/// What material points count: damage by ranges where the scene's life goes by ranges, else by peaks.
+pub(super) fn counting_spec(
+    scene: &Scene,
+    plan: &Plan,
+    heading: Heading,
+    depths: usize,
+) -> CountingSpec {
+    let life = scene.life.as_ref();
+    let maps = life.map_or([false; 2], crate::scene::Life::maps);
+    let a_m = plan.hertz.a_m;
+    let track = plan.domain.x_max_a - plan.domain.x_min_a;
+    let surfaces = scene.surfaces();
+    let block = |body: usize| {
+        let repeated = surfaces[body].block_m();
+        repeated.map_or((track, 0.0), |(length_m, offset_m)| {
+            (length_m / a_m, heading.sign() * offset_m / a_m)
+        })
+    };
+    CountingSpec {
+        depths,
+        exponent: life.map_or(9.0, |life| life.stress_exponent),
+        basis: match life.map(|life| life.cycles) {
+            Some(CycleBasis::Ranges) => DamageBasis::Ranges,
+            _ => DamageBasis::Peaks,
+        },
+        blocks: [0, 1]
+            .map(|body: usize| (maps[body] && surfaces[body].has_block()).then(|| block(body))),
+        laws: None,
+        waves: plan.waves.map(|wave| {
+            let crests = wave?.crests_per_m;
+            (crests > 0.0).then(|| 1.0 / (crests * a_m))
+        }),
+    }
+}

@@ -1,0 +1,148 @@
+//! Cycles that count by the damage they do, and the stress that goes with them.
+//!
+//! ```text
+//! ln(1/Ps) = C N^e ∫ < D_X^e >_X dV            D_X = Σ_cycles s^c: damage of a passage of the material point X (Miner)
+//!          ≈ C N^e ∫ n(z)^e < s_X^{c e} >_X dV  s_X: greatest stress that X meets, n = Σ range^c/greatest range^c
+//! ```
+//! *Which integral belongs to which count.* A count relative to each crossing's own greatest stress needs the mean over
+//! material points of *that* stress: the swept integral times `r(z)` of [`Columns`]. The paper's n counts contacts without
+//! their size, and its integral is that of an instant, the mean of snapshots. Swapped, a ripple of no height would change
+//! the life: the one by n, the other by what single points are spared.
+//!
+//! *Unit.* N are loading cycles of the **faster** body. With S → 0 they are those of both; of a smooth contact n = 1 for
+//! any S; and where a body creeps or stands (|S| → 2) nothing ends: what it suffers in that time is finite,
+//! `n → f |U_2 − U_1| Z/U_fast`. A body that stands is the limit of one that creeps on, so that all its track takes turns.
+
+use serde::{Deserialize, Serialize};
+
+use crate::math::grid::Grid;
+use crate::physics::cycles::BodyId;
+use crate::solve::axis::Line;
+use crate::solve::columns::Columns;
+use crate::solve::material::MaterialTracker;
+use crate::solve::stress::StressLaw;
+
+/// Way over which crossings must have finished before their mean stands alone, where no wave is longer, a.
+const LEAST_WAY: f64 = 0.25;
+
+/// Half-width within which a point meets its greatest stress, over Hertz's.
+const REACH: f64 = 0.8;
+/// Bodies slower than this, over the mean speed, are not waited for.
+const SLOW: f64 = 0.5;
+
+/// Both bodies under way.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct DamageCount {
+    bodies: [Body; 2],
+    /// Way of the faster body since the last restart, a.
+    fastest: f64,
+    is_known: bool,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Body {
+    columns: Columns,
+    way: f64,
+    /// n by depth.
+    cycles: Vec<f64>,
+    /// ln r by law and depth.
+    ln_ratios: Vec<f64>,
+    /// Wavelength of its own crests, and the longest of both bodies', a.
+    own: Option<f64>,
+    wanted: f64,
+}
+
+impl DamageCount {
+    /// On `grid` at so many `depths` by `laws`; wavelengths of both bodies' crests along x in a.
+    pub(super) fn new(
+        grid: &Grid,
+        depths: usize,
+        laws: &[StressLaw],
+        waves: [Option<f64>; 2],
+    ) -> Self {
+        let wanted = waves.iter().flatten().fold(LEAST_WAY, |a, b| a.max(*b));
+        let body = |own: Option<f64>| Body {
+            columns: Columns::new((grid.x_min, grid.dx), grid.nx, depths, laws),
+            way: 0.0,
+            cycles: vec![1.0; depths],
+            ln_ratios: vec![0.0; laws.len() * depths],
+            own,
+            wanted,
+        };
+        Self {
+            bodies: waves.map(body),
+            fastest: 0.0,
+            is_known: false,
+        }
+    }
+
+    /// Whether counts that were saved are of the same make.
+    pub(super) fn fits(&self, saved: &Self) -> bool {
+        self.bodies.iter().zip(&saved.bodies).all(|(own, saved)| {
+            own.columns.fits(&saved.columns)
+                && own.cycles.len() == saved.cycles.len()
+                && own.ln_ratios.len() == saved.ln_ratios.len()
+                && (own.own, own.wanted) == (saved.own, saved.wanted)
+        })
+    }
+
+    /// Forgets all counts.
+    pub(super) fn restart(&mut self) {
+        for body in &mut self.bodies {
+            body.columns.restart();
+            body.way = 0.0;
+        }
+        (self.fastest, self.is_known) = (0.0, false);
+    }
+
+    /// Moves a body's columns by `travel` (in a) below the `line`, in a contact of `size` times the scene's.
+    pub(super) fn step(&mut self, body: BodyId, travel: f64, line: &Line, size: f64) {
+        let own = &mut self.bodies[body.index()];
+        own.columns.step(travel, REACH * size, line);
+        own.way += travel.abs();
+    }
+
+    /// After both bodies' steps: n and r of now, with the cycles of `trackers`.
+    pub(super) fn take(&mut self, travel: [f64; 2], trackers: &[MaterialTracker; 2]) {
+        self.fastest += travel[0].abs().max(travel[1].abs());
+        self.is_known = true;
+        for (body, tracker) in self.bodies.iter_mut().zip(trackers) {
+            let ways = (body.way, self.fastest);
+            self.is_known &= tracker.damage_cycles(ways, &mut body.cycles);
+            let depths = body.cycles.len().max(1);
+            for (law, out) in body.ln_ratios.chunks_exact_mut(depths).enumerate() {
+                body.columns.ln_ratios(law, (body.own, body.wanted), out);
+            }
+        }
+    }
+
+    /// Part of a `period` (in a, at U) of both bodies' surfaces that has crossed the contact; of slow ones a quarter of it
+    /// does, and of those that creep none is waited for.
+    pub(super) fn covers(&self, period: f64) -> f64 {
+        let mean = 0.5 * (self.bodies[0].way + self.bodies[1].way);
+        let part = |body: &Body| {
+            let speed = body.way / mean.max(f64::MIN_POSITIVE);
+            let wanted = period * speed * ((speed / SLOW).min(1.0)).powi(2);
+            let creeps = speed < 0.5 * SLOW;
+            if creeps {
+                f64::INFINITY
+            } else {
+                body.columns.finished() / wanted.max(f64::MIN_POSITIVE)
+            }
+        };
+        self.bodies.iter().map(part).fold(f64::INFINITY, f64::min)
+    }
+
+    /// n by depth of a body; `None` before anything moved.
+    pub(super) fn cycles(&self, body: BodyId) -> Option<&[f64]> {
+        self.is_known
+            .then_some(&self.bodies[body.index()].cycles[..])
+    }
+
+    /// ln r by depth of a body by a law.
+    pub(super) fn ln_ratios(&self, body: BodyId, law: usize) -> &[f64] {
+        let body = &self.bodies[body.index()];
+        let depths = body.cycles.len();
+        &body.ln_ratios[law * depths..][..depths]
+    }
+}

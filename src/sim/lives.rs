@@ -1,0 +1,113 @@
+//! Lives of both bodies by each count and integral, and the one that governs.
+
+use super::counting::Counting;
+use super::fatigue_stage::{LifeStage, Now};
+use super::variant::Variant;
+use crate::physics::cycles::BodyId;
+use crate::physics::fatigue::LifeFactors;
+use crate::physics::life_models::CycleProfile;
+use crate::scene::{BodyChoice, CycleBasis, Spread, VolumeIntegral};
+use crate::solve::life::factors;
+
+impl LifeStage {
+    /// Factors of both bodies; `None` for a body that stands or is not counted yet, and for all where
+    /// nothing was sampled.
+    pub(super) fn lives(
+        &self,
+        variant: &Variant,
+        (basis, form): (CycleBasis, VolumeIntegral),
+        now: &Now,
+        counting: Option<&Counting>,
+    ) -> Option<[Option<LifeFactors>; 2]> {
+        let shares = variant.shares(form)?;
+        Some(BodyId::BOTH.map(|body| {
+            let profile = self.profile(body, basis, now.n[body.index()], counting)?;
+            let ln_reference = self.ln_reference(variant, (body, form), now.size);
+            let f = factors(self.law, shares, body, ln_reference, profile, &self.depths);
+            f.relative.is_finite().then_some(f)
+        }))
+    }
+
+    fn profile<'a>(
+        &self,
+        body: BodyId,
+        basis: CycleBasis,
+        n: Option<f64>,
+        counting: Option<&'a Counting>,
+    ) -> Option<CycleProfile<'a>> {
+        match basis {
+            // A body that stands has no cycles of its own, but those of the other.
+            CycleBasis::Damage => counting?.profile(body, basis),
+            CycleBasis::Global => Some(CycleProfile::Global(n?)),
+            CycleBasis::Depth => Some(CycleProfile::Depth {
+                n: n?,
+                wavelength: self.wavelengths[body.index()].unwrap_or(f64::INFINITY),
+            }),
+            CycleBasis::Peaks | CycleBasis::Ranges => {
+                n?;
+                counting?.profile(body, basis)
+            }
+        }
+    }
+
+    /// The body that gives the life.
+    pub(super) fn governing(
+        &self,
+        lives: [Option<LifeFactors>; 2],
+    ) -> Option<(BodyId, LifeFactors)> {
+        let of = |body: BodyId| lives[body.index()].map(|f| (body, f));
+        match self.asked.body {
+            BodyChoice::Body1 => of(BodyId::One),
+            BodyChoice::Body2 => of(BodyId::Two),
+            BodyChoice::Weaker => BodyId::BOTH
+                .into_iter()
+                .filter_map(of)
+                .min_by(|a, b| a.1.relative.total_cmp(&b.1.relative)),
+        }
+    }
+
+    /// Both bodies together, in time, relative to both bodies of the reference.
+    pub(super) fn system(&self, lives: [Option<LifeFactors>; 2], s: f64) -> Option<f64> {
+        let [one, two] = lives;
+        let own = [1.0 - 0.5 * s, 1.0 + 0.5 * s].map(f64::abs);
+        let turns = match self.asked.cycles {
+            CycleBasis::Damage => [own[0].max(own[1]); 2],
+            _ => own,
+        };
+        let time = |f: Option<LifeFactors>, turns: f64| Some(f?.relative / turns);
+        let both = self
+            .law
+            .system_life(time(one, turns[0])?, time(two, turns[1])?);
+        let life = both / self.law.system_life(1.0, 1.0);
+        life.is_finite().then_some(life)
+    }
+
+    /// Least and greatest life over the variants, cycle bases and forms of the integral, and how many.
+    pub(super) fn spread(
+        &self,
+        now: &Now,
+        counting: Option<&Counting>,
+        life: f64,
+    ) -> (f64, f64, u32) {
+        let (mut low, mut high, mut count) = (life, life, 0);
+        if self.asked.spread == Spread::Off {
+            return (low, high, 1);
+        }
+        for variant in &self.variants {
+            for basis in CycleBasis::ALL {
+                let forms = match basis {
+                    CycleBasis::Damage => &[VolumeIntegral::Material][..],
+                    _ => &[VolumeIntegral::Snapshot, VolumeIntegral::Swept],
+                };
+                for &form in forms {
+                    let lives = self.lives(variant, (basis, form), now, counting);
+                    if let Some((_, f)) = lives.and_then(|lives| self.governing(lives)) {
+                        (low, high) = (low.min(f.relative), high.max(f.relative));
+                        count += 1;
+                    }
+                }
+            }
+        }
+        (low, high, count)
+    }
+}

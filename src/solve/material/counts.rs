@@ -1,0 +1,92 @@
+//! What the points of a body have counted: means over their crossings.
+
+use super::{DamageBasis, MaterialTracker, Tally};
+use crate::solve::tally::{History, mean};
+
+impl MaterialTracker {
+    /// Mean over the points' last whole crossings of the pressure's cycles; `None` until one is finished.
+    pub fn pressure_cycles(&self) -> Option<Tally> {
+        mean(self.points.iter().filter_map(|p| p.pressure.last))
+    }
+
+    /// Same of the signed shear at depth `k`.
+    pub fn shear_cycles(&self, k: usize) -> Option<Tally> {
+        mean(self.points.iter().filter_map(|p| p.shear.get(k)?.last))
+    }
+
+    /// Same of the effective stress at depth `k`; sizes are peaks.
+    pub fn effective_cycles(&self, k: usize) -> Option<Tally> {
+        mean(self.points.iter().filter_map(|p| p.effective.get(k)?.last))
+    }
+
+    /// Mean of the counts and of the equivalent cycles of every depth, on a basis, into `counted` and
+    /// `equivalent`; false until a crossing is finished.
+    pub fn cycles_by_depth(
+        &self,
+        basis: DamageBasis,
+        counted: &mut [f64],
+        equivalent: &mut [f64],
+    ) -> bool {
+        let mut known = !counted.is_empty();
+        for (k, (counted, equivalent)) in counted.iter_mut().zip(equivalent).enumerate() {
+            let tally = match basis {
+                DamageBasis::Ranges => self.shear_cycles(k),
+                DamageBasis::Peaks => self.effective_cycles(k),
+            };
+            known &= tally.is_some();
+            let tally = tally.unwrap_or_default();
+            // What never passes the gate is one loading cycle all the same.
+            (*counted, *equivalent) = (tally.count.max(1.0), tally.equivalent.max(1.0));
+        }
+        known
+    }
+
+    /// Equivalent cycles of every depth in a loading cycle of the faster body, which has moved by `fastest` (in a) while
+    /// this one moved by `own` (both in size, since the last restart):
+    ///
+    /// ```text
+    /// n(z) = U_i/U_fast + (Z/N way) Σ_small range^c / <greatest range^c>        Z: track, N: points
+    /// ```
+    /// Cycles count as they close, wherever the points then are, and so also for a body that hardly moves or stands;
+    /// the greatest of each crossing is the crossing's own. A depth without shear (a frictionless surface) takes the
+    /// count below it. False before anything moved.
+    pub fn damage_cycles(&self, (own, fastest): (f64, f64), out: &mut [f64]) -> bool {
+        if fastest <= 0.0 || self.spec.depths == 0 {
+            return false;
+        }
+        let track = self.spec.x_last - self.spec.x_first;
+        let passages = fastest * self.points.len() as f64 / track;
+        let mut below = own / fastest;
+        for k in (0..self.spec.depths).rev() {
+            let histories = || self.points.iter().map(|point| &point.shear[k]);
+            let open: f64 = histories().map(|h| h.tally.damage).sum();
+            let greatest = self.greatest_damage(k);
+            if greatest > 0.0 {
+                below = own / fastest + (self.ended[k] + open) / (passages * greatest);
+            }
+            out[k] = below;
+        }
+        true
+    }
+
+    /// Mean damage of the greatest cycle of a crossing at depth `k`; of what all points together saw, where none has ended.
+    fn greatest_damage(&self, k: usize) -> f64 {
+        let exponent = self.spec.damage_exponent;
+        let histories = || self.points.iter().map(|point| &point.shear[k]);
+        let (sum, count) = histories()
+            .filter_map(|h| h.last)
+            .fold((0.0, 0.0), |(sum, n), last| {
+                (sum + last.range.powf(exponent), n + 1.0)
+            });
+        if count > 0.0 {
+            return sum / count;
+        }
+        // Points that stand each see one place; a crossing sees all of them.
+        let (low, high) = histories()
+            .map(History::ends)
+            .fold((0.0_f64, 0.0_f64), |all, ends| {
+                (all.0.min(ends.0), all.1.max(ends.1))
+            });
+        (high - low).powf(exponent)
+    }
+}

@@ -1,0 +1,234 @@
+//! Published tables and experiments beside what the program finds.
+//!
+//! Computations are solved on two grids and extrapolated with the order of the scheme, h* = h + (h − h₂)/3; experiments
+//! are compared by rank, ratio, depth and place, by every way of counting cycles that the program has. What is compared
+//! stands in `assets/studies/evidence.toml`, each case a scene in `assets/evidence`. A disagreement is printed with its
+//! most likely cause.
+
+mod dent;
+mod fit;
+mod measure;
+mod plot;
+mod report;
+mod set;
+mod tried;
+
+pub use plot::{agreement_plot, experiments_plot};
+pub use report::{evidence_table, evidence_text};
+pub use set::{
+    Case, Claim, EvidenceSet, Experiment, Forecast, Grade, Kind, Measure, Point, Row, planned,
+};
+pub use tried::{Damage, Judged, Tried, word};
+
+use std::time::Instant;
+
+use super::crew::share_out;
+use super::{Extent, Progress, StudyError, refuse_nothing};
+use crate::scene::CycleBasis;
+use measure::Values;
+
+/// A number of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvidenceRow {
+    /// Case.
+    pub case: String,
+    /// Grade.
+    pub grade: Grade,
+    /// Source.
+    pub source: String,
+    /// What it is.
+    pub what: String,
+    /// Scene, with the keys set on top, as words of a command line.
+    pub scene: String,
+    /// The source's number.
+    pub theirs: f64,
+    /// Half of the range that the source gives.
+    pub spread: f64,
+    /// Nodes of both grids.
+    pub nodes: [usize; 2],
+    /// What is found on them.
+    pub found: [f64; 2],
+    /// What both tend to.
+    pub limit: f64,
+    /// limit/theirs − 1, from the nearer end of the source's range.
+    pub deviation: f64,
+    /// Deviation that counts as agreement.
+    pub tolerance: f64,
+    /// Most likely cause of a disagreement.
+    pub cause: Option<String>,
+    /// Why there is no number.
+    pub failed: Option<String>,
+}
+
+impl EvidenceRow {
+    /// Whether both agree.
+    pub fn agrees(&self) -> bool {
+        self.deviation.abs() <= self.tolerance
+    }
+}
+
+/// The study's result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// Computations.
+    pub rows: Vec<EvidenceRow>,
+    /// Experiments.
+    pub experiments: Vec<Tried>,
+    /// Nodes of the experiments' grid.
+    pub nodes: usize,
+    /// Time taken, s.
+    pub seconds: f64,
+}
+
+impl Evidence {
+    /// Whether every number was found, and every disagreement of a computation has a cause.
+    pub fn passes(&self) -> bool {
+        let named = |row: &EvidenceRow| row.agrees() || row.cause.is_some();
+        let rows = self.rows.iter();
+        let found = |tried: &Tried| tried.damages.iter().flatten().all(Result::is_ok);
+        rows.clone().all(|row| row.failed.is_none() && named(row))
+            && self.experiments.iter().all(found)
+    }
+}
+
+/// What one worker does.
+enum Job<'a> {
+    Case(&'a Case, usize, usize),
+    Point(&'a Experiment, &'a Point, CycleBasis, usize),
+}
+
+/// What came of it.
+enum Done {
+    Case(Result<Values, String>),
+    Point(Result<Damage, String>),
+}
+
+impl Job<'_> {
+    fn name(&self) -> String {
+        match self {
+            Self::Case(case, nodes, _) => format!("{}, {nodes} nodes", case.name),
+            Self::Point(experiment, point, basis, _) => {
+                format!("{}, {}, {}", experiment.name, point.label, word(*basis))
+            }
+        }
+    }
+
+    fn work(&self) -> Done {
+        match *self {
+            Self::Case(case, nodes, finest) => Done::Case(measure::measure(case, nodes, finest)),
+            Self::Point(_, point, basis, nodes) => Done::Point(tried::damage(point, basis, nodes)),
+        }
+    }
+}
+
+/// Nodes of the experiments' grid: 14 and more on a wave, in the full form 29.
+fn nodes_of_experiments(extent: Extent) -> usize {
+    match extent {
+        Extent::Quick | Extent::Usual => 257,
+        Extent::Full => 513,
+    }
+}
+
+/// Computes the set, `workers` runs at a time, each on one thread. `only`: what has that in its name or source.
+///
+/// # Errors
+/// [`StudyError`] when the data of the study are wrong, or nothing is called that.
+pub fn evidence(
+    extent: Extent,
+    only: Option<&str>,
+    workers: usize,
+    progress: &mut Progress,
+) -> Result<Evidence, StudyError> {
+    let clock = Instant::now();
+    let set = EvidenceSet::shipped().map_err(StudyError::Scene)?;
+    let wanted = |names: [&str; 3]| only.is_none_or(|part| names.iter().any(|n| n.contains(part)));
+    let mut cases: Vec<(&Case, [usize; 2])> = Vec::new();
+    for case in &set.cases {
+        let nodes = case.nodes(extent);
+        if let Some(nodes) = nodes.filter(|_| wanted([&case.name, &case.source, &case.scene])) {
+            cases.push((case, nodes));
+        }
+    }
+    let is_in = |e: &&Experiment| {
+        let asked = only.is_some() || e.quick || extent != Extent::Quick;
+        let mut scenes = e.point.iter().map(|point| point.scene.as_str());
+        asked && wanted([&e.name, &e.source, scenes.next().unwrap_or_default()])
+    };
+    let experiments: Vec<&Experiment> = set.experiments.iter().filter(is_in).collect();
+    refuse_nothing(only, cases.is_empty() && experiments.is_empty())?;
+    let nodes = nodes_of_experiments(extent);
+    let mut jobs: Vec<Job> = Vec::new();
+    for (case, [coarse, fine]) in &cases {
+        jobs.extend([*coarse, *fine].map(|nodes| Job::Case(case, nodes, *fine)));
+    }
+    for &experiment in &experiments {
+        for point in &experiment.point {
+            let all = CycleBasis::ALL.into_iter();
+            jobs.extend(all.map(|basis| Job::Point(experiment, point, basis, nodes)));
+        }
+    }
+    let done = share_out(&jobs, workers, Job::name, Job::work, progress);
+    let (mut values, mut damages) = (Vec::new(), Vec::new());
+    for done in done {
+        match done {
+            Done::Case(found) => values.push(found),
+            Done::Point(found) => damages.push(found),
+        }
+    }
+    let pairs = cases.iter().zip(values.chunks_exact(2));
+    let rows = pairs.flat_map(|((case, nodes), found)| rows(case, *nodes, found));
+    let mut damages = damages.into_iter();
+    let tried = experiments.iter().map(|&experiment| {
+        let points = experiment.point.iter();
+        let of_points = points.map(|_| damages.by_ref().take(CycleBasis::ALL.len()).collect());
+        let of_points = of_points.collect();
+        Tried::new(experiment, of_points)
+    });
+    Ok(Evidence {
+        rows: rows.collect(),
+        experiments: tried.collect(),
+        nodes,
+        seconds: clock.elapsed().as_secs_f64(),
+    })
+}
+
+/// The rows of a case from what its two grids gave.
+fn rows(case: &Case, nodes: [usize; 2], found: &[Result<Values, String>]) -> Vec<EvidenceRow> {
+    let failed = found.iter().find_map(|found| found.as_ref().err().cloned());
+    let of = |grid: usize, name: &str| {
+        let values = found[grid].as_ref().ok();
+        let value = values.and_then(|values| values.iter().find(|(known, _)| *known == name));
+        value.map_or(f64::NAN, |(_, value)| *value)
+    };
+    let mut scene = format!("evidence/{}", case.scene);
+    for set in &case.set {
+        scene.push_str(" --set ");
+        scene.push_str(set);
+    }
+    let row = |row: &Row| {
+        let found = [0, 1].map(|grid| of(grid, &row.value));
+        let limit = found[1] + (found[1] - found[0]) / 3.0;
+        let theirs = match &row.closed {
+            Some(name) => of(1, name),
+            None => row.theirs.unwrap_or(f64::NAN),
+        };
+        let nearest = limit.max(theirs - row.spread).min(theirs + row.spread);
+        EvidenceRow {
+            case: case.name.clone(),
+            grade: case.grade,
+            source: case.source.clone(),
+            what: row.what.clone(),
+            scene: scene.clone(),
+            theirs,
+            spread: row.spread,
+            nodes,
+            found,
+            limit,
+            deviation: (limit - nearest) / theirs,
+            tolerance: row.tolerance,
+            cause: row.cause.clone(),
+            failed: failed.clone(),
+        }
+    };
+    case.row.iter().map(row).collect()
+}

@@ -1,0 +1,390 @@
+//! The evidence as tables and words.
+
+use std::fmt::Write as _;
+
+use super::super::table::{Table, figure};
+use super::tried::{Judged, Tried, word};
+use super::{Evidence, EvidenceRow};
+use crate::scene::CycleBasis;
+
+/// What a disagreement without a known cause is told by.
+const UNKNOWN: &str = "no cause is known";
+
+/// Every computed number.
+pub fn evidence_table(result: &Evidence) -> Table {
+    let mut table = Table::new(&[
+        "grade",
+        "case",
+        "source",
+        "what",
+        "theirs",
+        "nodes",
+        "found",
+        "limit",
+        "deviation, %",
+        "allowed, %",
+        "agrees",
+        "scene",
+    ]);
+    for row in &result.rows {
+        let theirs = match row.spread {
+            0.0 => number(row.theirs),
+            spread => format!(
+                "{} to {}",
+                number(row.theirs - spread),
+                number(row.theirs + spread)
+            ),
+        };
+        table.rows.push(vec![
+            row.grade.name().to_owned(),
+            row.case.clone(),
+            row.source.clone(),
+            row.what.clone(),
+            theirs,
+            format!("{}, {}", row.nodes[0], row.nodes[1]),
+            format!("{}, {}", number(row.found[0]), number(row.found[1])),
+            number(row.limit),
+            format!("{:+.1}", 100.0 * row.deviation),
+            format!("{}", 100.0 * row.tolerance),
+            match &row.failed {
+                Some(reason) => format!("failed: {reason}"),
+                None if row.agrees() => "yes".to_owned(),
+                None => "no".to_owned(),
+            },
+            row.scene.clone(),
+        ]);
+    }
+    table
+}
+
+/// Four figures.
+fn number(value: f64) -> String {
+    if value.abs() >= 1000.0 || !value.is_finite() {
+        format!("{value:.0}")
+    } else {
+        let digits = 3 - value.abs().max(1e-3).log10().floor() as i32;
+        format!("{value:.*}", digits.clamp(0, 6) as usize)
+    }
+}
+
+/// The whole report as Markdown.
+pub fn evidence_text(result: &Evidence) -> String {
+    let mut text = format!(
+        "What others computed and measured, beside what this program finds. Every row is a scene: `asperity run SCENE`, with \
+         its words of the last column. Theirs are the sources' own numbers or converted from them \
+         (`assets/studies/evidence.toml`); no constant of the program was chosen to meet one. {:.0} s in all.\n",
+        result.seconds
+    );
+    if !result.rows.is_empty() {
+        push_computed(&mut text, result);
+    }
+    if !result.experiments.is_empty() {
+        push_experiments(&mut text, result);
+    }
+    push_left_out(&mut text);
+    text
+}
+
+fn push_computed(text: &mut String, result: &Evidence) {
+    let agreeing = result.rows.iter().filter(|row| row.agrees()).count();
+    let _ = writeln!(
+        text,
+        "\n## Computations\n\nLimit: both grids extrapolated with the square of the spacing, h + (h - h2)/3. \
+         {agreeing} of {} numbers agree within what is allowed.\n",
+        result.rows.len()
+    );
+    text.push_str(&evidence_table(result).markdown());
+    let apart: Vec<&EvidenceRow> = result.rows.iter().filter(|row| !row.agrees()).collect();
+    if !apart.is_empty() {
+        text.push_str("\nDisagreements, each with its most likely cause:\n\n");
+    }
+    for row in apart {
+        let cause = row.failed.as_deref().or(row.cause.as_deref());
+        let _ = writeln!(
+            text,
+            "- {}, {}: {:+.1} %. {}.",
+            row.case,
+            row.what,
+            100.0 * row.deviation,
+            capital(cause.unwrap_or(UNKNOWN))
+        );
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().collect::<String>() + letters.as_str()
+    })
+}
+
+fn push_experiments(text: &mut String, result: &Evidence) {
+    let _ = writeln!(
+        text,
+        "\n## Experiments\n\nDamage is 1/life of a body in its own loading cycles, on {} nodes, by every way of counting \
+         (`life.cycles`); lives are relative to the smooth, frictionless contact. A rank holds where the ratio is above 1.1, \
+         damages are alike within a factor of 1.5, a measured ratio is met within half a decade.",
+        result.nodes
+    );
+    for tried in &result.experiments {
+        push_experiment(text, tried);
+    }
+    push_countings(text, &result.experiments);
+}
+
+fn push_experiment(text: &mut String, tried: &Tried) {
+    let experiment = &tried.experiment;
+    let _ = writeln!(
+        text,
+        "\n### {}\n\n*{}.* {}\n\nComparable: {}. Not: {}.\n",
+        experiment.name,
+        experiment.source,
+        experiment.measured,
+        experiment.comparable,
+        experiment.not_comparable
+    );
+    let countings: Vec<String> = CycleBasis::ALL.into_iter().map(word).collect();
+    let head = countings.join(" | ");
+    let rule = "|---".repeat(countings.len());
+    let _ = writeln!(text, "| point | scene | {head} |\n|---|---{rule}|");
+    for (point, found) in experiment.point.iter().zip(&tried.damages) {
+        let cell = |found: &Result<super::Damage, String>| match found {
+            Ok(damage) if point.depth_m.is_some() => {
+                format!("stress {}", figure(Some(damage.value)))
+            }
+            Ok(damage) => format!("life {}", figure(Some(1.0 / damage.value))),
+            Err(reason) => format!("failed: {reason}"),
+        };
+        let cells: Vec<String> = found.iter().map(cell).collect();
+        let sets: String = point
+            .set
+            .iter()
+            .map(|set| format!(" --set {set}"))
+            .collect();
+        let body = if point.body == 1 { "" } else { " (body 2)" };
+        let _ = writeln!(
+            text,
+            "| {}{body} | evidence/{}{sets} | {} |",
+            point.label,
+            point.scene,
+            cells.join(" | ")
+        );
+    }
+    let _ = writeln!(
+        text,
+        "\n| what it says | measured | {head} |\n|---|---{rule}|"
+    );
+    for judged in &tried.judged {
+        let measured = judged
+            .claim
+            .ratio
+            .map_or_else(|| "-".to_owned(), |ratio| figure(Some(ratio)));
+        let cells: Vec<String> = judged
+            .ratios
+            .iter()
+            .zip(&judged.holds)
+            .map(|(ratio, holds)| {
+                format!(
+                    "{} {}",
+                    if *holds { "yes" } else { "no" },
+                    figure(Some(*ratio))
+                )
+            })
+            .collect();
+        let _ = writeln!(
+            text,
+            "| {} | {measured} | {} |",
+            judged.claim.says,
+            cells.join(" | ")
+        );
+    }
+    for judged in &tried.judged {
+        if !judged.holds.iter().all(|holds| *holds) {
+            let why = judged.claim.why.as_deref().unwrap_or(UNKNOWN);
+            let _ = writeln!(text, "\n*\"{}\"* fails: {why}.", judged.claim.says);
+        }
+    }
+    push_forecast(text, tried);
+}
+
+/// What a known life foretells, by every counting.
+fn push_forecast(text: &mut String, tried: &Tried) {
+    let Some(forecast) = &tried.experiment.forecast else {
+        return;
+    };
+    let at = |label: &str| tried.experiment.point.iter().position(|p| p.label == label);
+    let Some((known, wanted)) = at(&forecast.known).zip(at(&forecast.wanted)) else {
+        return;
+    };
+    // L50/L10 = (ln 2/ln(1/0.9))^{1/e}.
+    let decades = (2.0_f64.ln() / (1.0_f64 / 0.9).ln()).ln();
+    let slope = decades / (forecast.l50 / forecast.l10).ln();
+    let _ = writeln!(
+        text,
+        "\nThe known life as the calibration point (`life.calibration_cycles`), Weibull slope {slope:.2} by its own L50/L10; \
+         forecast of L10 of \"{}\", millions, with the band of the known one:\n",
+        forecast.wanted
+    );
+    for (counting, basis) in CycleBasis::ALL.into_iter().enumerate() {
+        let [known, wanted] = [known, wanted].map(|at| tried.damages[at][counting].as_ref());
+        let (Ok(known), Ok(wanted)) = (known, wanted) else {
+            continue;
+        };
+        let [l10, low, high] = [forecast.l10, forecast.low, forecast.high]
+            .map(|life| figure(Some(life * known.value / wanted.value)));
+        let _ = writeln!(text, "- {}: {l10} ({low} to {high})", word(basis));
+    }
+}
+
+/// Which counting agrees with what.
+fn push_countings(text: &mut String, experiments: &[Tried]) {
+    let countings: Vec<String> = CycleBasis::ALL.into_iter().map(word).collect();
+    let _ = writeln!(
+        text,
+        "\n## Countings\n\nClaims that hold, of those that go by life:\n\n| experiment | {} |\n|---{}|",
+        countings.join(" | "),
+        "|---".repeat(countings.len())
+    );
+    let by_life = |tried: &Tried| -> Vec<Judged> {
+        let judged = tried.judged.iter().filter(|judged| !judged.is_stress);
+        judged.cloned().collect()
+    };
+    for tried in experiments {
+        let judged = by_life(tried);
+        let held = |k: usize| judged.iter().filter(|judged| judged.holds[k]).count();
+        let cells: Vec<String> = (0..countings.len())
+            .map(|k| format!("{} of {}", held(k), judged.len()))
+            .collect();
+        let _ = writeln!(
+            text,
+            "| {} | {} |",
+            tried.experiment.name,
+            cells.join(" | ")
+        );
+    }
+    let all: Vec<Judged> = experiments.iter().flat_map(by_life).collect();
+    let _ = writeln!(text, "\n{}", verdict(&all));
+}
+
+/// The sentence: whether one counting agrees with all experiments.
+pub(super) fn verdict(all: &[Judged]) -> String {
+    let countings: Vec<String> = CycleBasis::ALL.into_iter().map(word).collect();
+    let can_hold: Vec<&Judged> = all
+        .iter()
+        .filter(|judged| judged.holds.contains(&true))
+        .collect();
+    let held = |k: usize| can_hold.iter().filter(|judged| judged.holds[k]).count();
+    let list: Vec<String> = countings
+        .iter()
+        .enumerate()
+        .map(|(k, name)| format!("{name} {}", held(k)))
+        .collect();
+    let hopeless: Vec<String> = all
+        .iter()
+        .filter(|judged| !judged.holds.contains(&true))
+        .map(|judged| format!("\"{}\"", judged.claim.says))
+        .collect();
+    let complete: Vec<&String> = countings
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| held(*k) == can_hold.len())
+        .map(|(_, name)| name)
+        .collect();
+    let names = |names: &[&String]| {
+        let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
+        names.join(", ")
+    };
+    let first = match (&complete[..], hopeless.len()) {
+        ([], _) => "**No counting agrees with all experiments**".to_owned(),
+        (some, 0) => format!("**All claims are met by {}**", names(some)),
+        (some, _) => format!(
+            "**No counting agrees with all experiments; {} meets all that any meets**",
+            names(some)
+        ),
+    };
+    let mut text = format!(
+        "{first}: of {} claims that at least one counting meets, {}.",
+        can_hold.len(),
+        list.join(", ")
+    );
+    if !hopeless.is_empty() {
+        let _ = write!(
+            text,
+            " None meets {}: what is missing there is not a counting.",
+            hopeless.join(", ")
+        );
+    }
+    text
+}
+
+fn push_left_out(text: &mut String) {
+    /// C = 1/(1 + 0.241 (1 + 14.8 Z^0.83) L_T^0.64), Z = |S|/2.
+    fn factor(slide_roll: f64, thermal: f64) -> f64 {
+        let sliding = 1.0 + 14.8 * (0.5 * slide_roll.abs()).powf(0.83);
+        1.0 / (1.0 + 0.241 * sliding * thermal.powf(0.64))
+    }
+    let [rolling, half, one] = [0.0, 0.5, 1.0].map(|s| factor(s, 0.1));
+    let _ = writeln!(
+        text,
+        "\n## Left out\n\n\
+         - Inlet shear heating (Wilson & Sheu): the film here is isothermal. By their factor it would be {rolling:.2}, {half:.2} \
+         and {one:.2} times as thick at S = 0, 0.5 and 1 where L_T = 0.1.\n\
+         - Mass lost by wear (Brandão et al., FZG type C) and the trends with wear of both papers of Morales-Espejel: a run \
+         ends at initiation, with the surfaces of its beginning.\n\
+         - ISO/TS 6336-22: a formula for a film, not a measurement."
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::set::{Claim, Kind};
+    use super::*;
+
+    fn judged(says: &str, holds: &[usize]) -> Judged {
+        let countings = 0..CycleBasis::ALL.len();
+        Judged {
+            claim: Claim {
+                says: says.to_owned(),
+                kind: Kind::Rank,
+                more: String::new(),
+                less: None,
+                ratio: None,
+                per_time: false,
+                why: None,
+            },
+            ratios: vec![1.0; CycleBasis::ALL.len()],
+            holds: countings.map(|k| holds.contains(&k)).collect(),
+            is_stress: false,
+        }
+    }
+
+    #[test]
+    fn the_sentence_says_what_the_table_says() {
+        let first = word(CycleBasis::ALL[0]);
+        let all = verdict(&[judged("a", &[0, 1]), judged("b", &[0])]);
+        assert!(
+            all.starts_with(&format!("**All claims are met by {first}**")),
+            "{all}"
+        );
+        let rest = verdict(&[judged("a", &[0]), judged("wear", &[])]);
+        assert!(
+            rest.contains(&format!("{first} meets all that any meets")),
+            "{rest}"
+        );
+        assert!(rest.contains("None meets \"wear\""), "{rest}");
+        let none = verdict(&[judged("a", &[0]), judged("b", &[1])]);
+        assert!(
+            none.starts_with("**No counting agrees with all experiments**:"),
+            "{none}"
+        );
+        assert!(none.contains("of 2 claims"), "{none}");
+    }
+
+    #[test]
+    fn numbers_have_four_figures() {
+        assert_eq!(number(0.0525), "0.05250");
+        assert_eq!(number(377.0), "377.0");
+        assert_eq!(number(1.0), "1.000");
+        assert_eq!(number(f64::NAN), "NaN");
+    }
+}

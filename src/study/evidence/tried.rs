@@ -1,0 +1,197 @@
+//! Experiments: the damage at their operating points by every counting of cycles, and whether what they say holds.
+
+use super::measure::{on_grid, run};
+use super::set::{Claim, Experiment, Kind, Point};
+use crate::scene::{CycleBasis, Scene, Surface};
+use crate::sim::{Frame, Simulation, Stage};
+
+/// A ratio above it counts as a rank: what mesh and phases leave of a life that goes with a tenth power of the stress.
+const MORE: f64 = 1.1;
+/// Damages within this factor are alike: no fatigue test tells less.
+const ALIKE: f64 = 1.5;
+/// A ratio of lives is met within half a decade: the scatter of a mean of few fatigue tests.
+const HALF_A_DECADE: f64 = 3.162_277_660_168_379_5;
+
+/// The key word of a counting, such as `global`.
+pub fn word(basis: CycleBasis) -> String {
+    toml::Value::try_from(basis)
+        .ok()
+        .and_then(|value| value.as_str().map(str::to_owned))
+        .unwrap_or_default()
+}
+
+/// A point by one counting.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Damage {
+    /// 1/life in own loading cycles, or the stress over that of the smooth contact.
+    pub value: f64,
+    /// Speed of the body, m/s: its loading cycles in a time.
+    pub speed_m_s: f64,
+}
+
+/// What a claim comes to by every counting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// The claim.
+    pub claim: Claim,
+    /// Damage of the one point over that of the other, by counting.
+    pub ratios: Vec<f64>,
+    /// Whether the claim holds, by counting.
+    pub holds: Vec<bool>,
+    /// Whether it goes by stress, which no counting touches.
+    pub is_stress: bool,
+}
+
+/// An experiment and what the program says of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tried {
+    /// The experiment.
+    pub experiment: Experiment,
+    /// Damages of its points, by counting; why there is none.
+    pub damages: Vec<Vec<Result<Damage, String>>>,
+    /// Its claims.
+    pub judged: Vec<Judged>,
+}
+
+impl Tried {
+    /// Judges the claims by the damages found.
+    pub(super) fn new(experiment: &Experiment, damages: Vec<Vec<Result<Damage, String>>>) -> Self {
+        let of = |label: &str, counting: usize| {
+            let at = experiment.point.iter().position(|p| p.label == label)?;
+            damages[at][counting].as_ref().ok().copied()
+        };
+        let judged = experiment.claim.iter().map(|claim| {
+            let ratios: Vec<f64> = (0..CycleBasis::ALL.len())
+                .map(|counting| {
+                    let more = of(&claim.more, counting);
+                    let less = match &claim.less {
+                        Some(label) => of(label, counting),
+                        None => more.map(|more| Damage { value: 1.0, ..more }),
+                    };
+                    let ratio = |(more, less): (Damage, Damage)| {
+                        let time = if claim.per_time {
+                            more.speed_m_s / less.speed_m_s
+                        } else {
+                            1.0
+                        };
+                        more.value / less.value * time
+                    };
+                    more.zip(less).map_or(f64::NAN, ratio)
+                })
+                .collect();
+            let is_stress = experiment
+                .point
+                .iter()
+                .any(|point| point.label == claim.more && point.depth_m.is_some());
+            Judged {
+                holds: ratios.iter().map(|ratio| holds(claim, *ratio)).collect(),
+                claim: claim.clone(),
+                ratios,
+                is_stress,
+            }
+        });
+        let judged = judged.collect();
+        Self {
+            experiment: experiment.clone(),
+            damages,
+            judged,
+        }
+    }
+}
+
+fn holds(claim: &Claim, ratio: f64) -> bool {
+    let within = |off: f64, factor: f64| (1.0 / factor..=factor).contains(&off);
+    match claim.kind {
+        Kind::Rank => ratio > MORE,
+        Kind::Equal => within(ratio, ALIKE),
+        Kind::Ratio => claim
+            .ratio
+            .is_some_and(|theirs| within(ratio / theirs, HALF_A_DECADE)),
+    }
+}
+
+/// The damage of a point by a counting, on `nodes`.
+pub(super) fn damage(point: &Point, basis: CycleBasis, nodes: usize) -> Result<Damage, String> {
+    let mut set = point.set.clone();
+    set.push(format!("life.cycles={}", word(basis)));
+    let (scene, plan) = on_grid(&point.scene, &set, nodes, nodes)?;
+    let speed_m_s = scene.speeds_m_s()[point.body - 1].abs();
+    let value = if let Some(depth_m) = point.depth_m {
+        let mut smooth = scene.clone();
+        (smooth.body_1.surface, smooth.body_2.surface) = (Surface::Smooth {}, Surface::Smooth {});
+        stress_at(&scene, depth_m)? / stress_at(&smooth, depth_m)?
+    } else {
+        let summary = run(&scene, plan)?;
+        let life = [summary.life_body_1, summary.life_body_2][point.body - 1];
+        1.0 / life.ok_or("no life")?
+    };
+    if value.is_finite() {
+        Ok(Damage { value, speed_m_s })
+    } else {
+        Err(format!("damage {value}"))
+    }
+}
+
+/// Greatest effective stress of a passage at a depth of body 1, Pa.
+fn stress_at(scene: &Scene, depth_m: f64) -> Result<f64, String> {
+    let plan = crate::plan::Plan::new(scene).map_err(|error| error.to_string())?;
+    let steps = plan.steps_per_passage;
+    let mut sim = Simulation::new(scene, plan, 1).map_err(|error| error.to_string())?;
+    let mut frame = Frame::default();
+    let mut greatest = 0.0_f64;
+    while sim.stage() != Stage::Passage || sim.passage_steps() < steps {
+        sim.step().map_err(|error| error.to_string())?;
+        if sim.stage() != Stage::Passage {
+            continue;
+        }
+        sim.fill(&mut frame);
+        let slice = frame.slice.as_ref().ok_or("no stress")?;
+        let row = |k: usize| {
+            let row = &slice.effective_pa[k * frame.nx..(k + 1) * frame.nx];
+            row.iter().map(|s| f64::from(*s)).fold(0.0, f64::max)
+        };
+        let above = slice.depths_m.partition_point(|z| *z < depth_m);
+        let below = above.min(slice.depths_m.len() - 1);
+        let above = below.saturating_sub(1);
+        let [z_1, z_2] = [above, below].map(|k| slice.depths_m[k]);
+        let share = ((depth_m - z_1) / (z_2 - z_1)).clamp(0.0, 1.0);
+        greatest = greatest.max(row(above) + share * (row(below) - row(above)));
+    }
+    Ok(greatest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(kind: Kind, ratio: Option<f64>) -> Claim {
+        Claim {
+            says: String::new(),
+            kind,
+            more: String::new(),
+            less: None,
+            ratio,
+            per_time: false,
+            why: None,
+        }
+    }
+
+    #[test]
+    fn claims_hold_where_they_should_and_nowhere_else() {
+        assert!(holds(&claim(Kind::Rank, None), 1.2) && !holds(&claim(Kind::Rank, None), 1.05));
+        assert!(holds(&claim(Kind::Equal, None), 0.8) && !holds(&claim(Kind::Equal, None), 2.0));
+        let ratio = claim(Kind::Ratio, Some(100.0));
+        assert!(holds(&ratio, 250.0) && holds(&ratio, 40.0));
+        assert!(!holds(&ratio, 20.0) && !holds(&ratio, 400.0));
+        for kind in [Kind::Rank, Kind::Equal, Kind::Ratio] {
+            assert!(!holds(&claim(kind, Some(1.0)), f64::NAN));
+        }
+    }
+
+    #[test]
+    fn every_counting_has_a_word() {
+        let words: Vec<_> = CycleBasis::ALL.into_iter().map(word).collect();
+        assert!(words.iter().all(|word| !word.is_empty()), "{words:?}");
+        assert!(words.contains(&"global".to_owned()));
+    }
+}

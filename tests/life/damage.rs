@@ -1,0 +1,124 @@
+//! Cycles by the damage they do: where life goes as ripples vanish, as bodies stop sliding, as one stands.
+
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use asperity::plan::Plan;
+use asperity::scene::{Override, Scene};
+use asperity::sim::{Simulation, Summary};
+
+/// A run of a preset to its planned end.
+fn run(preset: &str, sets: &[String]) -> Summary {
+    let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
+    let scene = Scene::load_with(preset, &sets).unwrap();
+    let plan = Plan::new(&scene).unwrap();
+    let steps = plan.steps;
+    let mut sim = Simulation::new(&scene, plan, 2).unwrap();
+    while sim.passage_steps() < steps {
+        sim.step().unwrap();
+    }
+    sim.summary()
+}
+
+fn flank(amplitude_m: f64, s: f64, more: &[&str]) -> Summary {
+    let mut sets = vec![
+        "grid.nodes=129".to_owned(),
+        "life.spread=off".to_owned(),
+        "life.cycles=damage".to_owned(),
+        format!("motion.slide_roll={s}"),
+    ];
+    sets.extend([1, 2].map(|body| format!("body_{body}.surface.amplitude_m={amplitude_m:e}")));
+    sets.extend(more.iter().map(|set| (*set).to_owned()));
+    run("fzg_point_b", &sets)
+}
+
+#[test]
+fn a_ripple_of_no_height_costs_nothing() {
+    let life = |amplitude_m: f64| {
+        let s = flank(amplitude_m, 0.44, &[]);
+        let (life, cycle) = (s.life_relative.unwrap(), s.cycle_factor.unwrap());
+        let paper = s.life_global.unwrap();
+        println!(
+            "{amplitude_m:.2e} m: life {life:.4}, cycles {cycle:.4}, paper's count {paper:.4}"
+        );
+        (life, cycle, paper)
+    };
+    let smooth = life(0.0);
+    let mut before = smooth;
+    let mut amplitude_m = 1e-10;
+    // Steps of 1.5 as far as the steps of life are those of the count, and not of the stress itself.
+    while amplitude_m < 5e-8 {
+        let now = life(amplitude_m);
+        assert!((now.0 / before.0 - 1.0).abs() < 0.05, "{amplitude_m}");
+        assert!((now.1 / before.1 - 1.0).abs() < 0.01, "{amplitude_m}");
+        before = now;
+        amplitude_m *= if amplitude_m < 1e-8 { 15.0 } else { 1.5 };
+    }
+    // The paper's counts a crest of no height as a cycle.
+    assert!(life(1e-10).2 / smooth.2 < 0.5);
+    // Higher crests cost more, one after the other.
+    let high: Vec<f64> = [1e-7, 2e-7, 4e-7].map(|a| life(a).0).to_vec();
+    assert!(high.windows(2).all(|pair| pair[1] < pair[0]), "{high:?}");
+}
+
+#[test]
+fn no_slide_to_roll_ratio_is_a_jump() {
+    let life = |s: f64| {
+        let out = flank(5e-8, s, &[]);
+        let bodies = [out.life_body_1.unwrap(), out.life_body_2.unwrap()];
+        println!(
+            "S = {s}: {:.4} (body {:?}), bodies {bodies:.3?}, paper's count {:?}",
+            out.life_relative.unwrap(),
+            out.life_body.unwrap(),
+            out.life_global
+        );
+        (out.life_relative.unwrap(), bodies)
+    };
+    for (one, other) in [(0.0, 1e-3), (0.0, -1e-3), (1.95, 2.0), (-1.95, -2.0)] {
+        let (one, other) = (life(one).0, life(other).0);
+        assert!((one / other - 1.0).abs() < 0.06, "{one} {other}");
+    }
+    // The same contact seen from the other body.
+    let (one, two) = (life(0.8), life(-0.8));
+    assert!((one.0 / two.0 - 1.0).abs() < 0.02);
+    assert!((one.1[0] / two.1[1] - 1.0).abs() < 0.02);
+    // A body that stands is still in the life: it meets every crest of the other.
+    assert!(life(2.0).1[0].is_finite());
+}
+
+#[test]
+fn full_ripples_count_as_many_as_they_do_damage() {
+    // A dry line contact with crests that unload fully between: near the surface n goes from 1 to the formula's, of which
+    // Miner's sum under a half-ellipse keeps φ(c), and the greatest itself.
+    let sets = [
+        "life.cycles=damage",
+        "lubricant=none",
+        "friction.boundary=0.05",
+        "body_1.surface.kind=smooth",
+        "body_2.surface.wavelength_x_m=4e-5",
+        "body_2.surface.amplitude_m=1.2e-6",
+        "body_1.hardness_pa=inf",
+        "body_2.hardness_pa=inf",
+        "motion.slide_roll=1",
+        "grid.nodes=257",
+        "time.step_nodes=0.5",
+        "life.spread=off",
+    ];
+    let out = run("fzg_point_b", &sets.map(str::to_owned));
+    // Body 1 is the slower: U_1/U_fast = 1/3, and so many crests in a loading cycle of body 2.
+    let c = 31.0 / 3.0;
+    let own = out.n_body_1.unwrap();
+    let full = (1.0 + (own - 1.0) * asperity::physics::cycles::miner_part(c)) / 3.0;
+    let stress = out.peak_factor.unwrap() * out.traction_factor.unwrap();
+    println!(
+        "n {own:.1}: by contacts {:.2}, by damage {full:.2} in cycles of the faster body; lives {:?} {:?}, cycle factor \
+         {:.3} (body {:?}), stress {stress:.3e}",
+        own / 3.0,
+        out.life_body_1,
+        out.life_body_2,
+        out.cycle_factor.unwrap(),
+        out.life_body
+    );
+    // Whichever body governs, the factor lies between one cycle and the formula's count of them.
+    assert!(out.cycle_factor.unwrap() < 1.0 && out.cycle_factor.unwrap() > 1.0 / (own / 3.0));
+    assert!(1.0 / out.cycle_factor.unwrap() > 0.3 * full);
+}
