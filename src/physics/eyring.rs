@@ -203,9 +203,9 @@ mod tests {
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
             if slid(middle) < zeta {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         let sigma = 0.5 * (low + high);

@@ -164,7 +164,7 @@ fn options_that_a_study_does_not_read_are_refused() {
         ),
         (
             &["accuracy", "--only=life"],
-            &["--only", "stability, pruning and scaling"],
+            &["--only", "stability, pruning, scaling and evidence"],
         ),
         (
             &["scaling", "--only=nothing"],

@@ -263,7 +263,7 @@ fn compare(gear: &Gear, wave_m: f64, (flow, law): Form) -> ([Ripple; 3], f64) {
 /// Root of the mean square of `b` less `a` times one complex factor (the phase that the ripple began with and its
 /// amplitude), over that of `a`.
 fn apart(a: &[Complex<f64>], b: &[Complex<f64>]) -> f64 {
-    let square: f64 = a.iter().map(|z| z.norm_sqr()).sum();
+    let square: f64 = a.iter().map(Complex::norm_sqr).sum();
     let product: Complex<f64> = a.iter().zip(b).map(|(a, b)| a.conj() * b).sum();
     let factor = product / square;
     assert!((factor.norm() / AMPLITUDE_M - 1.0).abs() < 0.05, "{factor}");

@@ -1,6 +1,7 @@
 //! Low ripples in a line contact: what of a harmonic is bound and what is convected, and the linear theory of a film.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::cmp::Ordering;
 use std::f64::consts::PI;
 
 use asperity::physics::eyring;
@@ -158,12 +159,10 @@ pub(crate) fn linear_theory(scene: &Scene, base: &SteadyFilm, k: f64) -> Vec<Com
         })
         .collect();
     let film = |n: usize, column: usize| -> Complex<f64> {
-        if column + 1 < size {
-            Complex::new(response[n.abs_diff(pressed[column])], 0.0)
-        } else if column + 1 == size {
-            Complex::new(1.0, 0.0)
-        } else {
-            Complex::new(0.0, k * x_m[n]).exp()
+        match (column + 1).cmp(&size) {
+            Ordering::Less => Complex::new(response[n.abs_diff(pressed[column])], 0.0),
+            Ordering::Equal => Complex::new(1.0, 0.0),
+            Ordering::Greater => Complex::new(0.0, k * x_m[n]).exp(),
         }
     };
     let own =
@@ -226,7 +225,9 @@ fn eliminate(mut rows: Vec<Vec<Complex<f64>>>) -> Vec<Complex<f64>> {
     let size = rows.len();
     for row in &mut rows {
         let most = row[..size].iter().map(|v| v.norm()).fold(0.0, f64::max);
-        row.iter_mut().for_each(|v| *v /= most);
+        for value in row {
+            *value /= most;
+        }
     }
     for n in 0..size {
         let best = (n..size).max_by(|&a, &b| rows[a][n].norm().total_cmp(&rows[b][n].norm()));

@@ -30,7 +30,7 @@ pub fn agreement_plot(result: &Evidence) -> Result<String, String> {
         points: vec![(low, low), (high, high)],
         mark: Mark::Formula,
     });
-    draw(Figure {
+    draw(&Figure {
         title: "Found against published".to_owned(),
         x: ("theirs (unit of each row)".to_owned(), Scale::Log),
         y: ("found, extrapolated".to_owned(), Scale::Log),
@@ -71,7 +71,7 @@ pub fn experiments_plot(result: &Evidence) -> Result<Vec<(String, String)>, Stri
             levels: Vec::new(),
             legend: Corner::LowerLeft,
         };
-        pictures.push((format!("evidence_{}.svg", parts.join("_")), draw(figure)?));
+        pictures.push((format!("evidence_{}.svg", parts.join("_")), draw(&figure)?));
     }
     Ok(pictures)
 }
@@ -100,6 +100,6 @@ fn curves(tried: &Tried) -> Vec<Curve> {
     curves
 }
 
-fn draw(figure: Figure) -> Result<String, String> {
+fn draw(figure: &Figure) -> Result<String, String> {
     Ok(figure.svg()?.unwrap_or_default())
 }

@@ -156,11 +156,10 @@ fn push_experiment(text: &mut String, tried: &Tried) {
             Err(reason) => format!("failed: {reason}"),
         };
         let cells: Vec<String> = found.iter().map(cell).collect();
-        let sets: String = point
-            .set
-            .iter()
-            .map(|set| format!(" --set {set}"))
-            .collect();
+        let mut sets = String::new();
+        for set in &point.set {
+            let _ = write!(sets, " --set {set}");
+        }
         let body = if point.body == 1 { "" } else { " (body 2)" };
         let _ = writeln!(
             text,
