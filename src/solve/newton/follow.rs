@@ -29,7 +29,9 @@ impl Newton {
         let tolerance = &problem.tolerance;
         let mut new = held;
         new.note(problem, report);
-        if !Self::is_converged(tolerance, report) {
+        // Dry, the pressure alone makes the traction, and nothing keeps it from following at once.
+        let flows = problem.medium.lambda.is_finite();
+        if flows && !Self::is_converged(tolerance, report) {
             return new;
         }
         let way = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
