@@ -59,7 +59,7 @@ The folder must be new, empty or marked by a sweep (sweep.digest); --force remov
 others.";
 
 const SWEEP_EXAMPLES: &str = "\
-Built in: slide_roll, life_map, stribeck, fzg_c, bearing_race, cam_flank.
+Built in: slide_roll, life_map, stribeck, lambda, fzg_c, bearing_race, cam_flank.
 
 Examples:
   asperity sweep slide_roll                      the default scene at 21 values of S, into ./slide_roll.sweep/

@@ -156,7 +156,7 @@ pub const SECTIONS: &[Section] = &[
             key("density_law", "", Choice(&["incompressible", "dowson_higginson", "venner_lubrecht"]), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law with other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
             key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
             key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
-            key("eyring_flow", "", Choice(&["secant", "along_across"]), Defaulted, "viscosity that the pressure's flow meets in sheared oil: the secant of Eyring's law in both directions, as in Zhu and Hu's codes and the paper; or along the sliding that of the law itself, across it its secant; read when rheology = \"eyring\""),
+            key("eyring_flow", "", Choice(&["along_across", "secant"]), Defaulted, "viscosity that the pressure's flow meets in sheared oil: along the sliding that of Eyring's law itself, across it its secant; or the secant in both directions, as in Zhu and Hu's codes and the paper; read when rheology = \"eyring\""),
             key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),
             key("cavitation", "", Choice(&["reynolds", "jfo"]), Defaulted, "how the film ruptures"),
         ],

@@ -202,7 +202,7 @@ impl Default for Life {
             stress_exponent: 31.0 / 3.0,
             weibull_slope: 10.0 / 9.0,
             survival: 0.5,
-            cycles: CycleBasis::Global,
+            cycles: CycleBasis::Damage,
             volume: None,
             body: BodyChoice::Weaker,
             depth_exponent: 7.0 / 3.0,

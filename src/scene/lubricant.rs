@@ -77,7 +77,7 @@ pub struct Lubricant {
     #[serde(default = "eyring_stress")]
     pub eyring_stress_pa: f64,
     /// How the pressure's flow sees the sheared oil (rheology = "eyring").
-    #[serde(default = "secant")]
+    #[serde(default = "along_across")]
     pub eyring_flow: EyringFlow,
     /// Limiting shear stress as a fraction of the pressure.
     #[serde(default = "limiting_shear")]
@@ -96,8 +96,8 @@ fn dowson_higginson() -> DensityLaw {
 fn newtonian() -> Rheology {
     Rheology::Newtonian
 }
-fn secant() -> EyringFlow {
-    EyringFlow::Secant
+fn along_across() -> EyringFlow {
+    EyringFlow::AlongAcross
 }
 fn reynolds() -> Cavitation {
     Cavitation::Reynolds

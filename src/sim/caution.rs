@@ -6,6 +6,7 @@
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
 //! model_range    greatest over least life of the choices > 2
+//! above_smooth   the whole band of life above 1.01
 //! ```
 //! One list for the screen, the summary and the report text. It is made only when asked for.
 
@@ -39,6 +40,8 @@ pub enum CautionCode {
     StandingBody,
     /// Models and cycle bases differ by a large factor.
     ModelRange,
+    /// Life is longer than the smooth contact's.
+    AboveSmooth,
     /// The average still moves, or does not cover a period of the present conditions yet.
     NotSettled,
     /// The scene computes no life.
@@ -97,6 +100,8 @@ const MESH_WORTH_A_WORD: f64 = 0.05;
 const RUN_IN: f64 = 1e-3;
 /// Factor between models that is.
 const RANGE_WORTH_A_WORD: f64 = 2.0;
+/// Life above the smooth contact's that is.
+const ABOVE_WORTH_A_WORD: f64 = 1.01;
 
 impl Frame {
     /// What to know before trusting this frame's numbers, the weightiest first.
@@ -121,6 +126,7 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::ShortDomain, short_domain(grounds));
     say(CautionCode::StandingBody, standing(m, grounds));
     say(CautionCode::ModelRange, model_range(m.life.as_ref()));
+    say(CautionCode::AboveSmooth, above_smooth(m.life.as_ref()));
     say(CautionCode::NotSettled, not_settled(m, grounds));
     say(CautionCode::NoLife, no_life(grounds));
     say(CautionCode::StrengthUnknown, strength_unknown(grounds));
@@ -284,6 +290,17 @@ fn model_range(life: Option<&LifeEstimate>) -> Option<String> {
     })
 }
 
+fn above_smooth(life: Option<&LifeEstimate>) -> Option<String> {
+    let life = life?;
+    (life.life_relative_low > ABOVE_WORTH_A_WORD).then(|| {
+        format!(
+            "above 1: the smooth contact in pure rolling, with which life is compared, has the higher stresses (peaks \u{d7} {}); \
+             sliding thins the oil, and its pressure spike is lower",
+            sig(life.peak_factor, 2)
+        )
+    })
+}
+
 fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
     let settled = m.life.is_some_and(|life| life.settled);
     let never_repeats = m.repeat.is_some_and(|r| r.rhythm == Rhythm::Statistics);
@@ -371,11 +388,11 @@ mod tests {
     #[test]
     fn each_ground_has_its_caution_with_its_number() {
         use CautionCode::{
-            BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife, NotConverged,
-            NotSettled, ShortDomain, StandingBody, StillYielding, StrengthUnknown,
+            AboveSmooth, BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife,
+            NotConverged, NotSettled, ShortDomain, StandingBody, StillYielding, StrengthUnknown,
         };
         type Spoil = fn(&mut Metrics, &mut Grounds);
-        let table: [(CautionCode, &str, Spoil); 15] = [
+        let table: [(CautionCode, &str, Spoil); 16] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
             (BeyondYield, "7.5 GPa", |_, g| {
@@ -412,6 +429,13 @@ mod tests {
                     ..LifeDetail::default()
                 };
                 m.life = m.life.map(|life| LifeEstimate { detail, ..life });
+            }),
+            (AboveSmooth, "2.6", |m, _| {
+                m.life = m.life.map(|life| LifeEstimate {
+                    life_relative_low: 2.5,
+                    peak_factor: 2.62,
+                    ..life
+                });
             }),
             (NotSettled, "period", |m, _| {
                 m.life = m.life.map(|life| LifeEstimate {

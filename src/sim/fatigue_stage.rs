@@ -19,7 +19,7 @@ use crate::math::ln_sum::ln_sum;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
-use crate::scene::{ContactKind, CycleBasis, Life, Scene, VolumeIntegral};
+use crate::scene::{ContactKind, CycleBasis, Life, Scene, Surface, VolumeIntegral};
 use crate::solve::life::{Shares, Sweep, Window};
 use crate::solve::marks::Marks;
 use crate::solve::stress::{Loading, StressLaw};
@@ -51,6 +51,7 @@ pub(super) struct LifeStage {
     pub(super) depths: Vec<f64>,
     /// Wavelength along x of the mating crests, a.
     pub(super) wavelengths: [Option<f64>; 2],
+    is_smooth: bool,
     pub(super) calibration: Option<Calibration>,
     /// Directions in which the contact grows with the pressure.
     pub(super) sides: f64,
@@ -104,6 +105,7 @@ impl LifeStage {
             scratch: Shares::new(depths.len()),
             depths,
             wavelengths: BodyId::BOTH.map(wavelength),
+            is_smooth: (scene.surfaces().iter()).all(|s| matches!(s, Surface::Smooth {})),
             calibration,
             sides: match scene.kind() {
                 ContactKind::Point => 2.0,
@@ -237,7 +239,8 @@ impl LifeStage {
         }
         let damage = by_damage.then_some((&self.damage, covered));
         let meter = self.variants[0].meter();
-        self.settling.judge(meter, stress_error, repeat, damage);
+        self.settling
+            .judge(meter, stress_error, repeat, damage, self.is_smooth);
     }
 
     /// `ln Σ_k n_k^e J_k` of a body by its damage.

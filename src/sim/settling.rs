@@ -4,6 +4,7 @@
 //! ramp      a knob walks                          every step begins the wait anew
 //! flush     DEVELOP a/U after it                  what entered meanwhile leaves the contact; then all sums begin
 //! average   over a period P                       |ln L now − ln L before| over the last P/2:  ≤ B/2 settled,  > B not
+//!           smooth and steady                     settled as solved
 //!           fields come back                      c · drift ≤ B/2 settled
 //!           no common period, 3 P                 settled; the band is as much wider as the mean wandered in 2 P
 //!                                                 (the mean of all that was seen, which comes to rest as 1/way)
@@ -58,7 +59,13 @@ impl Settling {
         stress_error: f64,
         repeat: Option<Repeat>,
         damage: Option<(&Marks, f64)>,
+        is_smooth: bool,
     ) {
+        // The first steps of a run: the start-up has solved the steady contact, and nothing passes through it.
+        if is_smooth && repeat.is_some_and(|r| r.rhythm == Rhythm::Steady && r.drift.is_none()) {
+            self.settled = true;
+            return;
+        }
         if !meter.covers() {
             return;
         }

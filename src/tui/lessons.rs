@@ -74,8 +74,8 @@ pub enum Figure {
     LeftPercent,
     /// Relative life.
     Life,
-    /// Same, every cycle by the damage it does.
-    DamageLife,
+    /// Same by the paper's count: every crest a whole cycle.
+    PaperLife,
 }
 
 impl Figure {
@@ -92,7 +92,7 @@ impl Figure {
             Self::PeakDepth => "σ max at z/a",
             Self::LeftPercent => "ripple left %",
             Self::Life => "life",
-            Self::DamageLife => "by damage",
+            Self::PaperLife => "life by the paper's count",
         }
     }
 
@@ -110,7 +110,7 @@ impl Figure {
             Self::PeakDepth => metrics.sigma_eff_max_depth_m.map(|z| z / frame.a_m),
             Self::LeftPercent => ripple_left(frame).map(|part| 100.0 * part),
             Self::Life => metrics.life.map(|life| life.life_relative),
-            Self::DamageLife => metrics.life.and_then(|life| life.detail.life_damage),
+            Self::PaperLife => metrics.life.and_then(|life| life.detail.life_global),
         }
     }
 }

@@ -7,9 +7,12 @@ use std::time::Duration;
 
 use asperity::plan::Plan;
 use asperity::run::{Command, Settled};
-use asperity::scene::{Body, Contact, ContactKind, Life, Load, Motion, Record, Scene, Surface};
+use asperity::scene::{
+    Body, Contact, ContactKind, CycleBasis, Life, Load, Motion, Record, Scene, Surface,
+};
 use asperity::sim::{
-    Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage, StressSlice,
+    Frame, LifeDetail, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage,
+    StressSlice,
 };
 use asperity::study::sweep::{Began, Conditions, Found};
 use asperity::tui::app::{App, Effect, ErrandKind, Setup};
@@ -93,7 +96,11 @@ pub(crate) fn scene() -> Scene {
         time: asperity::scene::Time::default(),
         numerics: asperity::scene::Numerics::default(),
         stress: Some(asperity::scene::Stress::default()),
-        life: Some(Life::default()),
+        // The paper's count: what follows from n can be worked out by hand.
+        life: Some(Life {
+            cycles: CycleBasis::Global,
+            ..Life::default()
+        }),
         record: Some(Record::default()),
         events: Vec::new(),
     }
@@ -332,6 +339,11 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
             life_relative_low: 0.8 * life_relative,
             life_relative_high: 1.25 * life_relative,
             settled: state.settled,
+            detail: LifeDetail {
+                life_global: Some(life_relative),
+                life_damage: Some(0.9 * peak_factor * traction_factor),
+                ..LifeDetail::default()
+            },
             ..LifeEstimate::default()
         }),
         n_body_1: Some(n_1),

@@ -181,6 +181,7 @@ fn a_scene_that_shows_only_the_slice_pays_only_for_the_slice() {
     );
 }
 
+/// The paper's two mechanisms by the paper's count; by damage see `damage::life_falls_with_sliding_and_with_roughness`.
 #[test]
 fn life_falls_with_sliding_and_roughness_and_the_split_says_why() {
     let case = |s: f64, amplitude_m: f64, more: &[&str]| {
@@ -190,6 +191,7 @@ fn life_falls_with_sliding_and_roughness_and_the_split_says_why() {
             "body_1.surface.wavelength_x_m=2e-4",
             "body_2.surface.wavelength_x_m=2e-4",
             "body_2.surface.wavelength_y_m=inf",
+            "life.cycles=global",
         ]);
         sets.extend(texts(more));
         sets.push(format!("motion.slide_roll={s}"));

@@ -152,7 +152,14 @@ fn a_speed_that_is_turned_up_gives_the_life_of_a_run_that_begins_there() {
     let own = scene("demonstration", &ROUGH);
     let speed = 5.0 * own.motion.entrainment_m_s;
     let pair = compare("five times U", &own, &[("motion.entrainment_m_s", speed)]);
-    pair.agrees(0.01, 0.02);
+    // By damage other points of the track are met by other crests: the lives agree within their bands, which are told.
+    pair.has_one_reference(0.01);
+    let (one, two) = (&pair.turned, &pair.cold);
+    let band = one.life_relative_low.unwrap()..one.life_relative_high.unwrap();
+    assert!(band.contains(&two.life_relative.unwrap()), "{band:?}");
+    assert!(band.end < 1.4 * band.start, "{band:?}");
+    // By the paper's count every phase of the period is met alike.
+    assert!(apart(one.life_global, two.life_global) < 0.02, "paper");
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn nothing_counted_is_seen(beat: &Beat, frame: &Frame) {
 }
 
 fn check(lesson: usize) {
-    let mut run = None;
+    let (mut run, mut wrong) = (None, Vec::<&Claim>::new());
     for beat in LESSONS[lesson].beats {
         if let Some(scene) = staged(beat) {
             run = Some(Run::new(scene));
@@ -88,10 +88,10 @@ fn check(lesson: usize) {
             );
         }
         let fails = |claim: &&Claim| !claim.holds(&run.frame);
-        let wrong: Vec<&Claim> = beat.claims.iter().filter(fails).collect();
-        assert!(wrong.is_empty(), "{}: {wrong:?}", beat.caption);
+        wrong.extend(beat.claims.iter().filter(fails));
         nothing_counted_is_seen(beat, &run.frame);
     }
+    assert!(wrong.is_empty(), "{wrong:?}");
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | life, friction, least film, greatest pressure against the last axis (a path: the way) | it is made of numbers |
 //! | film against speed with the regression line | the entrainment speed varies |
-//! | Stribeck: friction against λ | speed, viscosity, load or roughness varies |
+//! | Stribeck: friction against λ; lives by both counts against λ | speed, viscosity, load or roughness varies |
 //! | life map | two axes of numbers make a grid |
 //!
 //! Each is written as SVG and as PNG. Several axes make one curve for each combination of the others, at most eight.
@@ -165,7 +165,7 @@ fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
             &[("", "lambda_ratio", Computed)],
         );
     }
-    found.extend(stribeck(sweep, rows).map(|figure| ("stribeck".to_owned(), figure)));
+    found.extend(against_lambda(sweep, rows, &lines));
     found
 }
 
@@ -238,8 +238,12 @@ fn title(sweep: &Sweep) -> String {
     }
 }
 
-/// Friction against λ, where something varies that moves λ.
-fn stribeck(sweep: &Sweep, rows: &Rows) -> Option<Figure> {
+/// Friction and lives against λ, where something varies that moves λ.
+fn against_lambda(
+    sweep: &Sweep,
+    rows: &Rows,
+    lines: &[(String, Vec<usize>)],
+) -> Vec<(String, Figure)> {
     const MOVES: [&str; 3] = [
         "motion.entrainment_m_s",
         "lubricant.viscosity_pa_s",
@@ -247,29 +251,37 @@ fn stribeck(sweep: &Sweep, rows: &Rows) -> Option<Figure> {
     ];
     let moves = |axis: &Axis| MOVES.contains(&&*axis.key) || axis.key.ends_with("amplitude_m");
     if !sweep.axes.iter().any(moves) || !sweep.path.is_empty() {
-        return None;
+        return Vec::new();
     }
-    let lambda = rows.column(sweep, "lambda_ratio")?;
-    let friction = rows.column(sweep, "friction_coefficient")?;
-    let mut points: Vec<_> = lambda.into_iter().zip(friction).collect();
-    points.retain(|(x, y)| x.is_finite() && y.is_finite());
-    points.sort_by(|one, two| one.0.total_cmp(&two.0));
-    let xs: Vec<f64> = points.iter().map(|p| p.0).collect();
-    (points.len() > 1).then(|| Figure {
-        title: format!("{}: Stribeck", title(sweep)),
-        x: (
-            "lambda: smooth film by formula over composite roughness".to_owned(),
-            scale_of(&xs),
-        ),
-        y: ("friction coefficient".to_owned(), Scale::Linear),
-        curves: vec![Curve {
-            name: "friction".to_owned(),
-            points,
-            mark: Mark::Computed,
-        }],
-        levels: Vec::new(),
-        legend: Corner::UpperRight,
-    })
+    let xs = rows.column(sweep, "lambda_ratio").unwrap_or_default();
+    let lambda = Along {
+        column: "lambda_ratio".to_owned(),
+        label: "lambda: smooth film by formula over composite roughness".to_owned(),
+        scale: scale_of(&xs),
+        short: String::new(),
+    };
+    let friction: Drawn = ("", "friction_coefficient", Mark::Computed);
+    let lives: [Drawn; 2] = [
+        ("by damage", "life_damage", Mark::Computed),
+        ("the paper's count", "life_global", Mark::Computed),
+    ];
+    let draw = |name: &str, y: Upright, columns: &[Drawn]| {
+        let mut figure = figure(sweep, rows, &lambda, lines, (y, columns));
+        for curve in &mut figure.curves {
+            curve.points.retain(|(x, y)| x.is_finite() && y.is_finite());
+            curve.points.sort_by(|one, two| one.0.total_cmp(&two.0));
+        }
+        figure.curves.retain(|curve| curve.points.len() > 1);
+        let is_drawn = !figure.curves.is_empty();
+        is_drawn.then(|| (name.to_owned(), figure))
+    };
+    let stribeck = draw(
+        "stribeck",
+        ("friction coefficient", Scale::Linear),
+        &[friction],
+    );
+    let lives = draw("life_against_lambda", ("relative life", Scale::Log), &lives);
+    stribeck.into_iter().chain(lives).collect()
 }
 
 /// Life over the last two axes of a grid; of more axes, at the first values of the others.

@@ -22,6 +22,7 @@ const PRESETS: &[SweepPreset] = &[
     preset!("slide_roll"),
     preset!("life_map"),
     preset!("stribeck"),
+    preset!("lambda"),
     preset!("fzg_c"),
     preset!("bearing_race"),
     preset!("cam_flank"),

@@ -4,7 +4,7 @@ use super::{Beat, Claim, Figure, Lesson, Setting, Staging};
 use crate::sim::Knob;
 use crate::tui::app::MapKind::{Contact, Film, Pressure, Roughness, Stress};
 use Figure::{
-    ContactPercent, Counted1, Counted2, DamageLife, Lambda, LeftPercent, Life, N1, N2, PeakDepth,
+    ContactPercent, Counted1, Counted2, Lambda, LeftPercent, Life, N1, N2, PaperLife, PeakDepth,
     PeakPressure,
 };
 use Setting::{TimesHome, To};
@@ -119,32 +119,32 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "S = 0.1: the mate's crests now overtake the point while it crosses. Each is a stress cycle of its own: n = 3, of which two are counted.",
+                caption: "S = 0.1: the mate's crests now overtake the point while it crosses, three by formula. But oil lets such low ripples go: one cycle is counted.",
                 sets: &[(S, To(0.1))],
                 passages: 2.5,
-                claims: &[claim(N1, 2.8, 3.2), claim(Counted1, 1.6, 2.6)],
+                claims: &[claim(N1, 2.8, 3.2), claim(Counted1, 0.8, 1.6)],
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "S = 0.5: the trace below has become a comb, n = 14. Each tooth counted as a whole cycle, as in the paper, life falls to 0.07 by the count alone.",
+                caption: "S = 0.5: the trace below has become a comb, n = 14, of which ten are counted. Each tooth taken for a whole cycle, as in the paper, life falls to 0.07.",
                 sets: &[(S, To(0.5))],
                 passages: 3.0,
                 claims: &[
                     claim(N1, 13.5, 14.5),
-                    claim(Counted1, 12.0, 14.5),
-                    claim(Life, 0.02, 0.1),
+                    claim(Counted1, 8.5, 11.5),
+                    claim(PaperLife, 0.05, 0.09),
                 ],
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "But the teeth are low, and n an upper bound. Each by the damage it does, they count for next to nothing: life is 0.8. Not modelled: wear, which can reverse the trend with S.",
+                caption: "But the teeth are low, and n an upper bound. Each by the damage it does, they cost next to nothing: life is 0.95. Not modelled: wear, which can reverse the trend with S.",
                 passages: 1.0,
                 claims: &[
                     claim(N1, 13.5, 14.5),
-                    claim(Counted1, 12.0, 14.5),
+                    claim(Counted1, 8.5, 11.5),
                     claim(N2, 8.0, 10.0),
-                    claim(Counted2, 6.5, 10.0),
-                    claim(DamageLife, 0.6, 1.0),
+                    claim(Counted2, 3.5, 6.5),
+                    claim(Life, 0.9, 1.0),
                 ],
                 ..Beat::PLAIN
             },
@@ -199,11 +199,11 @@ pub const LESSONS: &[Lesson] = &[
                 ..Beat::PLAIN
             },
             Beat {
-                caption: "Now they slide, S = 1: oil drawn over the slow ridges presses them flatter still, a tenth is left. Not modelled: heat; no yield here.",
+                caption: "Now they slide, S = 1: oil drawn over the slow ridges presses them flatter still, a seventh is left. Not modelled: heat; no yield here.",
                 sets: &[(S, To(1.0))],
                 map: Some(Film),
                 passages: 2.0,
-                claims: &[claim(LeftPercent, 4.0, 14.0)],
+                claims: &[claim(LeftPercent, 11.0, 19.0)],
                 ..Beat::PLAIN
             },
         ],

@@ -51,6 +51,7 @@ fn name(caution: &Caution) -> &'static str {
         CautionCode::ShortDomain => "short domain",
         CautionCode::StandingBody => "a body stands",
         CautionCode::ModelRange => "models differ",
+        CautionCode::AboveSmooth => "above smooth",
         CautionCode::NotSettled => "not settled",
         CautionCode::NoLife => "no life",
         CautionCode::StrengthUnknown => "yield unknown",
