@@ -106,6 +106,8 @@ pub struct MaterialTracker {
     crossings: u64,
     /// Damage of all ended crossings' shear by depth, each without its greatest cycle.
     ended: Vec<f64>,
+    /// Damage of the greatest cycles of all whole crossings' shear by depth.
+    greatest: Vec<f64>,
     /// Samples of the shown point's crossing, oldest first from `oldest` on.
     trace: Vec<Sample>,
     oldest: usize,
@@ -142,6 +144,7 @@ impl MaterialTracker {
             points: (0..count).map(point).collect(),
             crossings: 0,
             ended: vec![0.0; spec.depths],
+            greatest: vec![0.0; spec.depths],
             trace: Vec::with_capacity(spec.trace.max(1)),
             oldest: 0,
             shown: 0,
@@ -174,6 +177,7 @@ impl MaterialTracker {
             && self.points.len() == saved.points.len()
             && points.all(|(own, saved)| own.fits(saved))
             && self.ended.len() == saved.ended.len()
+            && self.greatest.len() == saved.greatest.len()
             && self.map.is_some() == saved.map.is_some()
             && self
                 .map
@@ -204,6 +208,7 @@ impl MaterialTracker {
         }
         self.crossings = 0;
         self.ended.fill(0.0);
+        self.greatest.fill(0.0);
         self.trace.clear();
         self.oldest = 0;
     }
@@ -250,6 +255,11 @@ impl MaterialTracker {
             }
             for (ended, history) in self.ended.iter_mut().zip(&point.shear) {
                 *ended += history.tally.small_damage(exponent);
+            }
+            if crossing == Crossing::Whole {
+                for (greatest, history) in self.greatest.iter_mut().zip(&point.shear) {
+                    *greatest += history.tally.range.powf(exponent);
+                }
             }
             for history in point.histories() {
                 history.start(exponent);

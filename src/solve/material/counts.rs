@@ -69,18 +69,14 @@ impl MaterialTracker {
         true
     }
 
-    /// Mean damage of the greatest cycle of a crossing at depth `k`; of what all points together saw, where none has ended.
+    /// Mean damage of the greatest cycle of a crossing at depth `k`, of all that the small ones come from: the last crossings
+    /// alone may be milder than those before, where surfaces run in, by orders of magnitude to the power of c. Of what all points together saw, where none has ended.
     fn greatest_damage(&self, k: usize) -> f64 {
+        if self.crossings > 0 {
+            return self.greatest[k] / self.crossings as f64;
+        }
         let exponent = self.spec.damage_exponent;
         let histories = || self.points.iter().map(|point| &point.shear[k]);
-        let (sum, count) = histories()
-            .filter_map(|h| h.last)
-            .fold((0.0, 0.0), |(sum, n), last| {
-                (sum + last.range.powf(exponent), n + 1.0)
-            });
-        if count > 0.0 {
-            return sum / count;
-        }
         // Points that stand each see one place; a crossing sees all of them.
         let (low, high) = histories()
             .map(History::ends)
