@@ -58,10 +58,20 @@ pub(crate) fn finish(args: &RunArgs, mut scene: Scene, name: String) -> Result<P
     })
 }
 
-/// Prints the plan.
+/// Prints the plan, and what the scene says of where its numbers come from.
 pub(crate) fn check(args: &SceneArgs) -> Result<u8, Failure> {
-    let plan = Plan::new(&load(args)?)?;
-    print(&plan.to_string())?;
+    let scene = load(args)?;
+    let mut text = Plan::new(&scene)?.to_string();
+    let mut lines = scene.about.trim().lines().peekable();
+    if lines.peek().is_some() {
+        text.push_str("\nThe scene says\n");
+    }
+    for line in lines {
+        text.push_str("  ");
+        text.push_str(line);
+        text.push('\n');
+    }
+    print(&text)?;
     Ok(0)
 }
 

@@ -1,8 +1,8 @@
 //! Round numbers for axes and colour ranges, and the ranges that every picture of a run shares.
 
 use crate::physics::hertz::crest_pressure_pa;
-use crate::scene::{Scene, Surface};
-use crate::sim::{Frame, Knob};
+use crate::scene::{ContactKind, Scene, Surface};
+use crate::sim::{Frame, Knob, Metrics};
 
 /// Metres to millimetres.
 pub(crate) const MM: f64 = 1.0e3;
@@ -13,8 +13,101 @@ pub(crate) const MPA: (&str, f64) = ("MPa", 1e-6);
 /// See [`GPA`].
 pub(crate) const UM: (&str, f64) = ("µm", 1e6);
 
-/// The greatest that a run's own script can bring of what its pictures scale with, and what bounds its friction.
-/// A knob that is turned by hand may go beyond: what then takes the top colour is counted.
+/// What ranges begin with: the first frame in figures.
+#[derive(Debug, Clone)]
+pub(crate) struct First {
+    kind: ContactKind,
+    p_hertz_pa: f64,
+    metrics: Metrics,
+    /// Greatest of either sign, SI: traction, roughness of both bodies, effective stress and shear of the slice.
+    traction_pa: f64,
+    roughness_m: [f64; 2],
+    effective_pa: f64,
+    shear_pa: f64,
+}
+
+impl First {
+    /// Of that frame.
+    pub(crate) fn of(frame: &Frame) -> Self {
+        let slice = frame.slice.as_ref();
+        Self {
+            kind: frame.kind,
+            p_hertz_pa: frame.p_hertz_pa,
+            metrics: frame.metrics.clone(),
+            traction_pa: greatest(&frame.traction_pa),
+            roughness_m: [&frame.roughness_1_m, &frame.roughness_2_m].map(|field| greatest(field)),
+            effective_pa: slice.map_or(0.0, |slice| greatest(&slice.effective_pa)),
+            shear_pa: slice.map_or(0.0, |slice| greatest(&slice.tau_xz_pa)),
+        }
+    }
+}
+
+/// Knobs that ranges follow, each the greatest that was seen or is on its way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Turned {
+    load: f64,
+    speed_m_s: f64,
+    amplitude_m: [f64; 2],
+}
+
+impl Turned {
+    fn of(m: &Metrics) -> Self {
+        Self {
+            load: m.load_n.max(m.load_target_n),
+            speed_m_s: m.entrainment_m_s.abs(),
+            amplitude_m: [m.amplitude_1_m, m.amplitude_2_m].map(f64::abs),
+        }
+    }
+
+    fn with(self, other: Self) -> Self {
+        let both = |k: usize| self.amplitude_m[k].max(other.amplitude_m[k]);
+        Self {
+            load: self.load.max(other.load),
+            speed_m_s: self.speed_m_s.max(other.speed_m_s),
+            amplitude_m: [both(0), both(1)],
+        }
+    }
+}
+
+/// The ranges of a run as it goes on: those of its script, and wider ones from the frame on at which a knob is turned beyond it.
+#[derive(Debug, Clone)]
+pub(crate) struct Scope {
+    first: First,
+    turned: Turned,
+    /// What can come by the script and by what was turned so far.
+    pub(crate) to_come: ToCome,
+    /// The ranges that hold now.
+    pub(crate) ranges: Ranges,
+}
+
+impl Scope {
+    /// Of a run with that first frame.
+    pub(crate) fn of(scene: Option<&Scene>, first: &Frame) -> Self {
+        let (first, turned) = (First::of(first), Turned::of(&first.metrics));
+        let to_come = ToCome::of(scene, &first, turned);
+        Self {
+            ranges: Ranges::of(&first, &to_come),
+            first,
+            turned,
+            to_come,
+        }
+    }
+
+    /// Takes the knobs of a frame: whether the ranges have grown by them.
+    pub(crate) fn grows(&mut self, scene: Option<&Scene>, m: &Metrics) -> bool {
+        let turned = self.turned.with(Turned::of(m));
+        if turned == self.turned {
+            return false;
+        }
+        self.turned = turned;
+        self.to_come = ToCome::of(scene, &self.first, turned);
+        let ranges = Ranges::of(&self.first, &self.to_come);
+        std::mem::replace(&mut self.ranges, ranges) != ranges
+    }
+}
+
+/// The greatest that a run's own script, and what was turned by hand, can bring of what its pictures scale with, and what
+/// bounds its friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ToCome {
     /// Half-width and Hertz pressure over those of the first frame.
@@ -33,8 +126,8 @@ pub(crate) struct ToCome {
 }
 
 impl ToCome {
-    /// From the scene's script, where the scene is known, and the first frame.
-    pub(crate) fn of(scene: Option<&Scene>, first: &Frame) -> Self {
+    /// From the scene's script, where the scene is known, the first frame and what was turned since.
+    fn of(scene: Option<&Scene>, first: &First, turned: Turned) -> Self {
         let m = &first.metrics;
         let greatest = |knobs: &[Knob], now: f64| {
             let set = scene.into_iter().flat_map(|scene| &scene.events);
@@ -43,15 +136,14 @@ impl ToCome {
             set.fold(now.abs(), |top, (_, value)| top.max(value.abs()))
         };
         let ratio = |greatest: f64, now: f64| (greatest / now.abs()).max(1.0);
-        let load = m.load_n.max(m.load_target_n);
-        let load = greatest(&[Knob::ForceN, Knob::ForceNPerM], load);
+        let load = greatest(&[Knob::ForceN, Knob::ForceNPerM], turned.load);
         let load_ratio = if m.load_n > 0.0 {
             ratio(load, m.load_n)
         } else {
             1.0
         };
         let size = first.kind.hertz_shape().size_ratio(load_ratio);
-        let speed = greatest(&[Knob::EntrainmentMS], m.entrainment_m_s);
+        let speed = greatest(&[Knob::EntrainmentMS], turned.speed_m_s);
         let speed_ratio = if m.entrainment_m_s == 0.0 {
             1.0
         } else {
@@ -59,8 +151,8 @@ impl ToCome {
         };
         let now_m = [m.amplitude_1_m, m.amplitude_2_m];
         let amplitude_m = [
-            greatest(&[Knob::Amplitude1M], now_m[0]),
-            greatest(&[Knob::Amplitude2M], now_m[1]),
+            greatest(&[Knob::Amplitude1M], turned.amplitude_m[0]),
+            greatest(&[Knob::Amplitude2M], turned.amplitude_m[1]),
         ];
         let grows = amplitude_m
             .iter()
@@ -104,8 +196,8 @@ impl ToCome {
 /// Exponent of the speed in the central film (Hamrock and Dowson 1977).
 const FILM_BY_SPEED: f64 = 0.67;
 
-/// Upper ends of the colour ranges, SI: what can come. They hold for the whole run, so that colours mean the same
-/// in every frame; values beyond take the top colour.
+/// Upper ends of the colour ranges, SI: what can come. They hold as long as no knob is turned beyond ([`Scope`]), so that
+/// colours mean the same from frame to frame; values beyond take the top colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ranges {
     /// Pressure, Pa.
@@ -126,7 +218,7 @@ pub(crate) struct Ranges {
 
 impl Ranges {
     /// The ranges of a run with that first frame, in which that can come.
-    pub(crate) fn of(first: &Frame, to_come: &ToCome) -> Self {
+    fn of(first: &First, to_come: &ToCome) -> Self {
         let metrics = &first.metrics;
         let round = |value: f64, (_, per_si): (&str, f64)| nice_up(value * per_si) / per_si;
         let greatest_pa = (1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa);
@@ -143,14 +235,11 @@ impl Ranges {
         let valley = mean + 0.5 * to_come.amplitude_m.iter().sum::<f64>();
         let film = (2.5 * mean).max(valley).max(1e-9);
         // A scene that starts at S = 0 has no traction yet: what bounds it is known.
-        let traction = greatest(&first.traction_pa)
+        let traction = (first.traction_pa)
             .max(0.01 * first.p_hertz_pa)
             .max(to_come.friction * pressure_pa);
-        let rough = [&first.roughness_1_m, &first.roughness_2_m].map(|field| greatest(field));
+        let rough = first.roughness_m;
         let [rough_1, rough_2] = [0, 1].map(|body| rough[body].max(to_come.amplitude_m[body]));
-        let (effective, shear) = first.slice.as_ref().map_or((0.0, 0.0), |slice| {
-            (greatest(&slice.effective_pa), greatest(&slice.tau_xz_pa))
-        });
         Self {
             pressure_pa,
             film_m: round(film, UM),
@@ -160,12 +249,12 @@ impl Ranges {
             // reaches about 0.56 of it and the shear 0.2 of it (a line contact's, in its own size), and
             // the spikes' range is known, with room where it is that of the first frame.
             effective_pa: round(
-                (1.05 * effective)
+                (1.05 * first.effective_pa)
                     .max(0.38 * pressure_pa)
                     .max(0.56 * to_come.crest_pa),
                 GPA,
             ),
-            shear_pa: round((1.05 * shear).max(0.15 * pressure_pa), GPA),
+            shear_pa: round((1.05 * first.shear_pa).max(0.15 * pressure_pa), GPA),
             rough: [0, 1].map(|body| rough[body] > 0.0 || to_come.rough[body]),
         }
     }

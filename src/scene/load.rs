@@ -27,7 +27,8 @@ pub struct Override {
 impl std::str::FromStr for Override {
     type Err = SceneError;
 
-    /// Reads `KEY=VALUE`. The value is TOML; a bare word is a text; `none` takes the key or table out.
+    /// Reads `KEY=VALUE`. The value is TOML; a bare word is a text; `none` takes the key or table out, but of a key that
+    /// knows the word.
     fn from_str(text: &str) -> Result<Self, SceneError> {
         let malformed = || SceneError::Override {
             text: super::error::shortened(text),
@@ -73,9 +74,18 @@ impl Override {
         })
     }
 
+    /// Whether it takes its key or table out.
+    fn takes_out(&self) -> bool {
+        let is_word = |key: &keys::Key| match key.kind {
+            keys::Kind::Choice(words) => words.contains(&"none"),
+            _ => false,
+        };
+        self.value.as_str() == Some("none") && !keys::find(&self.key).is_some_and(is_word)
+    }
+
     fn apply(&self, root: &mut Table) {
         let (path, name) = self.key.rsplit_once('.').unwrap_or(("", &self.key));
-        if self.value.as_str() == Some("none") {
+        if self.takes_out() {
             if let Some(table) = descend(root, path) {
                 table.remove(name);
             }

@@ -323,6 +323,26 @@ fn check_says_what_is_left_out_and_why() {
     }
 }
 
+/// No measured spacing of crests was found for any part, so whoever looks at a preset is told that it is assumed; the
+/// demonstration's is that of a published case.
+#[test]
+fn check_tells_that_the_spacing_of_crests_is_assumed() {
+    let folder = tempfile::tempdir().unwrap();
+    for preset in asperity::scene::presets::all() {
+        let output = asperity(folder.path(), &["check", preset.name]);
+        let told = text(&output.stdout);
+        let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        let says = told.split("The scene says ").nth(1).unwrap_or_default();
+        let assumed = says.split("The crest spacing ").nth(1).is_some_and(|rest| {
+            rest.split_once("assumed")
+                .is_some_and(|(words, _)| words.len() < 20)
+        });
+        let published =
+            preset.name == "demonstration" && says.contains("Pu, Zhu, Wang & Wang (2016)");
+        assert!(assumed || published, "{}: {says}", preset.name);
+    }
+}
+
 #[test]
 fn scenes_lists_and_prints_what_can_be_read_back() {
     let folder = tempfile::tempdir().unwrap();

@@ -7,6 +7,7 @@
 #![cfg(all(feature = "tui", feature = "rerun"))]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -149,6 +150,8 @@ struct Written {
     table: Vec<BTreeMap<String, String>>,
     recording: BTreeMap<String, Vec<f64>>,
     report: String,
+    /// Labels that were looked for in a line of the report that does not have them.
+    unsaid: RefCell<Vec<String>>,
 }
 
 impl Written {
@@ -174,6 +177,7 @@ impl Written {
             table: reader.deserialize().map(Result::unwrap).collect(),
             recording: last_scalars(Path::new(&at("r.rrd"))),
             report: String::from_utf8(output.stdout).unwrap(),
+            unsaid: RefCell::default(),
         }
     }
 
@@ -238,11 +242,14 @@ impl Written {
             .map(Shown::exact)
     }
 
-    /// The number behind `label` in the line of the report that begins with `line`.
+    /// The number behind `label` in the line of the report that begins with `line`; `None`: there is none.
     fn said(&self, line: &str, label: &str, per_si: f64) -> Option<Shown> {
         let line = self.report.lines().find(|text| text.starts_with(line))?;
-        let rest = &line[line.find(label)? + label.len()..];
-        Shown::read(rest.split_whitespace().next()?, per_si)
+        let Some(at) = line.find(label) else {
+            self.unsaid.borrow_mut().push(label.to_owned());
+            return None;
+        };
+        Shown::read(line[at + label.len()..].split_whitespace().next()?, per_si)
     }
 }
 
@@ -406,7 +413,7 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
             &[
                 ("summary", w.summary("sigma_eff_max_pa")),
                 ("table's greatest", w.extreme("sigma_eff_max_pa", f64::max)),
-                ("report", w.said("stress", "effective ", 1e-9)),
+                ("report", w.said("stress", "effective stress ", 1e-9)),
             ],
         ),
         last("n_body_1", w.said("cycles", "body 1: ", 1.0)),
@@ -573,6 +580,10 @@ fn every_number_is_the_same_in_every_place() {
                 case.name,
                 rows.len()
             );
+            // Once the report's words have changed nothing would be compared with them.
+            if case.name == "demonstration" {
+                assert!(written.unsaid.borrow().is_empty(), "{:?}", written.unsaid);
+            }
             compared += rows.iter().map(|row| row.places.len()).sum::<usize>();
             disagreements += told(&case, kind, &rows, &mut report);
         }

@@ -1,7 +1,7 @@
 //! Scenes: presets, round trips, overrides and everything that must be refused.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::scene::{Override, Scene, SceneError, Surface, keys, presets};
+use asperity::scene::{ErrorSource, Override, Scene, SceneError, Surface, keys, presets};
 use proptest::prelude::*;
 
 fn load(name: &str, settings: &[&str]) -> Result<Scene, SceneError> {
@@ -433,4 +433,23 @@ proptest! {
         let _ = Scene::from_toml(&text);
         let _ = text.parse::<Override>();
     }
+}
+
+/// `none` takes a key out, but where it is one of the key's own words.
+#[test]
+fn none_is_a_word_of_the_keys_that_know_it() {
+    let set = |text: &str| -> Scene {
+        let set: Override = text.parse().unwrap();
+        Scene::load_with("demonstration", &[set]).unwrap()
+    };
+    let source = |text: &str| set(text).numerics.error_estimate;
+    assert_eq!(source("numerics.tolerance=1e-3"), ErrorSource::Companion);
+    for text in [
+        "numerics.error_estimate=none",
+        "numerics.error_estimate=\"none\"",
+    ] {
+        assert_eq!(source(text), ErrorSource::None, "{text}");
+    }
+    assert!(set("time.tolerance=none").time.tolerance.is_none());
+    assert!(set("record=none").record.is_none());
 }

@@ -16,6 +16,7 @@ use asperity::scene::{Event, Record, Scene};
 use asperity::sim::{DamageBlock, Frame, Stage};
 use re_chunk::Chunk;
 use re_log_encoding::{DecoderApp, RawRrdManifest};
+use rerun::Loggable as _;
 use rerun::external::re_log_types::LogMsg;
 
 /// Nodes per side: small, and enough for every view.
@@ -67,6 +68,14 @@ impl Contents {
             .filter(of_entity)
             .map(Chunk::num_rows)
             .sum()
+    }
+
+    /// Updates of an entity; of an image its pictures, whose ranges come in rows of their own.
+    fn updates(&self, entity: &str) -> usize {
+        match self.pictures(entity).len() {
+            0 => self.rows(entity, false),
+            pictures => pictures,
+        }
     }
 
     fn entities(&self) -> BTreeSet<String> {
@@ -145,6 +154,43 @@ impl Contents {
         ranges.next().unwrap()
     }
 
+    /// The upper ends of an entity's colour ranges, each with the step from which on it holds.
+    fn tops(&self, entity: &str) -> Vec<(i64, f64)> {
+        let component = rerun::DepthImage::descriptor_depth_range().component;
+        let of_entity = |chunk: &&Chunk| chunk.entity_path().to_string() == format!("/{entity}");
+        let mut tops = Vec::new();
+        for chunk in self.data.iter().filter(of_entity) {
+            let ranges = chunk.iter_slices::<[f64; 2]>(component);
+            let tops_here: Vec<f64> = ranges.map(|range| range[0][1]).collect();
+            // What holds for ever would shadow what holds from some step on.
+            assert!(tops_here.is_empty() || !chunk.is_static(), "{entity}");
+            if !tops_here.is_empty() {
+                let steps = chunk.timelines()[&"step".into()].times_raw().to_vec();
+                tops.extend(steps.into_iter().zip(tops_here));
+            }
+        }
+        tops
+    }
+
+    /// The highest point of an entity's curves in a step: heights count downwards.
+    fn highest(&self, entity: &str, step: i64) -> f32 {
+        let component = rerun::LineStrips2D::descriptor_strips().component;
+        let of_entity = |chunk: &&Chunk| {
+            chunk.entity_path().to_string() == format!("/{entity}") && !chunk.is_static()
+        };
+        for chunk in self.data.iter().filter(of_entity) {
+            let steps = chunk.timelines()[&"step".into()].times_raw().to_vec();
+            let row = steps.iter().position(|&own| own == step);
+            let Some(batch) = row.and_then(|row| chunk.component_batch_raw(component, row)) else {
+                continue;
+            };
+            let strips = rerun::components::LineStrip2D::from_arrow(&batch.unwrap()).unwrap();
+            let heights = strips.iter().flat_map(|strip| &strip.0).map(|at| -at.0[1]);
+            return heights.fold(0.0, f32::max);
+        }
+        panic!("{entity} has nothing in step {step}")
+    }
+
     /// Labels of an entity, those of a row one after another.
     fn labels(&self, entity: &str) -> Vec<String> {
         let component = rerun::Points2D::descriptor_labels().component;
@@ -156,6 +202,19 @@ impl Contents {
             together.collect::<Vec<String>>()
         });
         labels.collect()
+    }
+
+    /// Lines of the log.
+    fn log(&self) -> Vec<String> {
+        let component = rerun::TextLog::descriptor_text().component;
+        let of_log = |chunk: &&Chunk| chunk.entity_path().to_string() == "/log";
+        let chunks = self.data.iter().filter(of_log);
+        let lines = chunks.flat_map(|chunk| {
+            let lines = chunk.iter_slices::<String>(component);
+            let own = lines.map(|row| row[0].to_string());
+            own.collect::<Vec<_>>()
+        });
+        lines.collect()
     }
 
     /// A number among the recording's properties.
@@ -287,7 +346,7 @@ fn a_recording_holds_every_field_of_every_step() {
         "convergence/log10_errors",
         "text/now",
     ] {
-        assert_eq!(contents.rows(entity, false), steps, "{entity}");
+        assert_eq!(contents.updates(entity), steps, "{entity}");
     }
     // The second tab takes every second picture.
     for entity in [
@@ -297,7 +356,7 @@ fn a_recording_holds_every_field_of_every_step() {
         "maps/roughness_body_2_um/image",
         "slice_y0/tau_xz_GPa/image",
     ] {
-        assert_eq!(contents.rows(entity, false), steps / 2, "{entity}");
+        assert_eq!(contents.updates(entity), steps / 2, "{entity}");
     }
     // Logged when they change, and they do not.
     for entity in [
@@ -372,8 +431,6 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
     for entity in [
         "maps/pressure_GPa/axes/frame",
         "maps/pressure_GPa/axes/labels",
-        "maps/pressure_GPa/legend/bar",
-        "maps/pressure_GPa/legend/labels",
         "contact_3d/labels",
         "contact_3d/legend/pressure",
         "text/about",
@@ -383,6 +440,15 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
     ] {
         assert_eq!(contents.rows(entity, true), 1, "{entity}");
         assert_eq!(contents.rows(entity, false), 0, "{entity}");
+    }
+    // Ranges hold from the first frame on and not for ever: a knob may be turned beyond them.
+    for entity in [
+        "maps/pressure_GPa/legend/bar",
+        "maps/pressure_GPa/legend/labels",
+        "centre_line_y0/axes/labels",
+        "contact_3d/legend/pressure/labels",
+    ] {
+        assert_eq!(contents.rows(entity, false), 1, "{entity}");
     }
     assert!(
         contents
@@ -469,7 +535,7 @@ fn a_small_budget_thins_fields_and_not_scalars() {
     record(&path, &small, &frames);
     let contents = Contents::read(&path);
     assert_eq!(contents.rows("series/pressure_GPa", false), 40);
-    let fields = contents.rows("maps/pressure_GPa/image", false);
+    let fields = contents.updates("maps/pressure_GPa/image");
     assert!((2..30).contains(&fields), "{fields}");
     assert_eq!(fields, contents.rows("contact_3d/body_1_surface", false));
     let notes = contents.text("text/notes_on_the_data");
@@ -579,7 +645,7 @@ fn a_recorder_that_nobody_finished_leaves_a_whole_file() {
     drop(recorder);
     let contents = Contents::read(&path);
     assert!(!contents.broke_off);
-    assert_eq!(contents.rows("maps/film_um/image", false), 3);
+    assert_eq!(contents.updates("maps/film_um/image"), 3);
 }
 
 #[test]
@@ -607,7 +673,7 @@ fn behind_a_queue_nothing_is_lost() {
     let report = queue.finish().unwrap();
     assert_eq!((report.frames, report.skipped), (STEPS, 0));
     let contents = Contents::read(&path);
-    assert_eq!(contents.rows("maps/film_um/image", false), STEPS as usize);
+    assert_eq!(contents.updates("maps/film_um/image"), STEPS as usize);
 }
 
 /// Eight frames with a map of that body from the third on, whole from the sixth on.
@@ -647,7 +713,7 @@ fn damage_maps_come_when_they_are_there_and_change() {
     record(&path, &every_step(), &frames);
     let contents = Contents::read(&path);
     let entity = "damage/body_2_log10_relative";
-    assert_eq!(contents.rows(&format!("{entity}/image"), false), 2);
+    assert_eq!(contents.updates(&format!("{entity}/image")), 2);
     assert_eq!(contents.rows(&format!("{entity}/worst_point"), false), 2);
     assert_eq!(contents.rows(&format!("{entity}/axes/frame"), true), 1);
     assert!(
@@ -743,6 +809,67 @@ fn ranges_follow_what_the_script_brings() {
     );
     // What is less than now changes nothing.
     assert_eq!(tops(vec![event("load.force_n", 100.0)]), plain);
+}
+
+/// A load that is turned by hand beyond the script widens what a script that brings it would have given from the beginning:
+/// pictures, legends and axes of the same step, and the log tells.
+#[test]
+fn a_load_turned_by_hand_widens_the_ranges_from_then_on() {
+    const TURNED: u64 = 6;
+    let load = 8.0 * 800.0;
+    let frames = changed(STEPS, |frame| {
+        if frame.step < TURNED {
+            return;
+        }
+        frame.metrics.load_target_n = load;
+        // Eight times the load is twice the pressure.
+        frame.pressure_pa.iter_mut().for_each(|p| *p *= 2.0);
+        frame.metrics.p_max_pa *= 2.0;
+    });
+    let folder = tempfile::tempdir().unwrap();
+    let read = |name: &str, events: Vec<Event>| {
+        let path = folder.path().join(name);
+        let mut scene = synthetic::scene(NODES, 1.0);
+        scene.events = events;
+        record_scene(&path, scene, &frames);
+        Contents::read(&path)
+    };
+    let scripted = read("scripted.rrd", vec![event("load.force_n", load)]);
+    let by_hand = read("by_hand.rrd", Vec::new());
+    for entity in ["maps/pressure_GPa", "slice_y0/effective_stress_GPa"] {
+        let image = format!("{entity}/image");
+        let wide = scripted.tops(&image);
+        assert_eq!(wide.len(), 1, "{wide:?}");
+        let found = by_hand.tops(&image);
+        let [(1, first), (6, then)] = found[..] else {
+            panic!("{entity}: {found:?}")
+        };
+        assert!(first < then && then == wide[0].1, "{found:?} {wide:?}");
+        assert_eq!(by_hand.tops(&format!("{entity}/legend/bar")), found);
+        let labels = by_hand.labels(&format!("{entity}/legend/labels"));
+        for top in [first, then] {
+            let top = format!("≥{top}");
+            assert!(labels.iter().any(|row| row.contains(&top)), "{labels:?}");
+        }
+        let told = format!("the colours of {entity} reach {then} GPa from here on, before {first}");
+        let log = by_hand.log();
+        assert!(log.iter().any(|line| line.contains(&told)), "{log:?}");
+    }
+    // Nothing is above the colours.
+    assert!(!by_hand.text("text/now").contains("above the colours"));
+    // Curves are drawn to the axes of their step.
+    let scripted_axes = scripted.labels("centre_line_y0/axes/labels");
+    let labels = by_hand.labels("centre_line_y0/axes/labels");
+    assert_eq!(labels[1..], scripted_axes);
+    for curve in [
+        "centre_line_y0/pressure_GPa",
+        "material_point/trace/pressure_GPa",
+    ] {
+        let [one, other] = [&by_hand, &scripted].map(|contents| contents.highest(curve, 12));
+        assert!((one / other - 1.0).abs() < 1e-5, "{curve}: {one} {other}");
+        let [one, other] = [&by_hand, &scripted].map(|contents| contents.highest(curve, 5));
+        assert!(one > 1.2 * other, "{curve}: {one} {other}");
+    }
 }
 
 /// Where pits start the picture holds what the solver computed, in rows of its own depths.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::drawing::{Curve, Drawing, Figure, Map, Right};
 use crate::observe::ramp::Ramp;
-use crate::observe::scales::{GPA, MM, MPA, Ranges, ToCome, UM, number};
+use crate::observe::scales::{GPA, MM, MPA, Ranges, Scope, UM, number};
 use crate::scene::ContactKind;
 use crate::sim::{Frame, StressSlice};
 
@@ -61,7 +61,7 @@ impl Pictures {
     ) -> Result<(), String> {
         let ranges = *self
             .ranges
-            .get_or_insert_with(|| Ranges::of(frame, &ToCome::of(None, frame)));
+            .get_or_insert_with(|| Scope::of(None, frame).ranges);
         let drawing = Drawing {
             file,
             title: format!("{}: {}", self.scene, subject.title()),

@@ -6,7 +6,7 @@ use super::colour::{GREY, ORANGE, SKY, faded};
 use super::gathered::Pen;
 use super::geometry::Geometry;
 use super::plot::{PlotBox, points, ticks_at};
-use super::stream::Stream;
+use super::stream::{Holds, Stream};
 use super::waiting::Curves;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, divisions, ticks};
@@ -36,26 +36,22 @@ impl CentreLine {
     ) -> Result<Self, ObserveError> {
         let x = [geometry.x_min, geometry.x_max()];
         let height = 0.72 * (x[1] - x[0]);
-        let up = |top: f64| move |value: f64| -height * value / top;
-        let (p_top, h_top) = (pressure_top_pa * GPA.1, film_top_m * UM);
         let plot = PlotBox {
             x,
             y: [-height, 0.0],
             x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
-            left_ticks: ticks_at(&divisions(p_top), up(p_top)),
-            right_ticks: ticks_at(&divisions(h_top), up(h_top)),
             x_title: "x, mm   (grey: Hertz)".into(),
             titles: vec![(0.1, "p, GPa".into(), ORANGE), (0.9, "h, µm".into(), SKY)],
             left_colour: Some(ORANGE),
             right_colour: Some(SKY),
+            ..PlotBox::default()
         };
-        plot.log(stream, &format!("{CENTRE_LINE}/axes"))?;
         let curves = |name: &str, colour| {
             let entity = format!("{CENTRE_LINE}/{name}");
             stream.log_static(entity.as_str(), &line(colour, 1.5))?;
             Ok(stream.curves(entity))
         };
-        Ok(Self {
+        let mut this = Self {
             geometry,
             plot,
             pressure_top_pa,
@@ -63,7 +59,28 @@ impl CentreLine {
             hertz: None,
             pressure: curves("pressure_GPa", ORANGE)?,
             film: curves("film_um", SKY)?,
-        })
+        };
+        this.reach(stream, pressure_top_pa, film_top_m)?;
+        Ok(this)
+    }
+
+    /// Draws the axes up to these tops from now on.
+    pub(super) fn reach(
+        &mut self,
+        stream: &Stream,
+        pressure_top_pa: f64,
+        film_top_m: f64,
+    ) -> Result<(), ObserveError> {
+        let height = -self.plot.y[0];
+        let up = |top: f64| move |value: f64| -height * value / top;
+        let (p_top, h_top) = (pressure_top_pa * GPA.1, film_top_m * UM);
+        self.plot.left_ticks = ticks_at(&divisions(p_top), up(p_top));
+        self.plot.right_ticks = ticks_at(&divisions(h_top), up(h_top));
+        (self.pressure_top_pa, self.film_top_m) = (pressure_top_pa, film_top_m);
+        // Hertz's curve is drawn to the same axes.
+        self.hertz = None;
+        let axes = format!("{CENTRE_LINE}/axes");
+        self.plot.log_that(stream, &axes, Holds::FromNow)
     }
 
     pub(super) fn plot(&self) -> &PlotBox {

@@ -137,6 +137,13 @@ impl Kymograph {
         })
     }
 
+    /// Colours up to the top of `shown` from now on, as in the maps.
+    pub(super) fn reach(&mut self, stream: &Stream, shown: Shown) -> Result<(), ObserveError> {
+        self.shown = shown;
+        let top_si = shown.scale().top / shown.scale().per_si;
+        self.raster.reach(stream, 0.999 * top_si).map(drop)
+    }
+
     /// Bytes of the picture when it is full.
     pub(super) fn full_bytes(&self) -> usize {
         2 * self.geometry.nx * self.most_rows

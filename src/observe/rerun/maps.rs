@@ -9,6 +9,7 @@ use super::interferogram::Interferogram;
 use super::plot::{Hertz, PlotBox, ticks_at};
 use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
+use super::text::Widened;
 use super::waiting::ClassImage;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MPA, Ranges, UM, ticks};
@@ -99,6 +100,31 @@ impl Maps {
             .into_iter()
             .filter_map(|(entity, raster)| Some((entity, raster.as_ref()?)));
         always.into_iter().chain(rough)
+    }
+
+    /// Widens the ranges from now on; what has changed, with its tops before and after.
+    pub(super) fn reach(
+        &mut self,
+        stream: &Stream,
+        ranges: &Ranges,
+    ) -> Result<Vec<Widened>, ObserveError> {
+        let mut widened = Vec::new();
+        let [rough_1, rough_2] = &mut self.roughness;
+        let always = [
+            (PRESSURE, Some(&mut self.pressure), ranges.pressure_pa),
+            (FILM, Some(&mut self.film), ranges.film_m),
+            (TRACTION, Some(&mut self.traction), ranges.traction_pa),
+            (ROUGHNESS_1, rough_1.as_mut(), ranges.roughness_m),
+            (ROUGHNESS_2, rough_2.as_mut(), ranges.roughness_m),
+        ];
+        for (entity, raster, top_si) in always {
+            if let Some(raster) = raster
+                && let Some(tops) = raster.reach(stream, top_si)?
+            {
+                widened.push((entity, tops, raster.scale().unit));
+            }
+        }
+        Ok(widened)
     }
 
     /// Upper end of the pressure's colour range, Pa.

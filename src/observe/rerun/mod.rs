@@ -1,6 +1,6 @@
 //! The recording: everything a run hands out, as a Rerun file that opens laid out.
 //!
-//! Fields are stored in half precision with fixed colour ranges ([`raster`]), the 3-D view is cut open
+//! Fields are stored in half precision with colour ranges of what can come ([`raster`]), the 3-D view is cut open
 //! at y = 0 ([`space`]), scalars are recorded in every step where they fit, fields as often as the budget allows
 //! ([`cadence`]). The file holds the scene as TOML, the plan and the log of commands, so that it
 //! tells how to repeat itself. It is readable up to the last second if the process is killed, and has a footer when it
@@ -22,6 +22,7 @@ mod geometry;
 mod interferogram;
 mod kymograph;
 mod layout;
+mod legend;
 mod live;
 mod maps;
 mod mesh;

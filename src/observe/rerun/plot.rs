@@ -158,7 +158,13 @@ impl Labels {
         self.log_that(stream, entity, Holds::Always)
     }
 
-    fn log_that(&self, stream: &Stream, entity: &str, holds: Holds) -> Result<(), ObserveError> {
+    /// For good or until the next.
+    pub(super) fn log_that(
+        &self,
+        stream: &Stream,
+        entity: &str,
+        holds: Holds,
+    ) -> Result<(), ObserveError> {
         let labels = Points2D::new(self.at.iter().copied())
             .with_radii([Radius::new_scene_units(0.0)])
             .with_colors(self.colours.iter().copied())

@@ -1,4 +1,5 @@
-//! Images with a colour legend: a field on a rectangle, in half precision, with a fixed colour range.
+//! Images with a colour legend: a field on a rectangle, in half precision, with a colour range that holds until a knob is
+//! turned beyond what it was made for.
 //!
 //! Values are stored in the unit of the entity's name as 16-bit floating-point numbers: eleven significant bits
 //! (0.05 %) of everything between 6e-5 and 65 504, so that a film of 5 nm and the bath of 50 µm beside it are in one
@@ -9,12 +10,12 @@ use std::cell::Cell;
 use rerun::components::{Colormap, ImageBuffer, ImageFormat, MagnificationFilter};
 use rerun::{AsComponents, ChannelDatatype, DepthImage, Transform3D};
 
-use super::colour::WHITE;
-use super::plot::{Labels, PlotBox};
+use super::legend::Legend;
+use super::plot::PlotBox;
 use super::stream::Stream;
 use super::waiting::LevelImage;
 use crate::observe::ObserveError;
-use crate::observe::scales::{divisions, nice_up, number};
+use crate::observe::scales::nice_up;
 
 /// Greatest number in half precision.
 pub(super) const MOST: f32 = 65_504.0;
@@ -58,7 +59,7 @@ impl Scale {
         }
     }
 
-    fn low(&self) -> f64 {
+    pub(super) fn low(&self) -> f64 {
         match self.sign {
             Sign::Positive => 0.0,
             Sign::Both => -self.top,
@@ -76,7 +77,7 @@ impl Scale {
     }
 
     /// Same as bytes of their own.
-    fn stored(&self, values_si: &[f32]) -> (ImageBuffer, Beyond) {
+    pub(super) fn stored(&self, values_si: &[f32]) -> (ImageBuffer, Beyond) {
         let mut halves = Vec::with_capacity(values_si.len());
         let beyond = self.store(Field::TopDown(values_si), &mut halves);
         let bytes: Vec<u8> = halves.into_iter().flat_map(u16::to_ne_bytes).collect();
@@ -224,6 +225,7 @@ pub(super) struct Raster {
     entity: String,
     image: LevelImage,
     scale: Scale,
+    legend: Legend,
     columns: usize,
     /// Of the picture that was logged last, and of all.
     last: Cell<Beyond>,
@@ -231,7 +233,8 @@ pub(super) struct Raster {
 }
 
 impl Raster {
-    /// Logs all that stays: format, colours, range, place and legend, and of a picture with a fixed height its axes.
+    /// Logs all that stays: format, colours and place, and of a picture with a fixed height its axes; then the range and the
+    /// legend, from now on.
     pub(super) fn new(
         stream: &Stream,
         entity: &str,
@@ -250,15 +253,38 @@ impl Raster {
             // What is logged once holds for ever, so the size of a growing picture and its axes may not be.
             Height::Growing => log_styled(stream, &place, &styled(&scale), &pixels)?,
         }
-        log_legend(stream, &format!("{entity}/legend"), &scale, plot, title)?;
-        Ok(Self {
+        let legend = Legend::new(stream, format!("{entity}/legend"), &scale, plot, title)?;
+        let raster = Self {
             image: stream.level_image(place.as_str()),
             entity: place,
             scale,
+            legend,
             columns: pixels.columns,
             last: Cell::default(),
             all: Cell::default(),
-        })
+        };
+        raster.log_range(stream)?;
+        Ok(raster)
+    }
+
+    /// Gives it another range from now on, up to the next round number above `value_si`; the old and the new top where they differ.
+    pub(super) fn reach(
+        &mut self,
+        stream: &Stream,
+        value_si: f64,
+    ) -> Result<Option<[f64; 2]>, ObserveError> {
+        let top = nice_up(value_si * self.scale.per_si);
+        let before = std::mem::replace(&mut self.scale.top, top);
+        if before == top {
+            return Ok(None);
+        }
+        self.log_range(stream)?;
+        Ok(Some([before, top]))
+    }
+
+    fn log_range(&self, stream: &Stream) -> Result<(), ObserveError> {
+        stream.log(&self.entity, &range(&self.scale))?;
+        self.legend.log(stream, &self.scale)
     }
 
     /// One frame's values in SI.
@@ -310,62 +336,15 @@ pub(super) fn log_styled(
     stream.log_static(entity, &[style, &pixels.transform()])
 }
 
-fn styled(scale: &Scale) -> DepthImage {
+pub(super) fn styled(scale: &Scale) -> DepthImage {
     DepthImage::update_fields()
         .with_meter(1.0)
         .with_colormap(scale.colours)
-        .with_depth_range([scale.low(), scale.top])
         .with_magnification_filter(MagnificationFilter::Linear)
 }
 
-/// The colour bar: an image of the same colours and range, so that it cannot differ from them.
-fn log_legend(
-    stream: &Stream,
-    entity: &str,
-    scale: &Scale,
-    plot: &PlotBox,
-    title: &str,
-) -> Result<(), ObserveError> {
-    const ROWS: usize = 128;
-    let (w, h) = (plot.x[1] - plot.x[0], plot.y[1] - plot.y[0]);
-    let left = plot.x[1] + 0.04 * w;
-    let wide = 0.035 * w;
-    let span = scale.top - scale.low();
-    let ramp: [f32; ROWS] = std::array::from_fn(|row| {
-        let value = scale.top - span * (row as f64 + 0.5) / ROWS as f64;
-        (value / scale.per_si) as f32
-    });
-    let pixels = Pixels {
-        columns: 1,
-        rows: ROWS,
-        first: [left + 0.5 * wide, plot.y[0] + 0.5 * h / ROWS as f64],
-        size: [wide, h / ROWS as f64],
-    };
-    let bar = format!("{entity}/bar");
-    let image = styled(scale)
-        .with_format(ImageFormat::depth(
-            pixels.resolution(),
-            ChannelDatatype::F16,
-        ))
-        .with_buffer(scale.stored(&ramp).0);
-    log_styled(stream, &bar, &image, &pixels)?;
-
-    let mut labels = Labels::default();
-    let values = match scale.sign {
-        Sign::Positive => divisions(scale.top),
-        Sign::Both => [-1.0, -0.5, 0.0, 0.5, 1.0].map(|t| t * scale.top).to_vec(),
-    };
-    for value in values {
-        let y = plot.y[0] + h * (scale.top - value) / span;
-        let text = if (value - scale.top).abs() < 1e-9 * span {
-            format!("≥{}", number(value))
-        } else {
-            number(value)
-        };
-        labels.add([left + 0.13 * w, y - 0.022 * h], &text, WHITE);
-    }
-    labels.add([left + 0.06 * w, plot.y[0] - 0.085 * h], title, WHITE);
-    labels.log(stream, &format!("{entity}/labels"))
+pub(super) fn range(scale: &Scale) -> DepthImage {
+    DepthImage::update_fields().with_depth_range([scale.low(), scale.top])
 }
 
 #[cfg(test)]

@@ -125,7 +125,7 @@ impl Recorder {
         views.follow(frame);
         let before = stream.weight();
         if due.fields {
-            views.log(stream, frame)?;
+            views.log(stream, self.scene.as_deref(), frame)?;
             text::log_now(stream, frame, &self.caption, &views.beyond())?;
             views.cadence.took(stream.weight() - before);
         }

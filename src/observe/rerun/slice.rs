@@ -12,6 +12,7 @@ use super::geometry::Geometry;
 use super::plot::{Hertz, PlotBox, ticks_at};
 use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
 use super::stream::Stream;
+use super::text::Widened;
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, MM, Ranges, ticks};
 use crate::sim::Frame;
@@ -82,6 +83,23 @@ impl Slice {
 
     pub(super) fn plot(&self) -> &PlotBox {
         &self.plot
+    }
+
+    /// Widens the ranges from now on, as [`Maps::reach`](super::maps::Maps::reach).
+    pub(super) fn reach(
+        &mut self,
+        stream: &Stream,
+        ranges: &Ranges,
+    ) -> Result<Vec<Widened>, ObserveError> {
+        let mut widened = Vec::new();
+        for (entity, raster, top_si) in [
+            (EFFECTIVE, &mut self.effective, ranges.effective_pa),
+            (TAU_XZ, &mut self.tau_xz, ranges.shear_pa),
+        ] {
+            let tops = raster.reach(stream, top_si)?;
+            widened.extend(tops.map(|tops| (entity, tops, raster.scale().unit)));
+        }
+        Ok(widened)
     }
 
     /// Upper end of the colour range of the effective stress, Pa.

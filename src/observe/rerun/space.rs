@@ -142,6 +142,17 @@ impl Space {
         Ok(Some(space))
     }
 
+    /// Colours up to these tops from now on.
+    pub(super) fn reach(
+        &mut self,
+        stream: &Stream,
+        pressure_pa: f64,
+        effective_pa: Option<f64>,
+    ) -> Result<(), ObserveError> {
+        (self.tops.pressure_pa, self.tops.effective_pa) = (pressure_pa, effective_pa);
+        self.log_tops(stream)
+    }
+
     /// Words about the heights.
     pub(super) fn note(&self) -> String {
         format!(

@@ -75,8 +75,9 @@ pub(super) fn log_notes<'a>(
     let mut notes = format!(
         "# Notes on the data\n\n{cadence} Interferogram, traction, \
          roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in \
-         half precision (0.05 %), in the unit of the entity's name. Colours have the same range in every frame: what \
-         can come by the scene's script. Values above it take the top colour and are told under *Now*; none is cut \
+         half precision (0.05 %), in the unit of the entity's name. Colours have one range: what can come by the scene's \
+         script. A knob turned by hand beyond the script widens it from then on: the legends change, the log tells, and \
+         below stand the widest. Values above the range take the top colour and are told under *Now*; none is cut \
          off in the file below 65 504 units. The slice below body 1 and the damage maps have a row for each depth \
          that was computed; the depths are in the axis. Damage that has not been counted yet is no number (NaN).\n\n\
          | entity | colours up to |\n|---|---|\n"
@@ -93,6 +94,21 @@ pub(super) fn log_notes<'a>(
     stream.log_static(NOTES, &TextDocument::from_markdown(notes))?;
     let markdown = TextDocument::update_fields().with_media_type(MediaType::markdown());
     stream.log_static(NOW, &markdown)
+}
+
+/// A map whose range was widened: entity, its tops before and after, unit.
+pub(super) type Widened = (&'static str, [f64; 2], &'static str);
+
+/// Ranges that hold from now on.
+pub(super) fn log_widened(stream: &Stream, widened: &[Widened]) -> Result<(), ObserveError> {
+    for (entity, [before, after], unit) in widened {
+        let [before, after] = [before, after].map(|top| number(*top));
+        let line = format!(
+            "a knob was turned beyond the scene's script: the colours of {entity} reach {after} {unit} from here on, before {before}"
+        );
+        log_line(stream, &line, TextLogLevel::INFO)?;
+    }
+    Ok(())
 }
 
 /// A map of which something is above the colours: entity, what, unit.

@@ -7,7 +7,7 @@ use super::centre_line::line;
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, YELLOW, faded};
 use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
-use super::stream::Stream;
+use super::stream::{Holds, Stream};
 use super::waiting::Curves;
 use crate::math::number::{counted, sig};
 use crate::observe::ObserveError;
@@ -104,12 +104,10 @@ impl Trace {
     ) -> Result<Self, ObserveError> {
         let x = [geometry.x_min, geometry.x_max()];
         let height = 0.45 * (x[1] - x[0]);
-        let top = pressure_top_pa * GPA.1;
         let plot = PlotBox {
             x,
             y: [-height, 0.0],
             x_ticks: ticks_at(&ticks(x[0], x[1], 8), |x| x),
-            left_ticks: ticks_at(&divisions(top), |p| -height * p / top),
             x_title: "where the point is: x, mm".into(),
             titles: vec![
                 (0.02, "GPa".into(), WHITE),
@@ -119,7 +117,6 @@ impl Trace {
             ],
             ..PlotBox::default()
         };
-        plot.log(stream, &format!("{TRACE}/axes"))?;
         let style = Points2D::update_fields()
             .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
             .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
@@ -132,7 +129,7 @@ impl Trace {
             .with_show_labels(true)
             .with_draw_order(20.0);
         stream.log_static(PEAKS, &style)?;
-        Ok(Self {
+        let mut this = Self {
             plot,
             pressure_top_pa,
             body: 0,
@@ -143,7 +140,28 @@ impl Trace {
             shown: Shown::NotYet,
             peaks: Peaks::default(),
             curves: TraceCurves::new(stream)?,
-        })
+        };
+        this.reach(stream, pressure_top_pa)?;
+        Ok(this)
+    }
+
+    /// Draws the axes up to this top from now on, and to them what was drawn before.
+    pub(super) fn reach(
+        &mut self,
+        stream: &Stream,
+        pressure_top_pa: f64,
+    ) -> Result<(), ObserveError> {
+        let share = (self.pressure_top_pa / pressure_top_pa) as f32;
+        self.pressure_top_pa = pressure_top_pa;
+        let curves = [&mut self.pressure, &mut self.effective, &mut self.before];
+        for [_, y] in curves.into_iter().flatten().chain(&mut self.peaks.at) {
+            *y *= share;
+        }
+        (self.shown, self.peaks.logged) = (Shown::NotYet, None);
+        let (top, lower) = (pressure_top_pa * GPA.1, self.plot.y[0]);
+        self.plot.left_ticks = ticks_at(&divisions(top), |p| lower * p / top);
+        let axes = format!("{TRACE}/axes");
+        self.plot.log_that(stream, &axes, Holds::FromNow)
     }
 
     pub(super) fn plot(&self) -> &PlotBox {

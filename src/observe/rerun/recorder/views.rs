@@ -17,7 +17,7 @@ use super::super::trace::Trace;
 use super::super::weight::TEXT;
 use crate::math::number::sig;
 use crate::observe::ObserveError;
-use crate::observe::scales::{Ranges, ToCome};
+use crate::observe::scales::Scope;
 use crate::scene::{Record, Scene};
 use crate::sim::Frame;
 
@@ -28,6 +28,7 @@ const BESIDE_EVERY: u64 = 2;
 /// What is set up by the first frame.
 pub(super) struct Views {
     pub(super) geometry: Geometry,
+    scope: Scope,
     pub(super) cadence: Cadence,
     pub(super) series: Series,
     maps: Maps,
@@ -50,22 +51,21 @@ impl Views {
         scene: Option<&Scene>,
         first: &Frame,
     ) -> Result<Self, ObserveError> {
-        let to_come = ToCome::of(scene, first);
-        let geometry = Geometry::of(first, to_come.size);
+        let scope = Scope::of(scene, first);
+        let geometry = Geometry::of(first, scope.to_come.size);
         if !geometry.holds(first) {
             return Err(ObserveError::new(
                 stream.output(),
                 "the first frame's fields have not the sizes of its grid",
             ));
         }
-        let ranges = Ranges::of(first, &to_come);
-        let maps = Maps::new(stream, geometry, &ranges)?;
-        let slice = Slice::new(stream, geometry, first, &ranges)?;
+        let maps = Maps::new(stream, geometry, &scope.ranges)?;
+        let slice = Slice::new(stream, geometry, first, &scope.ranges)?;
         let tops = Tops {
             pressure_pa: maps.pressure_top_pa(),
             effective_pa: slice.as_ref().map(Slice::effective_top_pa),
             rough: maps.rough(),
-            roughness_m: to_come.amplitude_m.iter().sum(),
+            roughness_m: scope.to_come.amplitude_m.iter().sum(),
         };
         let space = Space::new(stream, geometry, first, tops)?;
         let centre_line = CentreLine::new(stream, geometry, tops.pressure_pa, maps.film_top_m())?;
@@ -91,13 +91,9 @@ impl Views {
         let last: usize = kymographs.iter().map(Kymograph::full_bytes).sum();
         let spent = [stream.weight(), TEXT * last as f64];
         let cadence = Cadence::new(record, steps, frame_bytes(geometry), spent);
-        let exaggeration = space.as_ref().map(Space::note).unwrap_or_default();
-        let below = slice.iter().flat_map(Slice::rasters);
-        let scales = maps.rasters().chain(below);
-        let scales = scales.map(|(entity, raster)| (entity, raster.scale()));
-        text::log_notes(stream, scales, &cadence.note(), &exaggeration)?;
         let views = Self {
             geometry,
+            scope,
             cadence,
             series: Series::new(stream, first.kind)?,
             maps,
@@ -112,8 +108,50 @@ impl Views {
                 .map_or([false; 2], crate::scene::Life::maps),
             pictures: 0,
         };
+        views.log_notes(stream)?;
         layout::send(stream, &views.shown(first, stream.is_live()))?;
         Ok(views)
+    }
+
+    fn log_notes(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let exaggeration = self.space.as_ref().map(Space::note).unwrap_or_default();
+        let scales = self
+            .rasters()
+            .map(|(entity, raster)| (entity, raster.scale()));
+        text::log_notes(stream, scales, &self.cadence.note(), &exaggeration)
+    }
+
+    /// Widens the ranges where a knob was turned beyond what they were made for. All that is drawn to them changes with the
+    /// same frame, so that pictures, axes and legends of any moment agree.
+    fn reach(
+        &mut self,
+        stream: &Stream,
+        scene: Option<&Scene>,
+        frame: &Frame,
+    ) -> Result<(), ObserveError> {
+        if !self.scope.grows(scene, &frame.metrics) {
+            return Ok(());
+        }
+        let ranges = &self.scope.ranges;
+        let mut widened = self.maps.reach(stream, ranges)?;
+        if let Some(slice) = &mut self.slice {
+            widened.extend(slice.reach(stream, ranges)?);
+        }
+        let (pressure_pa, film_m) = (self.maps.pressure_top_pa(), self.maps.film_top_m());
+        let effective_pa = self.slice.as_ref().map(Slice::effective_top_pa);
+        self.centre_line.reach(stream, pressure_pa, film_m)?;
+        if let Some(space) = &mut self.space {
+            space.reach(stream, pressure_pa, effective_pa)?;
+        }
+        if let Some(trace) = &mut self.trace {
+            trace.reach(stream, pressure_pa)?;
+        }
+        let [pressure, film] = &mut self.kymographs;
+        let top_pa = pressure_pa;
+        pressure.reach(stream, kymograph::Shown::Pressure { top_pa })?;
+        film.reach(stream, kymograph::Shown::Film { top_m: film_m })?;
+        text::log_widened(stream, &widened)?;
+        self.log_notes(stream)
     }
 
     fn shown(&self, first: &Frame, live: bool) -> Shown {
@@ -179,7 +217,13 @@ impl Views {
     }
 
     /// The fields of a frame.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    pub(super) fn log(
+        &mut self,
+        stream: &Stream,
+        scene: Option<&Scene>,
+        frame: &Frame,
+    ) -> Result<(), ObserveError> {
+        self.reach(stream, scene, frame)?;
         self.maps.log(stream, frame)?;
         self.centre_line.log(stream, frame)?;
         if let Some(slice) = &mut self.slice {

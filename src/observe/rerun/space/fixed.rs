@@ -26,7 +26,10 @@ impl Space {
         self.log_smooth_bodies(stream)?;
         self.log_dots(stream)?;
         self.log_cut(stream)?;
-        self.log_legends(stream)?;
+        for (name, ramp, _, place) in self.legends() {
+            self.log_bar(stream, name, ramp, place)?;
+        }
+        self.log_tops(stream)?;
         self.log_labels(stream)
     }
 
@@ -110,58 +113,65 @@ impl Space {
         stream.log_static(format!("{SPACE}/cut/depths"), &labels)
     }
 
-    /// Colour bars of pressure and stress at the right of the bodies.
-    fn log_legends(&self, stream: &Stream) -> Result<(), ObserveError> {
+    /// Colour bars of pressure and stress at the right of the bodies: name, colours, top and unit, lower and upper end.
+    fn legends(&self) -> impl Iterator<Item = (&'static str, Ramp, (f64, &'static str), [f64; 2])> {
         let a = self.geometry.a;
-        let pressure = (Ramp::Inferno, self.tops.pressure_pa, "p, GPa");
-        self.log_legend(stream, "pressure", pressure, [-0.1 * a, 0.85 * a])?;
-        if let Some(top) = self.tops.effective_pa {
-            let stress = (Ramp::Magma, top, "σ_eff, GPa");
-            let bottom = self.levels.slice - 1.1 * a;
-            self.log_legend(
-                stream,
-                "effective_stress",
-                stress,
-                [bottom, bottom + 0.9 * a],
-            )?;
-        }
-        Ok(())
+        let bottom = self.levels.slice - 1.1 * a;
+        let pressure = (self.tops.pressure_pa, "p, GPa");
+        let stress = self.tops.effective_pa.map(|top| (top, "σ_eff, GPa"));
+        let stress = stress.map(|stress| {
+            let place = [bottom, bottom + 0.9 * a];
+            ("effective_stress", Ramp::Magma, stress, place)
+        });
+        let place = [-0.1 * a, 0.85 * a];
+        std::iter::once(("pressure", Ramp::Inferno, pressure, place)).chain(stress)
     }
 
-    fn log_legend(
+    /// Left and right edge of the colour bars.
+    fn bar_edges(&self) -> [f64; 2] {
+        [1.9, 2.0].map(|x| x * self.geometry.a)
+    }
+
+    fn log_bar(
         &self,
         stream: &Stream,
         name: &str,
-        (ramp, top_pa, title): (Ramp, f64, &str),
+        ramp: Ramp,
         [low, high]: [f64; 2],
     ) -> Result<(), ObserveError> {
         const ROWS: usize = 33;
-        let a = self.geometry.a;
-        let (left, right) = (1.9 * a, 2.0 * a);
         let share = |row: usize| row as f64 / (ROWS - 1) as f64;
         let positions = (0..ROWS).flat_map(|row| {
             let z = low + (high - low) * share(row);
-            [left, right].map(|x| [x as f32, 0.0, z as f32])
+            self.bar_edges().map(|x| [x as f32, 0.0, z as f32])
         });
         let colours = (0..ROWS).flat_map(|row| [ramp.colour(share(row) as f32, 1.0); 2]);
         let mesh = Mesh3D::new(positions)
             .with_triangle_indices(triangles(2, ROWS))
             .with_vertex_colors(colours);
-        stream.log_static(format!("{SPACE}/legend/{name}"), &mesh)?;
-        let top = top_pa * GPA.1;
-        // Over the numbers too, and clear of the slice's corner.
-        let mut at = vec![[right + 0.05 * a, 0.0, high + 0.27 * a]];
-        let mut texts = vec![title.to_owned()];
-        for value in [0.0, 0.5 * top, top] {
-            at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
-            texts.push(number(value));
+        stream.log_static(format!("{SPACE}/legend/{name}"), &mesh)
+    }
+
+    /// The numbers beside the colour bars, from now on.
+    pub(super) fn log_tops(&self, stream: &Stream) -> Result<(), ObserveError> {
+        let (a, [_, right]) = (self.geometry.a, self.bar_edges());
+        for (name, _, (top_pa, title), [low, high]) in self.legends() {
+            let top = top_pa * GPA.1;
+            // Over the numbers too, and clear of the slice's corner.
+            let mut at = vec![[right + 0.05 * a, 0.0, high + 0.27 * a]];
+            let mut texts = vec![title.to_owned()];
+            for value in [0.0, 0.5 * top, top] {
+                at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
+                texts.push(number(value));
+            }
+            let labels = Points3D::new(at.iter().map(|at| at.map(|v| v as f32)))
+                .with_radii([Radius::new_scene_units(0.0)])
+                .with_colors([Color::from(WHITE)])
+                .with_labels(texts)
+                .with_show_labels(true);
+            stream.log(&format!("{SPACE}/legend/{name}/labels"), &labels)?;
         }
-        let labels = Points3D::new(at.iter().map(|at| at.map(|v| v as f32)))
-            .with_radii([Radius::new_scene_units(0.0)])
-            .with_colors([Color::from(WHITE)])
-            .with_labels(texts)
-            .with_show_labels(true);
-        stream.log_static(format!("{SPACE}/legend/{name}/labels"), &labels)
+        Ok(())
     }
 
     /// What the sheets are, and how much their heights are exaggerated.
