@@ -11,7 +11,7 @@ use asperity::scene::{Body, Contact, ContactKind, Life, Load, Motion, Record, Sc
 use asperity::sim::{
     Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage, StressSlice,
 };
-use asperity::study::sweep::{Began, Conditions, Found};
+use asperity::sweep::{Began, Conditions, Found};
 use asperity::tui::app::{App, Effect, ErrandKind, Setup};
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use asperity::tui::{LeftOut, RecorderActivity, RecorderState, RunStatus, view};

@@ -9,7 +9,7 @@ use asperity::plan::Plan;
 use asperity::run::{Command, End, Ending, Request, Session, Settled, Watcher};
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Follow, Frame, Knob, Simulation, Stage, State};
-use asperity::study::sweep::{Along, Background, Began, Found, Ground, Order};
+use asperity::sweep::{Along, Background, Began, Found, Ground, Order};
 
 /// Keeps every bit of every frame, and every event.
 struct Keeper(Arc<Mutex<Vec<String>>>);

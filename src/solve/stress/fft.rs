@@ -310,6 +310,17 @@ fn row(x: &[f32; TILE], l: usize) -> V {
     v
 }
 
+/// Index of the plan of length `n`, made if it is not there.
+pub(super) fn plan_of(plans: &mut Vec<LaneFft>, n: usize) -> usize {
+    plans
+        .iter()
+        .position(|plan| plan.len() == n)
+        .unwrap_or_else(|| {
+            plans.push(LaneFft::new(n));
+            plans.len() - 1
+        })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::engine::{StressSpec, Symmetry, plan_of};
 use super::fft::LaneFft;
+use super::fft::plan_of;
 use super::lanes::{LANES, V};
+use super::spec::{StressSpec, Symmetry};
 use super::window::{LOW, LowModes, low_modes};
 use crate::physics::invariants::Stress6;
 

@@ -28,9 +28,9 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::depth::depth_rule;
-use super::engine::{Loading, StressSpec, Symmetry};
 use super::peak::{self, Peak};
 use super::slice_out::SliceOut;
+use super::spec::{Loading, StressSpec, Symmetry};
 use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
 use super::volume::VolumeOut;
 use crate::math::kernel_symbol::{REPEATING, even_kernel_symbol, odd_kernel_symbol};

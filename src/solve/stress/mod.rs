@@ -44,15 +44,17 @@ mod plane;
 mod rows;
 mod slice;
 mod slice_out;
+mod spec;
 mod sums;
 mod volume;
 mod window;
 
 pub use depth::{DEPTH_SCALE_A, depth_rule, gauss_legendre};
-pub use engine::{Loading, Purpose, StressEngine, StressError, StressSpec, Symmetry};
+pub use engine::StressEngine;
 pub use line::LineStress;
 pub use peak::Peak;
 pub use plane::{Cut, Plane};
 pub use slice_out::SliceOut;
+pub use spec::{Loading, Purpose, StressError, StressSpec, Symmetry};
 pub use sums::{StressLaw, VolumeSums};
 pub use volume::{Integral, VolumeOut};

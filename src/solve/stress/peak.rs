@@ -6,8 +6,8 @@
 //! depth is found by golden section; a parabola through the three maxima gives x.
 
 use super::depth::{stretched, unstretched};
-use super::engine::StressSpec;
 use super::slice_out::SliceOut;
+use super::spec::StressSpec;
 use crate::physics::invariants::Stress6;
 use crate::scene::StressMeasure;
 

@@ -12,10 +12,11 @@
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-use super::engine::{Loading, StressEngine};
+use super::engine::StressEngine;
 use super::layer::{Layer, layers_at};
 use super::load::{Half, Sheared};
 use super::peak::measure_of;
+use super::spec::Loading;
 use super::window::LOW;
 use crate::physics::invariants::Stress6;
 

@@ -1,10 +1,10 @@
 //! The stress in the plane y = 0 as it is handed out, and the passes that write it.
 
-use super::engine::{StressSpec, Symmetry};
 use super::fft::Lanes;
 use super::lanes::{C, LANES, V, transpose};
 use super::measure::squared;
 use super::peak::Peak;
+use super::spec::{StressSpec, Symmetry};
 use crate::physics::invariants::Stress6;
 use crate::scene::StressMeasure;
 

@@ -9,9 +9,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::engine::{Loading, StressSpec};
 use super::layer::Layer;
 use super::peak::Peak;
+use super::spec::{Loading, StressSpec};
 use super::volume::{Integral, Worker};
 use crate::math::ln_sum::ln_sum;
 

@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::assemble::{Part, block_inputs};
-use super::engine::{Loading, StressEngine, StressSpec, Symmetry};
+use super::engine::StressEngine;
 use super::fft::{LaneFft, Lanes, pack_pair};
 use super::lanes::{LANES, V};
 use super::layer::{Layer, Waves};
@@ -24,6 +24,7 @@ use super::load::{Sheared, Spectrum};
 use super::measure::excess;
 use super::peak::Peak;
 use super::rows::{squares_of, turn_rows, unfold_rows, weighted_sum};
+use super::spec::{Loading, StressSpec, Symmetry};
 use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
 use crate::physics::cycles::BodyId;
 

@@ -12,7 +12,7 @@ use asperity::plan::Plan;
 use asperity::run::Checkpoint;
 use asperity::scene::{Override, Scene};
 use asperity::sim::Simulation;
-use asperity::study::sweep::Sweep;
+use asperity::sweep::Sweep;
 use libfuzzer_sys::fuzz_target;
 
 /// Nodes per side of what is made a simulation of.
