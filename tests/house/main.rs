@@ -3,6 +3,7 @@
 
 mod circles;
 mod guide;
+mod provenance;
 
 use std::path::Path;
 

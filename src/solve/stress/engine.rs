@@ -1,4 +1,6 @@
 //! The engine: what it holds, and how it is built.
+//!
+//! Part of `stress/mod.rs`.
 
 use super::fft::{LaneFft, Lanes};
 use super::lanes::LANES;

@@ -1,4 +1,6 @@
 //! Tables: the waves of the padded surface, and one layer per depth.
+//!
+//! Part of `stress/mod.rs`.
 
 use std::f64::consts::TAU;
 

@@ -8,6 +8,8 @@
 //! The same responses as [`super::slice`] and [`super::volume`], mode by mode without vectors: some 10 to
 //! 40 ms at 129², meant for a view that somebody turns and for tests, not for every frame. A depth that the
 //! engine has no table for gets one (some 20 ms more).
+//!
+//! Part of `stress/mod.rs`.
 
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;

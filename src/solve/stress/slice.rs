@@ -9,6 +9,8 @@
 //! ```
 //! The columns c are formed once per surface and shared by all depths. Every depth is given at the full
 //! resolution along x.
+//!
+//! Part of `stress/mod.rs`. Ours: its responses as polynomials in z, so that the sums over ky are formed once.
 
 use super::engine::StressEngine;
 use super::fft::{Lanes, pack_pair};

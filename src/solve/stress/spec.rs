@@ -1,4 +1,6 @@
 //! What the stress engine is asked for.
+//!
+//! Part of `stress/mod.rs`.
 
 use super::depth::depth_rule;
 use crate::physics::cycles::BodyId;
