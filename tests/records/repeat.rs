@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::common::keeper::{Kept, kept_request};
 use asperity::observe::rerun::{Recorded, Recorder};
-use asperity::observe::{Overwrite, Queue, RunContext, WhenFull};
+use asperity::observe::{Observer as _, Overwrite, Queue, RunContext, WhenFull};
 use asperity::run::{Command, Ending, Request, Session, Turn, Watcher};
 use asperity::scene::{Override, Record, Scene};
 use asperity::sim::Knob;
