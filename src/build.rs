@@ -15,7 +15,7 @@ const SOURCES: [&str; 9] = [
     "src/scene",
     "src/sim",
     "src/solve",
-    "src/study/sweep",
+    "src/sweep",
 ];
 
 fn main() {

@@ -6,7 +6,7 @@
 //! ## Floors
 //! Imports go downward only (`tests/house/main.rs` reads them):
 //!
-//! `files < math < physics < scene < plan < solve < sim < observe < run < study < tui < cli/main`
+//! `files < math < physics < scene < plan < solve < sim < observe < run < sweep < study < tui < cli/main`
 //!
 //! * [`files`]: plain files read, whole files written, digests, which program wrote them.
 //! * [`math`]: grids, fixed-order sums, planned FFTs, convolution. No contact words.
@@ -17,6 +17,7 @@
 //! * [`sim`]: the simulation loop: `step`, `set`, `fill`.
 //! * [`observe`]: what watches a run: latest frame, bounded queue, table, Rerun recording.
 //! * [`run`]: a session: threads, commands, outcome.
+//! * [`sweep`]: life maps and operating paths over many scenes, cases run beside the explorer.
 //! * [`study`]: error against run time, scaling.
 //! * `tui` (feature `tui`): the live screen. The engine never names it.
 //!
@@ -45,5 +46,6 @@ pub mod scene;
 pub mod sim;
 pub mod solve;
 pub mod study;
+pub mod sweep;
 #[cfg(feature = "tui")]
 pub mod tui;

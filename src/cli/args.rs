@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::scene::presets;
-use asperity::study::sweep::Shard;
+use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
 const ABOUT: &str =
@@ -124,7 +124,6 @@ Examples:
   asperity study accuracy --out report      error against run time, part by part: CSV, Markdown, SVG
   asperity study stability --quick          some of the stiff and extreme cases, within a minute
   asperity study stability --only jump      only the cases with jump in their name or group
-  asperity study pruning                    what skipping unneeded stages saves, preset by preset
   asperity study scaling                    cost of a step by grid, symmetry, threads and regime
 
 Exit codes: 0 all as required; 2 something did not converge or exceeds its bound (the table says what).")]
@@ -155,7 +154,7 @@ pub(crate) struct StudyArgs {
     /// Folder for the report's files; created if missing
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Only cases whose name or group contains this text (stability, pruning, scaling, evidence)
+    /// Only cases whose name or group contains this text (stability, scaling, evidence)
     #[arg(long, value_name = "TEXT")]
     pub(crate) only: Option<String>,
     /// Cores to use [default: all]
@@ -177,10 +176,6 @@ pub(crate) enum StudyKind {
     Accuracy,
     /// Stiff and extreme cases: each converges or is named
     Stability,
-    /// What each stage that a plan skips would cost and change
-    Pruning,
-    /// This program's side of the comparison with public codes, as CSV (the others' is in tests/peers)
-    Peers,
     /// Cost of a step by grid, symmetry, threads and regime
     Scaling,
     /// Published tables and experiments beside what is found here; each row is a scene: asperity run evidence/NAME

@@ -6,9 +6,9 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use asperity::observe::{Overwrite, is_free};
+use asperity::observe::Overwrite;
 use asperity::run::{Activity, Command, Ending, Request, RunError, Session, Status};
-use asperity::study::sweep::{Background, Ground};
+use asperity::sweep::{Background, Ground};
 use asperity::tui::{
     Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
 };
@@ -292,7 +292,7 @@ fn open_viewer(recording: &Recording) -> Result<String, String> {
 
 /// Saves a scene beside the working directory's others, never over one.
 fn save(name: &str, toml: &str) -> Result<PathBuf, String> {
-    let path = numbered(Path::new("."), name, "toml").ok_or("no free file name")?;
+    let path = shown::numbered(Path::new("."), name, "toml").ok_or("no free file name")?;
     let written = Overwrite::Refuse.write(&path, toml.as_bytes());
     written.map_err(|error| error.to_string())?;
     Ok(path)
@@ -309,14 +309,6 @@ fn free_name(prepared: &Prepared) -> Result<PathBuf, Failure> {
             ))
         })?;
     }
-    numbered(folder, &prepared.name, "rrd")
+    shown::numbered(folder, &prepared.name, "rrd")
         .ok_or_else(|| Failure::output(miette!("no free file name in ./recordings")))
-}
-
-/// `name-001.ext` or the next number that is free; without an extension a folder.
-pub(crate) fn numbered(folder: &Path, name: &str, extension: &str) -> Option<PathBuf> {
-    let dot = if extension.is_empty() { "" } else { "." };
-    (1..100_000)
-        .map(|number| folder.join(format!("{name}-{number:03}{dot}{extension}")))
-        .find(|path| is_free(path))
 }

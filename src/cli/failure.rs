@@ -8,7 +8,7 @@ use asperity::observe::ObserveError;
 use asperity::plan::PlanError;
 use asperity::run::{CheckpointError, RunError};
 use asperity::scene::SceneError;
-use asperity::study::sweep::SweepError;
+use asperity::sweep::SweepError;
 use miette::{MietteDiagnostic, MietteHandlerOpts, Report, miette};
 
 /// An error with its exit code.

@@ -6,11 +6,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
 use asperity::observe::{
-    Began, Export, Format, ObserveError, Observer as _, Overwrite, RunContext,
+    Began, Export, Format, ObserveError, Observer as _, Overwrite, RunContext, is_free,
 };
 use asperity::tui::{Shown, WriteShown};
 
-use super::explore::numbered;
 use super::scenes::Prepared;
 
 /// A writer for a scene's frames.
@@ -59,4 +58,12 @@ fn write(name: &str, mut context: RunContext, shown: &Shown) -> Result<PathBuf, 
         Overwrite::Refuse.write(&folder.join(file), text.as_bytes())?;
     }
     Ok(folder)
+}
+
+/// `name-001.ext` or the next number that is free; without an extension a folder.
+pub(super) fn numbered(folder: &Path, name: &str, extension: &str) -> Option<PathBuf> {
+    let dot = if extension.is_empty() { "" } else { "." };
+    (1..100_000)
+        .map(|number| folder.join(format!("{name}-{number:03}{dot}{extension}")))
+        .find(|path| is_free(path))
 }

@@ -9,9 +9,8 @@ use asperity::study::accuracy::{
 use asperity::study::evidence::{
     agreement_plot, evidence, evidence_table, evidence_text, experiments_plot,
 };
-use asperity::study::pruning::{PruningRow, pruning, pruning_table, pruning_text};
 use asperity::study::stability::{stability, stability_table, stability_text};
-use asperity::study::{Extent, StudyError, machine, peers, scaling, scaling_text};
+use asperity::study::{Extent, StudyError, machine, scaling, scaling_text};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::{StudyArgs, StudyKind};
@@ -30,8 +29,6 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
     let bar = Bar::new();
     let report = match args.kind {
         StudyKind::Accuracy => accurate(args, &bar),
-        StudyKind::Peers => compares(args, &bar),
-        StudyKind::Pruning => prunes(args, &bar),
         StudyKind::Stability => stable(args, &bar),
         StudyKind::Scaling => scales(args, &bar),
         StudyKind::Evidence => shows(args, &bar),
@@ -50,8 +47,8 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
 /// Options that a study has no use for.
 fn refuse_what_is_not_read(args: &StudyArgs) -> Result<(), Failure> {
     let refused = match args.kind {
-        StudyKind::Accuracy | StudyKind::Peers if args.only.is_some() => {
-            "--only: this study's cases belong together; stability, pruning, scaling and evidence take it"
+        StudyKind::Accuracy if args.only.is_some() => {
+            "--only: this study's cases belong together; stability, scaling and evidence take it"
         }
         StudyKind::Scaling if args.threads.is_some() => {
             "--threads: this study compares one thread with two; to have cases of one only: --only \"1 threads\""
@@ -79,29 +76,6 @@ fn accurate(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
     Ok(Report {
         files,
         passes: result.passes(),
-    })
-}
-
-fn compares(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
-    let table = peers(extent(args), &mut |name, n, all| bar.tell(name, n, all))?;
-    Ok(Report {
-        files: vec![("peers_asperity.csv".to_owned(), table.csv())],
-        passes: true,
-    })
-}
-
-fn prunes(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
-    let only = args.only.as_deref();
-    let rows = pruning(extent(args), only, args.threads(), &mut |name, n, all| {
-        bar.tell(name, n, all);
-    })?;
-    let text = headed("Pruning", args, &pruning_text(&rows));
-    Ok(Report {
-        files: vec![
-            ("pruning.md".to_owned(), text),
-            ("pruning.csv".to_owned(), pruning_table(&rows).csv()),
-        ],
-        passes: rows.iter().all(PruningRow::is_harmless),
     })
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use asperity::study::sweep::{
+use asperity::sweep::{
     Against, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, SweepError, against_cold,
     cost, points_csv, run,
 };
@@ -141,7 +141,7 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
     if !sweep.path.is_empty() {
         folder.write(&root.join("path.csv"), points_csv(sweep)?.as_bytes())?;
     }
-    let pictures = asperity::study::sweep::draw(sweep, rows, folder)?;
+    let pictures = asperity::sweep::draw(sweep, rows, folder)?;
     print(&told(sweep, rows, &table, &pictures))?;
     Ok(match rows.worst() {
         CaseEnd::Converged => 0,
@@ -153,11 +153,10 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
 #[cfg(feature = "parquet")]
 fn write_parquet(folder: &Folder, csv: &str) -> Result<(), Failure> {
     let path = folder.root().join("table.parquet");
-    let bytes =
-        asperity::study::sweep::parquet_table(csv).map_err(|reason| SweepError::Folder {
-            path: path.display().to_string(),
-            reason,
-        })?;
+    let bytes = asperity::sweep::parquet_table(csv).map_err(|reason| SweepError::Folder {
+        path: path.display().to_string(),
+        reason,
+    })?;
     Ok(folder.write(&path, &bytes)?)
 }
 

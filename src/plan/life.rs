@@ -7,7 +7,7 @@ use crate::scene::{
 
 /// Volume integrals that a length of 4 a wants at least: every step of 129 nodes. Fewer save 4 % of a run and
 /// miss crests that meet: against all phases 32 err by 0.3 % of the life in the default scene, by 8 % in the twin
-/// discs, whose rough bodies beat (`asperity study pruning`).
+/// discs, whose rough bodies beat (`tests/engine/pruning`).
 const PHASES: u64 = 128;
 /// Same for a line, where it is cheap: crests that meet are rare and weigh most (16 phases erred by 10⁵).
 const LINE_PHASES: u64 = 256;

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, KNOB_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
 use super::model::{ContactKind, Event, Scene, Surface};
-use super::shape::{check_carried, check_hardness, check_load, check_shape};
+use super::shape::{check_carried, check_force, check_hardness, check_load, check_shape};
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
 pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
@@ -53,6 +53,13 @@ fn check_section(path: &str, table: &mut Table) -> Result<(), SceneError> {
 /// The word that says which kind of thing a table is.
 fn kind_of(table: &Table) -> Option<String> {
     table.get("kind").and_then(Value::as_str).map(str::to_owned)
+}
+
+impl SceneError {
+    /// A key that no scene has.
+    pub(crate) fn unknown_key(key: &str) -> Self {
+        unknown(key)
+    }
 }
 
 /// The error for a key that no scene has.
@@ -200,8 +207,6 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// Highest Hertz pressure that any material stands, Pa.
-const P_HERTZ_MAX_PA: f64 = 1e10;
 /// Steepest slope for which half-space elasticity means anything.
 const SLOPE_MAX: f64 = 0.5;
 
@@ -225,26 +230,6 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
         .iter()
         .enumerate()
         .try_for_each(|(index, event)| check_event_fits(scene, index, event))
-}
-
-/// A force may be anything whose Hertz pressure is possible.
-pub(super) fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), SceneError> {
-    let p_max_pa = scene.hertz_at(force_n).p_max_pa;
-    if p_max_pa <= P_HERTZ_MAX_PA {
-        return Ok(());
-    }
-    let allowed = format!(
-        "a Hertz pressure of at most 10 GPa; this force makes {:.3} GPa",
-        p_max_pa * 1e-9
-    );
-    Err(SceneError::value(
-        key,
-        match scene.contact.kind {
-            ContactKind::Point => format!("{} N", short(force_n)),
-            ContactKind::Line => format!("{} N/m", short(force_n)),
-        },
-        allowed,
-    ))
 }
 
 fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {

@@ -92,11 +92,6 @@ impl SceneError {
         )
     }
 
-    /// A key that no scene has.
-    pub(crate) fn unknown_key(key: &str) -> Self {
-        super::check::unknown(key)
-    }
-
     /// A file that is refused: `found` is at most a path and a reason, both shortened already.
     pub(super) fn map(key: String, found: String, allowed: String) -> Self {
         Self::Value {

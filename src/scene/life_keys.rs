@@ -1,8 +1,8 @@
 //! The keys of `[life]`.
 
-use super::keys::Kind::{Choice, Number};
-use super::keys::Need::{Defaulted, Optional};
-use super::keys::{Key, key};
+use super::key::Kind::{Choice, Number};
+use super::key::Need::{Defaulted, Optional};
+use super::key::{Key, key};
 
 /// Keys of `[life]` in printed order.
 #[rustfmt::skip] // one line a key

@@ -9,6 +9,7 @@ mod derived;
 mod emit;
 mod error;
 mod height_map;
+mod key;
 pub mod keys;
 mod life;
 mod life_keys;

@@ -1,10 +1,12 @@
 //! The rules that go with the kind of contact: a point has a radius across and a force, a line neither, but a
 //! force per length and surfaces that are the same at every y.
 
-use super::check::check_force;
 use super::error::SceneError;
 use super::keys::{joined, short};
 use super::model::{ContactKind, Scene, Surface};
+
+/// Highest Hertz pressure that any material stands, Pa.
+const P_HERTZ_MAX_PA: f64 = 1e10;
 
 /// A radius across belongs to a point contact; what varies along y does not belong to a line.
 pub(super) fn check_shape(scene: &Scene) -> Result<(), SceneError> {
@@ -156,4 +158,24 @@ pub(super) fn check_load(scene: &Scene) -> Result<(), SceneError> {
         (Some(force), None) => check_force(scene, key, force),
         (None, Some(_)) => Ok(()),
     }
+}
+
+/// A force may be anything whose Hertz pressure is possible.
+pub(super) fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), SceneError> {
+    let p_max_pa = scene.hertz_at(force_n).p_max_pa;
+    if p_max_pa <= P_HERTZ_MAX_PA {
+        return Ok(());
+    }
+    let allowed = format!(
+        "a Hertz pressure of at most 10 GPa; this force makes {:.3} GPa",
+        p_max_pa * 1e-9
+    );
+    Err(SceneError::value(
+        key,
+        match scene.contact.kind {
+            ContactKind::Point => format!("{} N", short(force_n)),
+            ContactKind::Line => format!("{} N/m", short(force_n)),
+        },
+        allowed,
+    ))
 }

@@ -1,4 +1,6 @@
 //! The line y = 0 along rolling, and what lies below it, read between the nodes (linear).
+//!
+//! Ours: y = 0 is a row of nodes or half-way between two, so that linear reading is of the second order of the mesh.
 
 /// The line y = 0 at one instant.
 #[derive(Debug, Clone, Copy)]

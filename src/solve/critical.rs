@@ -3,6 +3,8 @@
 //! The history of a point is the line at its depth, read from one end to the other: the pressure is taken as
 //! frozen while the point crosses (exact without ripples; micro-cycles enter by the cycle factor). The result
 //! stands at the depth that governs, the others are left empty, so that cycles are taken at that depth.
+//!
+//! Sources: Lundberg and Palmgren (1947); Dang Van et al. (1989); Findley (1959), as in `physics/life_models.rs`.
 
 use super::stress::{DEPTH_SCALE_A, SliceOut};
 use crate::physics::fatigue::LifeLaw;

@@ -7,6 +7,8 @@
 //! Every material point of the line y = 0 that ends a whole crossing adds the damage of its own rainflow
 //! spectrum to the column of its place. A pit starts where D is greatest. Given relative to the greatest of
 //! the smooth contact in pure rolling, D says how many times sooner that place fails.
+//!
+//! Source: Miner (1945), J. Appl. Mech. 12, A159-A164. Ours: the sum by place on the body.
 
 use serde::{Deserialize, Serialize};
 

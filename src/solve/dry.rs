@@ -15,7 +15,7 @@
 //! | K | influence of a cell (`film.rs`), K̂ its symbol | |
 //! | M⁻¹ | elastic inverse on the unpadded periodic grid, single precision | |
 //!
-//! The method is that of Polonsky and Keer (1999), Wear 231, 206-219: conjugate gradients on the present
+//! Source: Polonsky and Keer (1999), Wear 231, 206-219: conjugate gradients on the present
 //! contact set, pressures below zero cut off, overlapping nodes let in, the search begun anew when the
 //! set changes. What is added is the preconditioner: without it the iterations grow as √N, because the
 //! condition of K on the set grows as N; with it they hardly do. It costs a quarter of a padded pair.
@@ -36,9 +36,9 @@ use super::newton::{Iterate, NewtonReport, Tolerance, Verdict};
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::Grid;
 
-/// Iterations between two exact evaluations of K P at most.
+/// Iterations between two exact evaluations of K P at most: more than a smooth contact takes in all (30, `tests/engine/hertz_dry.rs`).
 const REFRESH: u32 = 40;
-/// Directions for each of [`Tolerance::max_iterations`].
+/// Directions for each of [`Tolerance::max_iterations`], so that one limit serves wet and dry steps; untuned.
 const DIRECTIONS: usize = 25;
 
 /// What is solved.

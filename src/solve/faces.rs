@@ -5,6 +5,9 @@
 //! ```
 //! A face is addressed by the node on its low side "a": faces of a grid row with its eastern neighbours,
 //! or of a grid row with the row above. One row at a time, without branches, for the vector units.
+//!
+//! Sources: Patankar (1980), *Numerical Heat Transfer and Fluid Flow*, §4.2, for the harmonic mean. Ours: the logarithmic mean is the
+//! integral mean of g = e^{−αP} between two nodes whose flow is the same, d(g)/dX = const.
 
 /// |Δ ln g| below which the logarithmic mean is taken from its series (next terms below 1e-13).
 const NEAR: f64 = 1e-3;

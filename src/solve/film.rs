@@ -15,6 +15,7 @@
 //!
 //! Second order in the spacing. The transform length 2(N−1) is exact because P = 0 on the boundary.
 //! A line is the limit of strips of infinite length: ∫ dY'/r = const − 2 ln|X'|, with p and κ as they are.
+//! Source: Love (1929), Phil. Trans. R. Soc. A 228, 377-420, for the cell; Johnson, Contact Mechanics (1985), §2.5, for the strip.
 //! Test: the dry Hertz contacts (`tests/engine/hertz_dry.rs`, `tests/engine/line.rs`).
 
 use crate::math::filter::{Filter, Padding};

@@ -19,11 +19,14 @@
 //! Where ℓP is the less the film shears at the limiting stress and the derivative is that branch's; the kink between the
 //! two is one that Newton's iteration passes as it does that of P ≥ 0. Without sliding and of Newtonian oil both
 //! fluidities are 1/η̄, and one is kept. Tests: `reynolds.rs` (the linearisation is the derivative), `tests/engine/eyring.rs`.
+//!
+//! Sources: Eyring (1936); Conry, Wang and Cusano (1987) and Ehret, Dowson and Taylor (1998), as in `physics/eyring.rs`. Ours:
+//! the derivatives.
 
 use rayon::prelude::*;
 
 use super::faces::{Nodes, Slopes};
-use super::reynolds::Medium;
+use super::medium::Medium;
 use super::steep::{Slid, Steep, SteepRows};
 use crate::math::elementary::exp;
 use crate::math::grid::{Grid, Symmetry};

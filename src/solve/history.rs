@@ -19,6 +19,9 @@
 //! nodes). But what the mesh errs by, in the other sign, then stands alone: with BDF2 the two shrink together at
 //! second order, and thin films on coarse grids come out within a tenth; with BDF3 (as with BDF2 at quarter steps) they
 //! come out up to 80 % too thick. So second order stays.
+//!
+//! Sources: Hairer, Nørsett and Wanner (1993), *Solving Ordinary Differential Equations I*, §III.5, for BDF2 with steps of two lengths.
+//! Ours: the weight θ_s, which takes BDF2 to backward Euler where two past masses extrapolate below half of the last.
 
 use serde::{Deserialize, Serialize};
 
@@ -27,9 +30,11 @@ use rayon::prelude::*;
 use super::shift::Shift;
 use crate::math::grid::Grid;
 
-/// Pressure below which ripples count as absolute, not relative.
+/// Pressure below which ripples count as absolute, not relative. Enters the first guess of a step, and which
+/// nodes the error in time is a mean of; not what a step converges to. Untuned: a fiftieth of p_h.
 const FLOOR: f64 = 0.02;
-/// Nodes travelled in which the slow part of the pressure forgets.
+/// Nodes travelled in which the slow part of the pressure forgets. Enters the first guess of a step alone;
+/// untuned.
 const SLOW_NODES: f64 = 32.0;
 
 /// Convected mass of two past steps, and the ripple of two past pressures for the predictor.

@@ -11,6 +11,8 @@
 //!
 //! Single precision: search directions need no more, because the residual is double. A grid row is stored
 //! as lines, one per coefficient, so that products run along the row in vector registers.
+//!
+//! Ours: the derivative of `reynolds.rs`, and c by the counts above.
 
 use rayon::prelude::*;
 

@@ -16,7 +16,7 @@ use super::jacobian::Jacobian;
 use super::precondition::Preconditioner;
 use crate::math::grid::Grid;
 
-/// Most iterations of one linear solve.
+/// Most iterations of one linear solve, which is the memory it has; four times what a mixed step takes in all its solves.
 pub const MAX_ITERATIONS: usize = 60;
 
 /// Result of one linear solve.

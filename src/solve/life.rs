@@ -14,6 +14,9 @@
 //! last restart, and its mean comes to rest as 1/way. Memory is bounded: when the samples of one period do not fit,
 //! neighbours are merged in pairs, which leaves the mean as it is. How far ln J has moved of late is kept at marks
 //! an eighth of a period apart. A warm `push` allocates nothing.
+//!
+//! Sources: Lundberg and Palmgren (1947), Ioannides and Harris (1985) for the integral, Zaretsky (1987) without the depth's weight,
+//! as in `physics/life_models.rs`. Ours: the running mean, and the three factors, whose product telescopes.
 
 use serde::{Deserialize, Serialize};
 

@@ -7,7 +7,7 @@
 //! unit busy. Rows of one parity are numbered 0.. m−1 and dealt out in `blocks` blocks of [`LANES`]: row
 //! `h` sits in block `h mod blocks`, lane `h / blocks`. So the neighbouring row lies in the neighbouring
 //! block in the *same* lane, but for the first and last block, whose neighbours are one lane on: those two
-//! are kept as extra blocks (the halo). Single precision. Source: Thomas' algorithm; zebra order as in
+//! are kept as extra blocks (the halo). Single precision. Sources: Thomas' algorithm; zebra order as in
 //! Trottenberg, Oosterlee and Schüller, Multigrid (2001), §2.1.
 
 use rayon::prelude::*;

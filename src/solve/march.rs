@@ -6,6 +6,8 @@
 //! ```
 //! The state is all that a restart needs. The solver can be made again between any two steps: what an attempt gives is
 //! a function of the state, the gap and the conditions, not of what was evaluated before (`tests/records/restart.rs`).
+//!
+//! Ours: no equation, but who owns what.
 
 mod dry_steps;
 mod solver;

@@ -1,10 +1,12 @@
 //! How far a running mean has moved of late: its logarithm at marks an eighth of a period apart.
+//!
+//! Ours: a mean over a period that repeats does not move; how far it moves says how far it is from repeating.
 
 use serde::{Deserialize, Serialize};
 
 use crate::math::ln_sum::ln_list;
 
-/// Marks in a period.
+/// Marks in a period; untuned.
 const IN_PERIOD: f64 = 8.0;
 /// Marks kept: those of two periods, and the one that they began with.
 const KEPT: usize = 17;

@@ -33,6 +33,9 @@
 //! divided, make the map of damage ([`super::damage`]) in coordinates that move with the body.
 //!
 //! Lengths in a, stress in p_h. Memory is made once; steps allocate nothing.
+//!
+//! Sources: ASTM E1049-85 (1985), §5.4.4, for rainflow; Miner (1945) for the sums; Pu, Zhu, Wang and Wang (2016) for n. Ours: the
+//! equivalent counts, from Miner's rule with the greatest range as the unit.
 
 mod counts;
 mod spec;

@@ -1,4 +1,6 @@
 //! The solvers: one equation per file, dimensionless, slices and own scratch in.
+//!
+//! Ours: `assets/guide/numerics.md` draws how they work together in a step.
 
 pub(crate) mod axis;
 pub mod columns;
@@ -17,6 +19,7 @@ mod line_sweep;
 pub mod march;
 pub mod marks;
 pub mod material;
+pub mod medium;
 pub mod newton;
 mod newton_rows;
 pub mod precondition;

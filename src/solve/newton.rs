@@ -13,6 +13,9 @@
 //! Σ|F|/Σρ̄H over the pressurised nodes, the mass error and the load error are below their tolerances. What is left of F up to
 //! [`CARRIED`] of the film is not lost: the next step takes it over (`march.rs`), so the mass error counts
 //! only what lies beyond. Not converging is a verdict, never a panic; nothing is committed by this file.
+//!
+//! Source: Hintermüller, Ito and Kunisch (2002), SIAM J. Optim. 13, 865-888: the active set as a semi-smooth Newton method.
+//! Ours: the border of the load, the film as unknown at the upper bound, what is carried over.
 
 mod follow;
 mod judge;
@@ -33,7 +36,7 @@ use super::yielding::Yielding;
 use crate::math::grid::Grid;
 use judge::Evaluation;
 
-/// Most halvings of the line search.
+/// Most halvings of the line search; untuned.
 const MAX_HALVINGS: u32 = 4;
 
 /// What a step is solved against.

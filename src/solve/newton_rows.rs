@@ -6,8 +6,11 @@
 //! update    P ← max(P + t v, 0), |t v| ≤ 2;  P ← (1 − t) P where not active
 //! ```
 //! Symbols as in `newton.rs`, which calls these.
+//!
+//! Part of `newton.rs`.
 
-/// Largest change of pressure (in p_h) of one iteration at one node.
+/// Largest change of pressure (in p_h) of one iteration at one node: twice what a smooth contact has at all. A safeguard of the way,
+/// which no converged step knows of; untuned.
 const STEP_LIMIT: f64 = 2.0;
 /// Values side by side in sums.
 const LANES: usize = 8;

@@ -29,27 +29,12 @@ pub use linearise::Linearisation;
 use super::faces::{Faces, conductances};
 use super::fluidity::{Fluidity, Way};
 use super::jacobian::Jacobian;
+pub use super::medium::Medium;
 use super::reynolds_rows::{balance_row, density_values, finish_row};
 use crate::math::grid::Grid;
-use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 
-/// Rows per parallel task.
+/// Rows per parallel task; untuned.
 const ROWS: usize = 4;
-
-/// The fluid, dimensionless.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Medium {
-    /// Viscosity law.
-    pub viscosity: Viscosity,
-    /// Density law.
-    pub density: Density,
-    /// λ.
-    pub lambda: f64,
-    /// Z = η0 |U2−U1| Rx/(τ0 a²); 0: Newtonian.
-    pub sliding: f64,
-    /// How the pressure's flow sees oil that is sheared.
-    pub sheared: ShearedFlow,
-}
 
 /// Scratch of one block of rows.
 struct Scratch {
@@ -266,6 +251,7 @@ fn face_below(grid: &Grid, j: usize) -> usize {
 mod tests {
     use super::*;
     use crate::math::grid::Symmetry;
+    use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
     use crate::solve::film::{Elastic, macroscopic_gap};
 
     /// C* so large that no film closes: every slope is the tangent.

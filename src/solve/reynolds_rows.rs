@@ -6,6 +6,8 @@
 //! ∂F: own + w s (τ − τ_P dP), −w s τ_H dP;  neighbour −w s (τ + τ_P' dP), −w s τ_H' dP
 //! ```
 //! Symbols as in `reynolds.rs`, which calls these; test there: the linearisation is the derivative.
+//!
+//! Part of `reynolds.rs`.
 
 use crate::physics::fluid::Density;
 

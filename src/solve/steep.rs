@@ -11,6 +11,9 @@
 //! | G | as in `physics/fluid.rs` | scalar |
 //!
 //! Test: `reynolds.rs` (the linearisation is the derivative).
+//!
+//! Part of `fluidity.rs`. Source of Φ: Conry, Wang and Cusano (1987), J. Tribol. 109, 648-654, as in `physics/eyring.rs`. Ours: the
+//! derivatives.
 
 use rayon::prelude::*;
 

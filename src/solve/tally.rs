@@ -3,6 +3,8 @@
 //! ```text
 //! D = Σ count · s^m         s: range of the cycle, or its peak (mean + range/2), in p_h
 //! ```
+//!
+//! Sources: Miner (1945), J. Appl. Mech. 12, A159-A164; ASTM E1049-85 (1985), §5.4.4, for the count.
 
 use serde::{Deserialize, Serialize};
 

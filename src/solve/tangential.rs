@@ -88,7 +88,7 @@ pub struct Shear {
     dx: f64,
 }
 
-/// Least ω.
+/// Least ω; a safeguard, untuned.
 const LEAST_SHARE: f64 = 0.125;
 
 /// What the deflection by traction follows from, beside the iterate.

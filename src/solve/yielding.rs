@@ -18,7 +18,7 @@
 //! to contact. What is natural for P ≥ 0 (`newton.rs`) stays so for Q: residual, merit and line search are the same.
 //! The film as unknown, not w: F of a held node then sees its neighbours' films alone and not all pressures.
 //!
-//! The law is that of an elastic body whose surface flows freely at P_H (perfectly plastic, no hardening), as in the dry
+//! The law is that of an elastic body whose surface flows freely at P_H (perfectly plastic, no hardening). Source: the dry
 //! contact of Almqvist, Sahlin, Larsson and Glavatskih (2007), Tribology International 40, 574-579. What flows leaves:
 //! it is not piled up beside the asperity, and no stress stays behind in the body. Tests: `tests/engine/yielding.rs`.
 

@@ -4,17 +4,13 @@ pub mod accuracy;
 mod crew;
 pub mod evidence;
 mod machine;
-mod peers;
-pub mod pruning;
 mod scaling;
 pub mod stability;
-pub mod sweep;
 mod table;
 
 pub use machine::machine;
-pub use peers::peers;
 pub use scaling::{ScalingRow, scaling, scaling_text};
-pub use table::Table;
+pub use table::{Table, figure};
 
 use thiserror::Error;
 

@@ -50,7 +50,7 @@ impl Table {
 }
 
 /// A number in three figures, shortest form; a dash for what is not known.
-pub(super) fn figure(value: Option<f64>) -> String {
+pub fn figure(value: Option<f64>) -> String {
     let Some(value) = value.filter(|value| !value.is_nan()) else {
         return "-".to_owned();
     };

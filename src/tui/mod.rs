@@ -39,7 +39,7 @@ use ratatui::layout::Rect;
 
 use crate::run::Command;
 use crate::scene::Scene;
-use crate::study::sweep::Background;
+use crate::sweep::Background;
 use action::lookup;
 use app::{App, Effect, ErrandKind, Setup};
 use pixels::{Canvas, Pixels};

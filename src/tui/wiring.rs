@@ -11,7 +11,7 @@ use crate::observe::Latest;
 use crate::run::{Command, Settled};
 use crate::scene::Scene;
 use crate::sim::Frame;
-use crate::study::sweep::{Background, Order};
+use crate::sweep::{Background, Order};
 
 /// A stage that the plan leaves out, and why.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -16,6 +16,7 @@ mod child;
 #[cfg(target_os = "linux")]
 mod clock;
 mod faults;
+mod forged;
 mod inputs;
 mod mutate;
 #[cfg(feature = "tui")]

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::child::{MEMORY, Place};
+use super::forged::forged_recording;
 use super::inputs::{self, SMALL};
 use super::report::Tally;
 
@@ -61,7 +62,7 @@ fn prepare(parser: &str, bytes: &[u8], place: &Place) -> Vec<String> {
         }
         _ => {
             let recording = if parser == "notes" {
-                inputs::forged_recording(bytes.split(|byte| *byte == b'\n'))
+                forged_recording(bytes.split(|byte| *byte == b'\n'))
             } else {
                 bytes.to_vec()
             };

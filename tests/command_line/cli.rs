@@ -157,14 +157,14 @@ fn bad_files_and_options_are_refused() {
 #[test]
 fn options_that_a_study_does_not_read_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let cases: [(&[&str], &[&str]); 5] = [
+    let cases: [(&[&str], &[&str]); 4] = [
         (
             &["scaling", "--threads=1"],
             &["--threads", "one thread with two"],
         ),
         (
             &["accuracy", "--only=life"],
-            &["--only", "stability, pruning, scaling and evidence"],
+            &["--only", "stability, scaling and evidence"],
         ),
         (
             &["scaling", "--only=nothing"],
@@ -172,10 +172,6 @@ fn options_that_a_study_does_not_read_are_refused() {
         ),
         (
             &["stability", "--only=nothing"],
-            &["--only nothing", "no case"],
-        ),
-        (
-            &["pruning", "--only=nothing"],
             &["--only nothing", "no case"],
         ),
     ];

@@ -1,10 +1,9 @@
 //! The studies in their quick forms: orders, counters and bounds, never seconds.
 
+use asperity::study::Extent;
 use asperity::study::accuracy::{Accuracy, Against, Part, Varied, accuracy, accuracy_table};
 use asperity::study::accuracy::{life_plot, work_precision_plot};
-use asperity::study::pruning::{Forced, pruning, pruning_text};
 use asperity::study::stability::{Ending, MUST_CONVERGE, stability, stability_text};
-use asperity::study::{Extent, peers};
 
 fn order(result: &Accuracy, part: Part, quantity: &str, varied: Varied) -> f64 {
     let mut rows = result.rows.iter().filter(|row| {
@@ -137,47 +136,4 @@ fn a_failure_names_the_nearest_setting_that_works() {
         !result.passes(),
         "a set of one case that fails does not pass"
     );
-}
-
-#[test]
-fn what_a_scene_does_not_need_changes_nothing() {
-    let rows = pruning(Extent::Quick, None, 2, &mut |_, _, _| {}).expect("a study");
-    println!("{}", pruning_text(&rows));
-    for row in &rows {
-        let (allowed, why) = row.stage.allowed();
-        assert!(
-            row.is_harmless(),
-            "{}, {}: {:?} > {allowed} ({why})",
-            row.preset,
-            row.stage.name(),
-            row.found
-        );
-    }
-    // Every stage of the study is left out by one of its scenes.
-    for stage in Forced::ALL {
-        assert!(
-            rows.iter().any(|row| row.stage == stage),
-            "{} is never left out",
-            stage.name()
-        );
-    }
-}
-
-#[test]
-fn our_side_of_the_peers_is_as_near_as_they_are() {
-    let table = peers(Extent::Quick, &mut |_, _, _| {}).expect("a study");
-    println!("{}", table.csv());
-    let column = |name: &str| {
-        let at = table.columns.iter().position(|column| *column == name);
-        at.expect("a column")
-    };
-    let number = |row: &[String], name: &str| -> f64 { row[column(name)].parse().expect("number") };
-    // dry.csv: at 128² the public codes lie 0.0020 % and 0.342 % off.
-    let mut hertz = table.rows.iter().filter(|row| row[0] == "hertz");
-    assert!(hertz.all(|row| number(row, "error_1") < 2.5e-5 && number(row, "error_2") < 3.45e-3));
-    let mut waves = table
-        .rows
-        .iter()
-        .filter(|row| row[0].starts_with("bisinusoidal"));
-    assert!(waves.all(|row| number(row, "error_1") < 1e-3 && number(row, "iterations") < 60.0));
 }

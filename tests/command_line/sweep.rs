@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering;
 
 use asperity::plan::Plan;
-use asperity::study::sweep::{
+use asperity::sweep::{
     Against, Began, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, against_cold, cost,
     points_csv, presets, run,
 };

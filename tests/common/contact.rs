@@ -6,7 +6,9 @@ use asperity::math::grid::{Grid, Symmetry};
 use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::physics::groups::OperatingPoint;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
-use asperity::solve::newton::{NewtonReport, Tolerance, Verdict};
+use asperity::solve::newton::{
+    Iterate, Newton, NewtonReport, Problem, Sheared, Tolerance, Verdict,
+};
 use asperity::solve::reynolds::Medium;
 
 /// Fluids of the reference tables.
@@ -165,36 +167,82 @@ impl Case {
     }
 
     /// The steady smooth contact on `nodes` per side, through 65², 129² ...; `each` sees every grid's.
-    pub(crate) fn steady(&self, nodes: usize, mut each: impl FnMut(&March)) -> March {
+    pub(crate) fn steady(&self, nodes: usize, each: impl FnMut(&March)) -> March {
         let guess = 1.2 * self.lambda.powf(0.67);
-        let mut march = March::from_hertz(self.grid(65), &CIRCLE, guess, 1.0, Flow::Film);
-        loop {
-            let length = (self.domain.1 - self.domain.0) / march.solver.grid.dx;
-            for _ in 0..length as usize {
-                self.step(&mut march, 1.0);
-            }
-            each(&march);
-            if march.solver.grid.nx >= nodes {
-                return march;
-            }
-            let finer = self.grid(2 * (march.solver.grid.nx - 1) + 1);
-            march = March::refined(&march, finer, &CIRCLE, 1.0, Flow::Film);
-        }
+        let step = |march: &mut March| {
+            self.step(march, 1.0);
+        };
+        steady(|nodes| self.grid(nodes), &CIRCLE, guess, nodes, step, each)
     }
 
     /// One committed step that must converge.
     pub(crate) fn step(&self, march: &mut March, nodes: f64) -> NewtonReport {
-        let report = march.attempt(
-            &conditions(&self.medium, TOLERANCE),
-            nodes,
-            Guess::Extrapolated,
-        );
-        assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
-        march.commit(nodes);
-        assert!(march.state.pressure.iter().all(|&p| p >= 0.0));
-        assert!(march.state.film.iter().all(|&h| h > 0.0 && h.is_finite()));
-        report
+        converged(march, &conditions(&self.medium, TOLERANCE), nodes)
     }
+}
+
+/// The steady smooth contact from Hertz, on 65 nodes a side and on ever finer grids up to `finest`. `step` goes on by a
+/// node; as many steps as the domain has nodes end the start-up. `each` sees what every grid ends with.
+pub(crate) fn steady(
+    grid: impl Fn(usize) -> Grid,
+    shape: &Shape,
+    guess: f64,
+    finest: usize,
+    step: impl Fn(&mut March),
+    mut each: impl FnMut(&March),
+) -> March {
+    let mut march = March::from_hertz(grid(65), shape, guess, 1.0, Flow::Film);
+    loop {
+        let nx = march.solver.grid.nx;
+        for _ in 1..nx {
+            step(&mut march);
+        }
+        each(&march);
+        if nx >= finest {
+            return march;
+        }
+        march = March::refined(&march, grid(2 * (nx - 1) + 1), shape, 1.0, Flow::Film);
+    }
+}
+
+/// One committed step that must converge, with no pressure below zero and a film everywhere.
+pub(crate) fn converged(
+    march: &mut March,
+    conditions: &Conditions<'_>,
+    nodes: f64,
+) -> NewtonReport {
+    let report = march.attempt(conditions, nodes, Guess::Extrapolated);
+    assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+    march.commit(nodes);
+    assert!(march.state.pressure.iter().all(|&p| p >= 0.0));
+    assert!(march.state.film.iter().all(|&h| h > 0.0 && h.is_finite()));
+    report
+}
+
+/// The dry contact of a march by Newton's method, from a pressure, a gap and an approach that become its answer.
+pub(crate) fn by_newton(
+    march: &March,
+    newton: &mut Newton,
+    sheared: Option<Sheared<'_>>,
+    tolerance: Tolerance,
+    answer: (&mut [f64], &mut [f64], &mut f64),
+) -> NewtonReport {
+    let grid = &march.solver.grid;
+    let zero = vec![0.0; grid.len()];
+    let (p, h, h0) = answer;
+    newton.solve(
+        &Problem {
+            grid,
+            medium: &DRY,
+            sheared,
+            gap: &march.solver.gap,
+            c_star: &zero,
+            s: &zero,
+            load: LOAD,
+            tolerance,
+        },
+        &mut Iterate { p, h, h0 },
+    )
 }
 
 /// How often each rung was used.

@@ -2,6 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used, reason = "each program uses its part")]
 
 pub(crate) mod contact;
+pub(crate) mod keeper;
 pub(crate) mod maps;
 #[cfg(unix)]
 pub(crate) mod pty;

@@ -14,7 +14,7 @@ use asperity::sim::{
     Frame, LifeDetail, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage,
     StressSlice,
 };
-use asperity::study::sweep::{Began, Conditions, Found};
+use asperity::sweep::{Began, Conditions, Found};
 use asperity::tui::app::{App, Effect, ErrandKind, Setup};
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use asperity::tui::{LeftOut, RecorderActivity, RecorderState, RunStatus, view};

@@ -1,12 +1,10 @@
 //! The dry limit: Hertz by constrained conjugate gradients, from nothing and from a poor guess, against
 //! the errors of public codes on as many nodes (`assets/reference/dry.csv`).
 
-use crate::common::contact::{CIRCLE, DRY, LOAD, conditions};
+use crate::common::contact::{CIRCLE, DRY, LOAD, by_newton, conditions};
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
-use asperity::solve::newton::{
-    Iterate, Newton, NewtonReport, Problem, Sheared, Tolerance, Verdict,
-};
+use asperity::solve::newton::{Newton, NewtonReport, Sheared, Tolerance, Verdict};
 use asperity::solve::tangential::{Shear, Tangential};
 use asperity::solve::traction::TractionLaw;
 
@@ -108,24 +106,7 @@ fn conjugate_gradients_and_newton_agree_on_a_rough_contact() {
 
     let grid = &march.solver.grid;
     let mut newton = Newton::new(grid, CIRCLE.kappa, 2.0 / 3.0 * dx);
-    let zero = vec![0.0; grid.len()];
-    let report = newton.solve(
-        &Problem {
-            grid,
-            medium: &DRY,
-            sheared: None,
-            gap: &march.solver.gap,
-            c_star: &zero,
-            s: &zero,
-            load: LOAD,
-            tolerance: asked,
-        },
-        &mut Iterate {
-            p: &mut p,
-            h: &mut h,
-            h0: &mut h0,
-        },
-    );
+    let report = by_newton(&march, &mut newton, None, asked, (&mut p, &mut h, &mut h0));
     println!("from Hertz: {first:?}\none node on: {second:?}\nNewton:      {report:?}");
     assert_eq!(report.verdict, Verdict::Converged);
     let moved = grid.integrate(|n| (p[n] - march.state.pressure[n]).abs()) / LOAD;
@@ -171,28 +152,13 @@ fn unlike_bodies_slide_alike_by_both_paths() {
     let grid = &march.solver.grid;
     let mut newton = Newton::new(grid, shape.kappa, 2.0 / 3.0 * grid.dx);
     newton.shear = Some(Shear::new(grid, Tangential::new(grid, shape.kappa_s)));
-    let zero = vec![0.0; grid.len()];
-    let newton_report = newton.solve(
-        &Problem {
-            grid,
-            medium: &DRY,
-            sheared: Some(Sheared {
-                law: &law,
-                deflection: &sheared,
-                film: &march.state.film,
-            }),
-            gap: &march.solver.gap,
-            c_star: &zero,
-            s: &zero,
-            load: LOAD,
-            tolerance: asked.tolerance,
-        },
-        &mut Iterate {
-            p: &mut p,
-            h: &mut h,
-            h0: &mut h0,
-        },
-    );
+    let sheared = Sheared {
+        law: &law,
+        deflection: &sheared,
+        film: &march.state.film,
+    };
+    let answer = (&mut p[..], &mut h[..], &mut h0);
+    let newton_report = by_newton(&march, &mut newton, Some(sheared), asked.tolerance, answer);
     println!("{report:?}\n{newton_report:?}");
     assert_eq!(newton_report.verdict, Verdict::Converged);
     let moved = grid.integrate(|n| (p[n] - march.state.pressure[n]).abs()) / LOAD;

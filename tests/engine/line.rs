@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::contact::{DRY, Fluid};
+use crate::common::contact::{DRY, Fluid, converged, steady};
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::plan::{LINE_ROWS, Plan};
 use asperity::scene::{ContactKind, Override, Scene, StressMeasure};
@@ -104,35 +104,17 @@ impl Case {
     }
 
     /// The steady smooth contact on `nodes`, through 65, 129 ...; `each` sees every grid's.
-    fn steady(&self, nodes: usize, mut each: impl FnMut(&March)) -> March {
+    fn steady(&self, nodes: usize, each: impl FnMut(&March)) -> March {
         let guess = 0.7 * self.medium.lambda.powf(0.67);
-        let mut march = March::from_hertz(self.grid(65), &LINE, guess, 1.0, Flow::Film);
-        loop {
-            let length = (self.domain.1 - self.domain.0) / march.solver.grid.dx;
-            for _ in 0..length as usize {
-                self.step(&mut march, 1.0);
-            }
-            each(&march);
-            if march.solver.grid.nx >= nodes {
-                return march;
-            }
-            let finer = self.grid(2 * (march.solver.grid.nx - 1) + 1);
-            march = March::refined(&march, finer, &LINE, 1.0, Flow::Film);
-        }
+        let step = |march: &mut March| {
+            self.step(march, 1.0);
+        };
+        steady(|nodes| self.grid(nodes), &LINE, guess, nodes, step, each)
     }
 
     /// One committed step that must converge.
     fn step(&self, march: &mut March, nodes: f64) -> NewtonReport {
-        let report = march.attempt(
-            &conditions(&self.medium, TOLERANCE),
-            nodes,
-            Guess::Extrapolated,
-        );
-        assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
-        march.commit(nodes);
-        assert!(march.state.pressure.iter().all(|&p| p >= 0.0));
-        assert!(march.state.film.iter().all(|&h| h > 0.0 && h.is_finite()));
-        report
+        converged(march, &conditions(&self.medium, TOLERANCE), nodes)
     }
 }
 

@@ -6,12 +6,12 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use crate::common::contact::{CIRCLE, DRY, LOAD, bisinusoidal_gap, conditions};
+use crate::common::contact::{CIRCLE, DRY, LOAD, bisinusoidal_gap, by_newton, conditions};
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::solve::dry::{Dry, DryProblem};
 use asperity::solve::film::Elastic;
 use asperity::solve::march::{Flow, Guess, March};
-use asperity::solve::newton::{Iterate, Newton, NewtonReport, Problem, Tolerance, Verdict};
+use asperity::solve::newton::{Iterate, Newton, NewtonReport, Tolerance, Verdict};
 use asperity::solve::yielding::Yielding;
 
 /// A periodic surface of length 1 that is pressed and let go; pressures in p*.
@@ -234,31 +234,15 @@ fn conjugate_gradients_and_newton_yield_alike() {
         let grid = &march.solver.grid;
         let mut newton = Newton::new(grid, CIRCLE.kappa, 2.0 / 3.0 * grid.dx);
         newton.yield_at(hardness);
-        let zero = vec![0.0; grid.len()];
         // From Hertz, whose pressure knows neither roughness nor hardness.
-        let (mut p, mut h, mut h0) = (zero.clone(), zero.clone(), march.state.h0);
+        let (mut p, mut h) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
+        let mut h0 = march.state.h0;
         for (n, p) in p.iter_mut().enumerate() {
             let r2 = grid.x(n % 129).powi(2) + grid.y(n / 129).powi(2);
             *p = (1.0 - r2).max(0.0).sqrt();
         }
-        let by_newton = newton.solve(
-            &Problem {
-                grid,
-                medium: &DRY,
-                sheared: None,
-                gap: &march.solver.gap,
-                c_star: &zero,
-                s: &zero,
-                load: LOAD,
-                tolerance: asked,
-            },
-            &mut Iterate {
-                p: &mut p,
-                h: &mut h,
-                h0: &mut h0,
-            },
-        );
-        assert_eq!(by_newton.verdict, Verdict::Converged, "{by_newton:?}");
+        let report = by_newton(&march, &mut newton, None, asked, (&mut p, &mut h, &mut h0));
+        assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
         let of_newton = newton.yielding.as_ref().map(Yielding::depth);
         let (one, two) = (march.solver.yielded(), of_newton);
         let (one, two) = (one.expect("it yields"), two.expect("it yields"));
@@ -268,7 +252,7 @@ fn conjugate_gradients_and_newton_yield_alike() {
         let at_bound = grid.integrate(|n| f64::from(u8::from(p[n] >= hardness)));
         println!(
             "P_H {hardness}: {} Newtons, area at P_H {at_bound:.3}, pressure {moved:.1e} off, depth {off:.1e}",
-            by_newton.iterations
+            report.iterations
         );
         assert!(at_bound > 0.05 && moved < 1e-5 && off < 1e-4);
     }

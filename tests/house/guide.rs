@@ -102,7 +102,9 @@ fn quoted_tests_exist() {
                 file.display()
             );
             if let Some(name) = words.next().and_then(|word| word.strip_suffix("::")) {
-                let there = tests.join(program).join(format!("{name}.rs")).exists();
+                let folder = tests.join(program);
+                let files = [format!("{name}.rs"), format!("{name}/mod.rs")];
+                let there = files.iter().any(|file| folder.join(file).exists());
                 assert!(there, "{}: --test {program} {name}::", file.display());
             }
             quoted += 1;

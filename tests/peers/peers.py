@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
 """Dry and subsurface contact by tamaas and ContactMechanics beside asperity: error and CPU seconds.
 
-Not part of CI. Needs Python 3.11 or newer with venv, a package index, and a release build of asperity:
+Not part of CI. Needs Python 3.11 or newer with venv, a package index, and Cargo:
 
-    cargo build --release
-    python3 tests/peers/peers.py --binary target/release/asperity --out assets/reports/peers.md
+    python3 tests/peers/peers.py --out assets/reports/peers.md
 
 The first run makes an environment beside the build (--venv, default target/peers-venv) from requirements.txt, and the
 script starts itself again in it. Everything runs on one thread. Times are CPU seconds of the working thread, of the
 solution alone and of making what it needs (kernels, plans, memory): the peers' best of three, asperity's mean of many
-(`asperity study peers`; the counter that it reads is coarse).
+(`tests/engine/peers.rs`; the counter that it reads is coarse).
 
 Cases (steel, E 210 GPa, nu 0.3, R 10 mm, p0 1 GPa; n intervals or pixels a side)
   hertz           non-periodic, domain 3 a, from a uniform pressure; error 1: greatest pressure, error 2: L2 of the field
@@ -22,11 +21,11 @@ Cases (steel, E 210 GPa, nu 0.3, R 10 mm, p0 1 GPa; n intervals or pixels a side
 
 import argparse
 import csv
-import io
 import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -227,10 +226,13 @@ def tamaas_subsurface(n, depths):
     return row(f"subsurface, {depths} depths", "tamaas", n, 0, errors, made, solved, 1)
 
 
-def ours(binary, quick):
-    command = [str(binary), "study", "peers", *(["--quick"] if quick else [])]
-    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    return list(csv.DictReader(io.StringIO(text)))
+def ours(quick):
+    command = "cargo test --locked --release --test engine -- --ignored --exact peers::table".split()
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "peers.csv"
+        variables = os.environ | {"ASPERITY_PEERS": str(path)} | ({"ASPERITY_PEERS_N": "128"} if quick else {})
+        subprocess.run(command, check=True, cwd=ROOT, env=variables, stdout=subprocess.DEVNULL)
+        return list(csv.DictReader(path.open()))
 
 
 def theirs(quick):
@@ -275,7 +277,6 @@ def verdict(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--binary", type=pathlib.Path, default=ROOT / "target/release/asperity")
     parser.add_argument("--venv", type=pathlib.Path, default=ROOT / "target/peers-venv")
     parser.add_argument("--out", type=pathlib.Path, help="report to write, Markdown")
     parser.add_argument("--quick", action="store_true", help="128^2 only")
@@ -283,7 +284,7 @@ def main():
     args = parser.parse_args()
     if not args.inside:
         in_environment(args.venv)
-    rows = ours(args.binary, args.quick) + list(theirs(args.quick))
+    rows = ours(args.quick) + list(theirs(args.quick))
     rows.sort(key=lambda r: (r["case"], int(r["n"])))
     lines = ["# Peers", "", "`python3 tests/peers/peers.py`; versions: " +
              ", ".join((HERE / "requirements.txt").read_text().split()) + ". CPU seconds, one thread.", ""]

@@ -273,6 +273,14 @@ fn record(path: &Path, record: &Record, frames: &[Arc<Frame>]) -> ObserverReport
     recorder.finish().unwrap()
 }
 
+/// What a recording of every one of these frames holds.
+fn recorded(frames: &[Arc<Frame>]) -> Contents {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    record(&path, &every_step(), frames);
+    Contents::read(&path)
+}
+
 /// Records `frames` of that scene.
 fn record_scene(path: &Path, scene: Scene, frames: &[Arc<Frame>]) -> ObserverReport {
     let mut recorder = Recorder::create(path, Overwrite::Refuse, &every_step()).unwrap();
@@ -377,11 +385,8 @@ fn a_recording_holds_every_field_of_every_step() {
 
 #[test]
 fn scalars_come_back_as_they_were() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
     let frames = frames(STEPS);
-    record(&path, &every_step(), &frames);
-    let contents = Contents::read(&path);
+    let contents = recorded(&frames);
     let pressure = contents.scalars("series/pressure_GPa");
     let film = contents.scalars("series/film_um");
     let life = contents.scalars("life/relative");
@@ -424,10 +429,7 @@ fn what_both_bodies_have_yielded_is_a_curve_once_something_has() {
 
 #[test]
 fn what_stays_is_logged_once_and_the_file_explains_itself() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
-    record(&path, &every_step(), &frames(STEPS));
-    let contents = Contents::read(&path);
+    let contents = recorded(&frames(STEPS));
     for entity in [
         "maps/pressure_GPa/axes/frame",
         "maps/pressure_GPa/axes/labels",
@@ -499,10 +501,7 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
 
 #[test]
 fn the_layout_is_in_the_file_with_the_properties_of_its_views() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
-    record(&path, &every_step(), &frames(2));
-    let contents = Contents::read(&path);
+    let contents = recorded(&frames(2));
     assert_eq!(contents.activations, 1);
     let paths: Vec<String> = contents
         .layout
@@ -707,11 +706,8 @@ fn with_damage(body: usize) -> Vec<Arc<Frame>> {
 /// A block comes when material has crossed, and is logged when it changes.
 #[test]
 fn damage_maps_come_when_they_are_there_and_change() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
     let frames = with_damage(1);
-    record(&path, &every_step(), &frames);
-    let contents = Contents::read(&path);
+    let contents = recorded(&frames);
     let entity = "damage/body_2_log10_relative";
     assert_eq!(contents.updates(&format!("{entity}/image")), 2);
     assert_eq!(contents.rows(&format!("{entity}/worst_point"), false), 2);
@@ -726,10 +722,7 @@ fn damage_maps_come_when_they_are_there_and_change() {
 
 #[test]
 fn the_damage_of_body_1_hangs_below_the_cut() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
-    record(&path, &every_step(), &with_damage(0));
-    let contents = Contents::read(&path);
+    let contents = recorded(&with_damage(0));
     // Its shape once, its colours with every change.
     assert_eq!(contents.rows("contact_3d/damage_body_1", false), 3);
     assert_eq!(contents.rows("contact_3d/damage_title", false), 1);
@@ -875,11 +868,8 @@ fn a_load_turned_by_hand_widens_the_ranges_from_then_on() {
 /// Where pits start the picture holds what the solver computed, in rows of its own depths.
 #[test]
 fn stress_near_the_surface_comes_back_as_it_was() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
     let frames = frames(STEPS);
-    record(&path, &every_step(), &frames);
-    let contents = Contents::read(&path);
+    let contents = recorded(&frames);
     let stresses = contents.values("slice_y0/effective_stress_GPa/image");
     assert_eq!(stresses.len(), frames.len());
     for frame in &frames {
@@ -898,15 +888,12 @@ fn stress_near_the_surface_comes_back_as_it_was() {
 
 #[test]
 fn hertz_follows_the_load() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
     let frames = changed(STEPS, |frame| {
         let size = if frame.step < 6 { 1.0 } else { 1.25 };
         (frame.a_m, frame.b_m) = (size * frame.a_m, size * frame.b_m);
         frame.p_hertz_pa *= size;
     });
-    record(&path, &every_step(), &frames);
-    let contents = Contents::read(&path);
+    let contents = recorded(&frames);
     for entity in [
         "maps/hertz_contact",
         "slice_y0/hertz_width",
@@ -1042,10 +1029,7 @@ fn the_kymograph_shows_the_whole_run() {
 
 #[test]
 fn damage_that_is_not_counted_yet_is_covered_and_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
-    record(&path, &every_step(), &with_damage(1));
-    let contents = Contents::read(&path);
+    let contents = recorded(&with_damage(1));
     let entity = "damage/body_2_log10_relative";
     let values = contents.values(&format!("{entity}/image"));
     let covers = contents.pictures(&format!("{entity}/not_crossed"));
@@ -1137,10 +1121,7 @@ fn numbers_that_can_be_small_keep_their_digits() {
 
 #[test]
 fn views_bring_their_own_background() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
-    record(&path, &every_step(), &frames(2));
-    let contents = Contents::read(&path);
+    let contents = recorded(&frames(2));
     let paths: Vec<String> = contents
         .layout
         .iter()

@@ -3,58 +3,23 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::path::Path;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::Duration;
 
+use crate::common::keeper::{Kept, kept_request};
 use asperity::observe::rerun::{Recorded, Recorder};
-use asperity::observe::{
-    ObserveError, Observer, ObserverReport, Overwrite, Queue, RunContext, RunEvent, WhenFull,
-};
-use asperity::plan::Plan;
+use asperity::observe::{Observer as _, Overwrite, Queue, RunContext, WhenFull};
 use asperity::run::{Command, Ending, Request, Session, Turn, Watcher};
 use asperity::scene::{Override, Record, Scene};
-use asperity::sim::{Frame, Knob};
-
-/// Keeps every bit of every frame, and every event.
-struct Keeper(Arc<Mutex<Vec<String>>>);
-
-impl Observer for Keeper {
-    fn begin(&mut self, _context: &RunContext) -> Result<(), ObserveError> {
-        Ok(())
-    }
-    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
-        // Debug prints floats with as many digits as tell them apart.
-        self.0.lock().unwrap().push(format!("{frame:?}"));
-        Ok(())
-    }
-    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
-        self.0.lock().unwrap().push(format!("{event:?}"));
-        Ok(())
-    }
-    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        Ok(ObserverReport::default())
-    }
-}
-
-type Kept = Arc<Mutex<Vec<String>>>;
+use asperity::sim::Knob;
 
 fn request(scene: &Scene, record: Option<&Path>, ending: Ending) -> (Request, Kept) {
-    let kept = Kept::default();
-    let mut watchers = vec![Watcher::new("keeper", Box::new(Keeper(kept.clone())), 1)];
-    if let Some(path) = record {
+    let recording = record.map(|path| {
         let recorder = Recorder::create(path, Overwrite::Refuse, &Record::default()).unwrap();
         let queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
-        watchers.push(Watcher::new("recording", Box::new(queue), 1));
-    }
-    let request = Request {
-        name: "test".to_owned(),
-        scene: Arc::new(scene.clone()),
-        plan: Plan::new(scene).unwrap(),
-        threads: 2,
-        watchers,
-        ending,
-    };
-    (request, kept)
+        Watcher::new("recording", Box::new(queue), 1)
+    });
+    kept_request(scene, 2, recording, ending)
 }
 
 fn wait_for_steps(session: &Session, steps: u64) {

@@ -1,11 +1,9 @@
 //! A run that is saved and taken up again equals the uninterrupted one, bit for bit.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::sync::{Arc, Mutex};
-
-use asperity::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
+use crate::common::keeper::kept_request;
 use asperity::plan::Plan;
-use asperity::run::{Checkpoint, CheckpointError, End, Ending, Outcome, Request, Session, Watcher};
+use asperity::run::{Checkpoint, CheckpointError, End, Ending, Outcome, Session};
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Frame, Simulation, State};
 
@@ -88,53 +86,24 @@ fn dry_and_line_contacts_go_on_bit_for_bit_too() {
     }
 }
 
-/// Keeps every frame as text.
-struct Keeper(Arc<Mutex<Vec<String>>>);
-
-impl Observer for Keeper {
-    fn begin(&mut self, _: &RunContext) -> Result<(), ObserveError> {
-        Ok(())
-    }
-    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
-        self.0.lock().unwrap().push(bits(frame));
-        Ok(())
-    }
-    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
-        self.0.lock().unwrap().push(told(event));
-        Ok(())
-    }
-    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        Ok(ObserverReport::default())
-    }
-}
-
-/// An event but for the steps that its session had made, which begin anew with each session.
-fn told(event: &RunEvent) -> String {
-    let text = format!("{event:?}");
+/// A frame or an event, but for the steps that its session had made, which begin anew with each session.
+fn told(text: &str) -> String {
     match text.split_once("steps_made: ") {
         Some((before, after)) => {
             before.to_owned() + after.trim_start_matches(|c: char| c.is_ascii_digit())
         }
-        None => text,
+        None => text.to_owned(),
     }
 }
 
 fn run(scene: &Scene, from: Option<Checkpoint>) -> (Vec<String>, Outcome) {
-    let kept = Arc::new(Mutex::new(Vec::new()));
-    let request = Request {
-        name: "test".to_owned(),
-        scene: Arc::new(scene.clone()),
-        plan: Plan::new(scene).unwrap(),
-        threads: 2,
-        watchers: vec![Watcher::new("keeper", Box::new(Keeper(kept.clone())), 1)],
-        ending: Ending::Passages,
-    };
+    let (request, kept) = kept_request(scene, 2, [], Ending::Passages);
     let session = match from {
         None => Session::start(request),
         Some(checkpoint) => Session::resume(request, checkpoint),
     };
     let outcome = session.unwrap().join().unwrap();
-    let kept = std::mem::take(&mut *kept.lock().unwrap());
+    let kept = kept.lock().unwrap().iter().map(|text| told(text)).collect();
     (kept, outcome)
 }
 

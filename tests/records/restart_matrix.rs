@@ -8,11 +8,11 @@
 
 use std::f64::consts::TAU;
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
 
+use crate::common::keeper::kept_request;
 use crate::common::maps::{Shape, npy_f8};
-use asperity::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
 use asperity::plan::Plan;
 use asperity::run::{Checkpoint, Ending, Outcome, Request, Session, Watcher};
 use asperity::scene::{Override, Scene};
@@ -155,25 +155,6 @@ fn bits(frame: &Frame) -> String {
     format!("{frame:?}")
 }
 
-/// Keeps every frame as text.
-struct Keeper(Arc<Mutex<Vec<String>>>);
-
-impl Observer for Keeper {
-    fn begin(&mut self, _: &RunContext) -> Result<(), ObserveError> {
-        Ok(())
-    }
-    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
-        self.0.lock().unwrap().push(bits(frame));
-        Ok(())
-    }
-    fn event(&mut self, _: &RunEvent) -> Result<(), ObserveError> {
-        Ok(())
-    }
-    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        Ok(ObserverReport::default())
-    }
-}
-
 /// The frames of a session, and how it ended.
 fn frames(
     scene: &Scene,
@@ -181,19 +162,10 @@ fn frames(
     ending: Ending,
     start: impl FnOnce(Request) -> Result<Session, asperity::run::RunError>,
 ) -> (Vec<String>, Outcome) {
-    let kept = Arc::new(Mutex::new(Vec::new()));
-    let mut watchers = vec![Watcher::new("keeper", Box::new(Keeper(kept.clone())), 1)];
-    watchers.extend(more);
-    let request = Request {
-        name: "test".to_owned(),
-        scene: Arc::new(scene.clone()),
-        plan: Plan::new(scene).unwrap(),
-        threads: 1,
-        watchers,
-        ending,
-    };
+    let (request, kept) = kept_request(scene, 1, more, ending);
     let outcome = start(request).unwrap().join().unwrap();
-    let kept = std::mem::take(&mut *kept.lock().unwrap());
+    let mut kept = std::mem::take(&mut *kept.lock().unwrap());
+    kept.retain(|text| text.starts_with("Frame "));
     (kept, outcome)
 }
 

@@ -1,38 +1,15 @@
 //! The explorer's session with the real simulation: mashed knobs, the log replayed, a sweep, lives at other S.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use asperity::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
+use crate::common::keeper::{Kept, kept_request};
 use asperity::plan::Plan;
-use asperity::run::{Command, End, Ending, Request, Session, Settled, Watcher};
+use asperity::run::{Command, End, Ending, Request, Session, Settled};
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Follow, Frame, Knob, Simulation, Stage, State};
-use asperity::study::sweep::{Along, Background, Began, Found, Ground, Order};
-
-/// Keeps every bit of every frame, and every event.
-struct Keeper(Arc<Mutex<Vec<String>>>);
-
-impl Observer for Keeper {
-    fn begin(&mut self, _context: &RunContext) -> Result<(), ObserveError> {
-        Ok(())
-    }
-    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
-        // Debug prints floats with as many digits as tell them apart.
-        self.0.lock().unwrap().push(format!("{frame:?}"));
-        Ok(())
-    }
-    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
-        self.0.lock().unwrap().push(format!("{event:?}"));
-        Ok(())
-    }
-    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        Ok(ObserverReport::default())
-    }
-}
-
-type Kept = Arc<Mutex<Vec<String>>>;
+use asperity::sweep::{Along, Background, Began, Found, Ground, Order};
 
 fn small() -> Scene {
     scene(&["grid.nodes=65", "stress.depths=8"])
@@ -55,17 +32,7 @@ fn scene(sets: &[&str]) -> Scene {
 }
 
 fn request(scene: &Scene, ending: Ending) -> (Request, Kept) {
-    let kept = Kept::default();
-    let keeper = Watcher::new("keeper", Box::new(Keeper(kept.clone())), 1);
-    let request = Request {
-        name: "test".to_owned(),
-        scene: Arc::new(scene.clone()),
-        plan: Plan::new(scene).unwrap(),
-        threads: 1,
-        watchers: vec![keeper],
-        ending,
-    };
-    (request, kept)
+    kept_request(scene, 1, [], ending)
 }
 
 fn wait_for(session: &Session, ready: impl Fn(&Session) -> bool) {

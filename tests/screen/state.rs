@@ -12,7 +12,7 @@ use crate::common::tui_fixture::{
 use asperity::run::{Command, Settled};
 use asperity::scene::{Event, Scene, Surface};
 use asperity::sim::Knob;
-use asperity::study::sweep::Along;
+use asperity::sweep::Along;
 use asperity::tui::action::Action;
 use asperity::tui::app::{App, Effect, ErrandKind, Leading};
 use asperity::tui::view;

@@ -1,4 +1,6 @@
 //! Steps without flow: of a dry contact.
+//!
+//! Part of `dry.rs`. Ours: the fixed point of the deflection by traction.
 
 use super::super::dry::DryProblem;
 use super::super::newton::{Iterate, NewtonReport, Verdict};

@@ -1,4 +1,6 @@
 //! What solves the steps of a contact: grid, gap, trial, workspace of both solvers.
+//!
+//! Part of `march.rs`.
 
 use super::super::dry::Dry;
 use super::super::film::macroscopic_gap;

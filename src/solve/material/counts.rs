@@ -1,4 +1,6 @@
 //! What the points of a body have counted: means over their crossings.
+//!
+//! Part of `material.rs`.
 
 use super::{DamageBasis, MaterialTracker, Tally};
 use crate::solve::tally::{History, mean};

@@ -1,4 +1,6 @@
 //! How the deflection by traction follows the iterate (`tangential.rs`).
+//!
+//! Part of `newton.rs`.
 
 use super::super::converge::left_of;
 use super::judge::Evaluation;

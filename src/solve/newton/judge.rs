@@ -1,4 +1,6 @@
 //! What an evaluation of the iterate amounts to: merit, errors, and where it is worst.
+//!
+//! Part of `converge.rs`.
 
 use rayon::prelude::*;
 

@@ -21,6 +21,8 @@
 //!
 //! Tried and left: the root with the node's own change of pressure in it (a quartic; the same), the face's conductance
 //! too at the rest film (the inlet, where pressure gives way and not the film, then takes twice the iterations).
+//!
+//! Ours: derived above, from the balance of one node with its neighbours at rest.
 
 /// Newton iterations for x, from 1 downwards: each value lies between the root and the one before.
 const ITERATIONS: usize = 5;

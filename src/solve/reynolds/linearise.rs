@@ -1,4 +1,6 @@
 //! One grid row of the linearised equation: storage, then the flow through the faces around each node.
+//!
+//! Part of `reynolds.rs`.
 
 use rayon::prelude::*;
 

@@ -13,6 +13,8 @@
 //! q_y:  d1 = −i ny E [2 + (nx² − ny²) B] q̂y     d2 = i ny E [2 + 2ν − kz − ny² B] q̂y
 //!       σxy = i nx E [1 − ny² B] q̂y    σxz = E nx ny kz q̂y        σyz = E [ny² kz − 1] q̂y
 //! ```
+//!
+//! Part of `stress/mod.rs`: its responses, added and subtracted.
 
 use super::fft::Lanes;
 use super::lanes::{LANES, V};

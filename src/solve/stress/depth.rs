@@ -5,10 +5,14 @@
 //! ```
 //! Gauss-Legendre in s: nodes crowd at the surface, where ripples live, and 24 of them integrate a
 //! Hertz life integral to rounding.
+//!
+//! Source: Abramowitz and Stegun (1964), 25.4.29, for Gauss's rule. Ours: the map, whose dz/ds = C (z + z0) makes the spacing even in
+//! ln(z + z0).
 
 use std::f64::consts::PI;
 
-/// Length over which the nodes change from linear to geometric spacing, in a.
+/// Length over which the nodes change from linear to geometric spacing, in a: 1/k of
+/// ripples of 0.3 a, where they shear most.
 pub const DEPTH_SCALE_A: f64 = 0.05;
 
 /// Nodes and weights of Gauss-Legendre on [0, 1], ascending.

@@ -6,6 +6,8 @@
 //! Stockham's self-sorting form: each pass reads one buffer and writes the other, so there is no
 //! bit reversal, and the lanes never mix, so every operation is a whole vector. The forward
 //! transform is the same one with the real and imaginary parts exchanged on the way in and out.
+//!
+//! Source: Van Loan (1992), *Computational Frameworks for the Fast Fourier Transform*, §1.7 (Stockham's form).
 
 use std::f64::consts::TAU;
 
@@ -211,6 +213,7 @@ fn pass_3(pass: &Pass, from: [&[V]; 2], to_re: &mut [V], to_im: &mut [V]) {
 
 #[inline(always)]
 fn butterfly_3(re: [V; 3], im: [V; 3], w: &[(f32, f32)]) -> ([V; 3], [V; 3]) {
+    // √3/2.
     const SIN_60: f32 = 0.866_025_4;
     let [V(ar), V(br), V(cr)] = re;
     let [V(ai), V(bi), V(ci)] = im;
@@ -308,6 +311,17 @@ fn row(x: &[f32; TILE], l: usize) -> V {
     let mut v = V::ZERO;
     v.0.copy_from_slice(&x[l * LANES..(l + 1) * LANES]);
     v
+}
+
+/// Index of the plan of length `n`, made if it is not there.
+pub(super) fn plan_of(plans: &mut Vec<LaneFft>, n: usize) -> usize {
+    plans
+        .iter()
+        .position(|plan| plan.len() == n)
+        .unwrap_or_else(|| {
+            plans.push(LaneFft::new(n));
+            plans.len() - 1
+        })
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 //! Everything here is `inline(always)` so that it takes the instruction set of the dispatched
 //! function that calls it. Fused multiply-add is used throughout: outside such a function it would
 //! be a library call.
+//!
+//! Ours: no equation. The transpose exchanges blocks of 8, 4, 2 and 1.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 

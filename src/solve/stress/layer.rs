@@ -1,10 +1,13 @@
 //! Tables: the waves of the padded surface, and one layer per depth.
+//!
+//! Part of `stress/mod.rs`.
 
 use std::f64::consts::TAU;
 
-use super::engine::{StressSpec, Symmetry, plan_of};
 use super::fft::LaneFft;
+use super::fft::plan_of;
 use super::lanes::{LANES, V};
+use super::spec::{StressSpec, Symmetry};
 use super::window::{LOW, LowModes, low_modes};
 use crate::physics::invariants::Stress6;
 

@@ -28,16 +28,16 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::depth::depth_rule;
-use super::engine::{Loading, StressSpec, Symmetry};
-use super::peak::{self, Peak};
-use super::slice_out::SliceOut;
+use super::peak;
+use super::slice_out::{Peak, SliceOut};
+use super::spec::{Loading, StressSpec, Symmetry};
 use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
 use super::volume::VolumeOut;
 use crate::math::kernel_symbol::{REPEATING, even_kernel_symbol, odd_kernel_symbol};
 use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
 
-/// Stress below which a point adds nothing to a life integral, p_h.
+/// Stress below which a point adds nothing to a life integral, p_h: its tenth power is 1e-60 of the greatest.
 const NEGLIGIBLE: f32 = 1e-6;
 
 /// Symbols of one depth: pressure and traction to each component.

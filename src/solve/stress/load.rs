@@ -6,11 +6,15 @@
 //! First along y (x in the lanes: rows are read as they lie), then along x. A mirror surface is
 //! extended evenly, and its spectrum is even in ky, so one half serves. Traction along y has a transform
 //! of its own where there is any; across a mirror it is odd, and so is its spectrum.
+//!
+//! Source: Press et al. (2007), *Numerical Recipes*, §12.3: two real transforms in one.
 
-use super::engine::{StressEngine, StressSpec, Symmetry, plan_of};
+use super::engine::StressEngine;
+use super::fft::plan_of;
 use super::fft::{LaneFft, Lanes};
 use super::lanes::{LANES, V, transpose};
 use super::layer::Waves;
+use super::spec::{StressSpec, Symmetry};
 
 /// Spectra of pressure and traction at ky ≥ 0 or at −ky, `[block · modes_y + ky]`, sixteen kx each.
 pub(super) struct Half {

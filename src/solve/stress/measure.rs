@@ -5,7 +5,8 @@
 //! τ_o² = 2/9 σ_v²
 //! τ_m² = J2 cos²(asin(c)/3),   c = (3√3/2) J3/J2^{3/2}
 //! ```
-//! asin by its square-root form with the eight-term polynomial of Abramowitz & Stegun 4.4.46 (2e-8).
+//! asin by its square-root form with the eight-term polynomial of Abramowitz and Stegun (1964), 4.4.46 (2e-8). Sources: von Mises
+//! (1913); Tresca (1864), by Lode's angle.
 
 use super::lanes::{LANES, V};
 use crate::scene::StressMeasure;

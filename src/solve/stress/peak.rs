@@ -4,27 +4,16 @@
 //! interpolated in depth by a polynomial through six depths (they are smooth in `ln(1 + z/z0)`, the
 //! coordinate in which the depths lie evenly; the effective stress has kinks), and the maximum over
 //! depth is found by golden section; a parabola through the three maxima gives x.
+//!
+//! Source: Kiefer (1953), Proc. Am. Math. Soc. 4, 502-506, for the golden section. Ours: what is interpolated.
 
 use super::depth::{stretched, unstretched};
-use super::engine::StressSpec;
-use super::slice_out::SliceOut;
+use super::slice_out::{Peak, SliceOut};
+use super::spec::StressSpec;
 use crate::physics::invariants::Stress6;
 use crate::scene::StressMeasure;
 
-/// A greatest effective stress and its place.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Peak {
-    /// Effective stress, p_h.
-    pub value: f64,
-    /// Along rolling, a.
-    pub x: f64,
-    /// Across, a.
-    pub y: f64,
-    /// Depth, a.
-    pub z: f64,
-}
-
-/// Depths in an interpolation.
+/// Depths in an interpolation: of order six, between Gauss's nodes.
 const POINTS: usize = 6;
 
 /// The measure of a state.

@@ -8,14 +8,17 @@
 //! The same responses as [`super::slice`] and [`super::volume`], mode by mode without vectors: some 10 to
 //! 40 ms at 129², meant for a view that somebody turns and for tests, not for every frame. A depth that the
 //! engine has no table for gets one (some 20 ms more).
+//!
+//! Part of `stress/mod.rs`.
 
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-use super::engine::{Loading, StressEngine};
+use super::engine::StressEngine;
 use super::layer::{Layer, layers_at};
 use super::load::{Half, Sheared};
 use super::peak::measure_of;
+use super::spec::Loading;
 use super::window::LOW;
 use crate::physics::invariants::Stress6;
 

@@ -1,4 +1,6 @@
 //! Rows of a layer between its two passes, and their reduction to one measure.
+//!
+//! Part of `stress/volume.rs`.
 
 use super::fft::Lanes;
 use super::lanes::{LANES, TILE, V, transpose_tile};

@@ -9,14 +9,17 @@
 //! ```
 //! The columns c are formed once per surface and shared by all depths. Every depth is given at the full
 //! resolution along x.
+//!
+//! Part of `stress/mod.rs`. Ours: its responses as polynomials in z, so that the sums over ky are formed once.
 
-use super::engine::{Loading, StressEngine, StressSpec, Symmetry};
+use super::engine::StressEngine;
 use super::fft::{Lanes, pack_pair};
 use super::lanes::{C, LANES, V};
 use super::layer::{Layer, LowRow, Waves};
 use super::load::{Half, Sheared, Spectrum};
 use super::peak::refine;
 use super::slice_out::{SliceOut, turn_depths, write_rows};
+use super::spec::{Loading, StressSpec, Symmetry};
 use super::window::LOW;
 use crate::physics::cycles::BodyId;
 

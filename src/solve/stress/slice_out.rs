@@ -1,12 +1,26 @@
 //! The stress in the plane y = 0 as it is handed out, and the passes that write it.
+//!
+//! Part of `stress/slice.rs`.
 
-use super::engine::{StressSpec, Symmetry};
 use super::fft::Lanes;
 use super::lanes::{C, LANES, V, transpose};
 use super::measure::squared;
-use super::peak::Peak;
+use super::spec::{StressSpec, Symmetry};
 use crate::physics::invariants::Stress6;
 use crate::scene::StressMeasure;
+
+/// A greatest effective stress and its place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// Effective stress, p_h.
+    pub value: f64,
+    /// Along rolling, a.
+    pub x: f64,
+    /// Across, a.
+    pub y: f64,
+    /// Depth, a.
+    pub z: f64,
+}
 
 /// Stress of a body in the plane y = 0: `[k·nx + i]`, k over depths; in p_h, tension positive.
 #[derive(Debug, Clone, Default, PartialEq)]

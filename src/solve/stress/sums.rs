@@ -6,12 +6,14 @@
 //! ```
 //! The greatest is that of the samples of a layer's own grid, which leaves a swept share of Hertz up to 3 % low
 //! (m = 11.5); against a reference of the same grid it cancels.
+//!
+//! Part of `stress/volume.rs`.
 
 use serde::{Deserialize, Serialize};
 
-use super::engine::{Loading, StressSpec};
 use super::layer::Layer;
-use super::peak::Peak;
+use super::slice_out::Peak;
+use super::spec::{Loading, StressSpec};
 use super::volume::{Integral, Worker};
 use crate::math::ln_sum::ln_sum;
 

@@ -10,20 +10,24 @@
 //! body 2 (opposite traction) and without traction are their sum, difference and first term, so a second
 //! body costs no transform unless its Poisson's ratio differs. Depths run in parallel; the sum over depths is
 //! taken in order, so the result is the same on any number of threads.
+//!
+//! Sources: Ioannides and Harris (1985) for the integral with a limit u; Zaretsky (1987) without. Ours: three loadings from two
+//! stresses, by the linearity of elastic stress.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use super::assemble::{Part, block_inputs};
-use super::engine::{Loading, StressEngine, StressSpec, Symmetry};
+use super::engine::StressEngine;
 use super::fft::{LaneFft, Lanes, pack_pair};
 use super::lanes::{LANES, V};
 use super::layer::{Layer, Waves};
 use super::load::{Sheared, Spectrum};
 use super::measure::excess;
-use super::peak::Peak;
 use super::rows::{squares_of, turn_rows, unfold_rows, weighted_sum};
+use super::slice_out::Peak;
+use super::spec::{Loading, StressSpec, Symmetry};
 use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
 use crate::physics::cycles::BodyId;
 

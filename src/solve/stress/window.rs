@@ -10,6 +10,9 @@
 //! also fits long ellipses. Its spectrum falls as e^{−(πδm)²} in the mode number m, so from m = 16 on
 //! the kernel's own spectrum serves. The integral is taken in polar coordinates of the stretched plane:
 //! Gauss-Legendre on panels that shrink towards the source, the trapezoidal rule in angle.
+//!
+//! Ours: a kernel times W has no images where W vanishes, and its spectrum is the kernel's smeared by W's; both follow
+//! from the convolution theorem.
 
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! A dent that rides through once: films of the smooth contact, and round the dent where the paper shows it.
 
-use super::measure::Values;
+use super::set::Values;
 use crate::plan::Plan;
 use crate::scene::{Scene, Surface};
 use crate::sim::{Frame, Simulation, Stage};

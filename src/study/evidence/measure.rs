@@ -6,15 +6,12 @@ use rustfft::num_complex::Complex;
 
 use super::dent::dent;
 use super::fit::{Waves, read};
-use super::set::{Case, Measure, planned};
+use super::set::{Case, Measure, Values, planned};
 use crate::physics::film_ripple::FlatFilm;
 use crate::physics::fluid::{Density, Viscosity};
 use crate::plan::Plan;
 use crate::scene::{Scene, Surface};
 use crate::sim::{Simulation, Summary};
-
-/// Values by name.
-pub(super) type Values = Vec<(&'static str, f64)>;
 
 /// Reach of the rows that are read, a: waves alone, two waves (both of a length or longer), a low ripple.
 const WAVE_REACH: f64 = 0.25;

@@ -15,6 +15,7 @@ mod tried;
 
 pub use plot::{agreement_plot, experiments_plot};
 pub use report::{evidence_table, evidence_text};
+use set::Values;
 pub use set::{
     Case, Claim, EvidenceSet, Experiment, Forecast, Grade, Kind, Measure, Point, Row, planned,
 };
@@ -25,7 +26,6 @@ use std::time::Instant;
 use super::crew::share_out;
 use super::{Extent, Progress, StudyError, refuse_nothing};
 use crate::scene::CycleBasis;
-use measure::Values;
 
 /// A number of a case.
 #[derive(Debug, Clone, PartialEq)]

@@ -52,6 +52,9 @@ pub enum Measure {
     Dent,
 }
 
+/// Numbers that were read, by name.
+pub(super) type Values = Vec<(&'static str, f64)>;
+
 /// A number of a case.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

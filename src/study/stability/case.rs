@@ -11,12 +11,13 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::trial::JUMP_AT;
 use crate::physics::hertz::Hertz;
 use crate::plan::Plan;
 use crate::scene::{Event, Override, Scene};
 use crate::sim::Knob;
 
+/// Step of the passage at which knobs are turned, as a share of it.
+pub(super) const JUMP_AT: f64 = 0.125;
 /// The set, as it stands in the program.
 const CASES: &str = include_str!("../../../assets/studies/stability.toml");
 

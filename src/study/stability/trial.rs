@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::case::Ready;
+use super::case::{JUMP_AT, Ready};
 use crate::plan::{March, mesh_error};
 use crate::scene::ContactKind;
 use crate::sim::{Frame, Simulation, Stage, Stats};
@@ -12,8 +12,6 @@ const MOST_LINEAR: u64 = 400_000;
 const MOST_STEPS: u64 = 20_000;
 /// Deepest overlap of a converged contact, nm: `tests/engine/ladder.rs` says why.
 const OVERLAP_NM: f64 = 0.5;
-/// Step of the passage at which knobs are turned, as a share of it.
-pub(super) const JUMP_AT: f64 = 0.125;
 /// Central film of the smooth start-up over the regression, where the mesh carries it. The regression itself
 /// lies 7 to 13 % below computed films for heavy loads, and knows neither Roelands' law nor compression.
 const FILM_BAND: std::ops::RangeInclusive<f64> = 0.5..=1.6;

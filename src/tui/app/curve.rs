@@ -6,7 +6,7 @@
 //! again when it is turned back.
 
 use crate::sim::{Knob, Metrics};
-use crate::study::sweep::{Along, Conditions, Found, Order};
+use crate::sweep::{Along, Conditions, Found, Order};
 use crate::tui::app::{App, Curve, Effect};
 
 /// Values of S that a sweep visits, of either sign: close where life falls fastest.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::run::Command;
 use crate::scene::Scene;
 use crate::sim::Frame;
-use crate::study::sweep::Order;
+use crate::sweep::Order;
 use crate::tui::app::Leading;
 use crate::tui::theme::Theme;
 use crate::tui::wiring::LeftOut;

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::physics::estimate::OperatingPoint;
 use crate::sim::{Frame, MaterialPoint, Stage};
-use crate::study::sweep::{Began, Found};
+use crate::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
 use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges, Trouble};
 use crate::tui::dial::{Dial, knob_target, knob_value};

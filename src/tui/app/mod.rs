@@ -18,7 +18,7 @@ use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, Loaded, Operatin
 use crate::run::Settled;
 use crate::scene::Scene;
 use crate::sim::{Frame, Knob, LifeEstimate};
-use crate::study::sweep::{Along, Found};
+use crate::sweep::{Along, Found};
 use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
 use crate::tui::estimate::basis;

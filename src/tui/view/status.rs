@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
-use crate::study::sweep::Along;
+use crate::sweep::Along;
 use crate::tui::app::{App, ErrandKind, Trouble, Unconverged};
 use crate::tui::theme::Role;
 use crate::tui::units::{bytes, seconds, sig};

@@ -2,7 +2,7 @@
 
 use super::{Figure, Place};
 use crate::sim::Knob;
-use crate::study::sweep::{Along, Found};
+use crate::sweep::{Along, Found};
 use crate::tui::app::{App, Curve, Leading};
 use crate::tui::dial::Dial;
 use crate::tui::units::{nice_ceiling, sig};

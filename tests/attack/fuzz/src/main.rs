@@ -6,14 +6,16 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use asperity::files::fnv;
 use asperity::observe::rerun::Recorded;
 use asperity::plan::Plan;
 use asperity::run::Checkpoint;
 use asperity::scene::{Override, Scene};
 use asperity::sim::Simulation;
-use asperity::study::sweep::Sweep;
+use asperity::sweep::Sweep;
 use libfuzzer_sys::fuzz_target;
+
+#[path = "../../forged.rs"]
+mod forged;
 
 /// Nodes per side of what is made a simulation of.
 const FEW: usize = 33;
@@ -164,22 +166,6 @@ fn recording(data: &[u8], folder: &PathBuf) {
 
 /// Notes of a recording, a line each, their digests right.
 fn notes(data: &[u8], folder: &PathBuf) {
-    let mut bytes = b"RRF2\0\x24\x03\0\x01\x02\0\0".to_vec();
-    for body in data.split(|byte| *byte == b'\n') {
-        let head = format!("asperity note 2 {:016x} {} ", fnv(body), body.len());
-        let length = head.len() + body.len();
-        let mut message = vec![5 << 3 | 2];
-        let mut left = length;
-        while left >= 0x80 {
-            message.push(left as u8 | 0x80);
-            left >>= 7;
-        }
-        message.push(left as u8);
-        message.extend(head.as_bytes());
-        message.extend(body);
-        bytes.extend(2_u64.to_le_bytes());
-        bytes.extend((message.len() as u64).to_le_bytes());
-        bytes.extend(message);
-    }
+    let bytes = forged::forged_recording(data.split(|byte| *byte == b'\n'));
     reread(&bytes, folder);
 }

@@ -4,12 +4,12 @@
 //! scene that means the same and that the plan does not see through (waves of no height, an Eyring stress that no film
 //! reaches, oil too thin to carry anything). The rectangle stays the same.
 
-use crate::plan::{March, Plan, Symmetry, TractionDeflection};
-use crate::scene::{Lubricant, Rheology, Scene, Spread, Surface};
+use asperity::plan::{March, Plan, Symmetry, TractionDeflection};
+use asperity::scene::{Lubricant, Rheology, Scene, Spread, Surface};
 
 /// A stage that may be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Forced {
+pub(super) enum Forced {
     /// Rows y < 0 of a contact that is even in y.
     WholeGrid,
     /// Deflection by traction between bodies of the same constants.
@@ -36,7 +36,7 @@ pub enum Forced {
 
 impl Forced {
     /// Every stage.
-    pub const ALL: [Self; 11] = [
+    pub(super) const ALL: [Self; 11] = [
         Self::WholeGrid,
         Self::TractionDeflection,
         Self::TimeSteps,
@@ -51,7 +51,7 @@ impl Forced {
     ];
 
     /// Name.
-    pub fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Self::WholeGrid => "rows y < 0",
             Self::TractionDeflection => "deflection by traction",
@@ -68,7 +68,7 @@ impl Forced {
     }
 
     /// Relative difference that leaving it out may make, and why.
-    pub fn allowed(self) -> (f64, &'static str) {
+    pub(super) fn allowed(self) -> (f64, &'static str) {
         match self {
             Self::WholeGrid | Self::TractionDeflection | Self::Waves => (
                 2e-3,
@@ -180,8 +180,8 @@ impl Forced {
                 if scene.stress.is_some() {
                     return None;
                 }
-                scene.stress = Some(crate::scene::Stress::default());
-                scene.life = Some(crate::scene::Life::default());
+                scene.stress = Some(asperity::scene::Stress::default());
+                scene.life = Some(asperity::scene::Life::default());
             }
             Self::Spread => {
                 let life = scene.life.as_mut()?;
@@ -202,12 +202,12 @@ fn thinnest() -> Lubricant {
     Lubricant {
         viscosity_pa_s: 1e-3,
         pressure_viscosity_per_pa: 0.0,
-        viscosity_law: crate::scene::ViscosityLaw::Barus,
-        density_law: crate::scene::DensityLaw::Incompressible,
+        viscosity_law: asperity::scene::ViscosityLaw::Barus,
+        density_law: asperity::scene::DensityLaw::Incompressible,
         rheology: Rheology::Newtonian,
         eyring_stress_pa: 5e6,
-        eyring_flow: crate::scene::EyringFlow::Secant,
+        eyring_flow: asperity::scene::EyringFlow::Secant,
         limiting_shear_ratio: 1.0,
-        cavitation: crate::scene::Cavitation::Reynolds,
+        cavitation: asperity::scene::Cavitation::Reynolds,
     }
 }

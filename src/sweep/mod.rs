@@ -30,7 +30,7 @@ mod spec;
 mod table;
 mod window;
 
-pub use axis::{Axis, WARM_KEYS};
+pub use axis::{Axis, MOST_CASES, WARM_KEYS};
 pub use background::{Along, Background, Conditions, Found, Ground, Order};
 pub use case::{Began, CaseEnd, CaseRecord};
 pub use chain::Shard;
@@ -44,5 +44,5 @@ pub use plots::draw;
 pub use points::points_csv;
 pub use presets::{SweepPreset, all as presets, names as preset_names};
 pub use run::{Progress, Report, cost, run};
-pub use spec::{ChainKeys, Combine, MOST_CASES, Sweep};
+pub use spec::{ChainKeys, Combine, Sweep};
 pub use table::{COLUMNS, Rows, numbers};

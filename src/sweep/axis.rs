@@ -7,8 +7,10 @@
 
 use toml::Value;
 
-use super::spec::MOST_CASES;
 use crate::scene::{SceneError, keys};
+
+/// Most cases of one sweep.
+pub const MOST_CASES: usize = 1_000_000;
 
 /// A varied key.
 #[derive(Debug, Clone, PartialEq)]

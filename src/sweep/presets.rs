@@ -13,7 +13,7 @@ macro_rules! preset {
     ($name:literal) => {
         SweepPreset {
             name: $name,
-            toml: include_str!(concat!("../../../assets/sweeps/", $name, ".toml")),
+            toml: include_str!(concat!("../../assets/sweeps/", $name, ".toml")),
         }
     };
 }

@@ -3,10 +3,10 @@
 use std::time::Instant;
 
 use super::force::Forced;
-use crate::plan::Plan;
-use crate::scene::Scene;
-use crate::sim::{Frame, Simulation, Stage, Stats};
-use crate::solve::stress::{StressEngine, StressSpec, Symmetry};
+use asperity::plan::Plan;
+use asperity::scene::Scene;
+use asperity::sim::{Frame, Simulation, Stage, Stats};
+use asperity::solve::stress::{StressEngine, StressSpec, Symmetry};
 
 /// Film that counts as one, m: the solver's own least film.
 const LEAST_FILM_M: f64 = 1e-9;
@@ -31,50 +31,50 @@ enum Frames {
 
 /// Differences of two runs, relative.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Difference {
+pub(super) struct Difference {
     /// Σ|Δp|/Σp of the last step.
-    pub pressure: f64,
+    pub(super) pressure: f64,
     /// Σ|Δh|/Σh inside the Hertz ellipse, films counted as a nanometre at least (what is thinner is not resolved).
-    pub film: f64,
+    pub(super) film: f64,
     /// |Δ ln| of life's stress factor, where there is one in both. The cycle factor is a formula of the scene: waves of
     /// no height have crests, too.
-    pub life: Option<f64>,
+    pub(super) life: Option<f64>,
 }
 
 impl Difference {
     /// The greatest of them.
-    pub fn greatest(&self) -> f64 {
+    pub(super) fn greatest(&self) -> f64 {
         self.pressure.max(self.film).max(self.life.unwrap_or(0.0))
     }
 }
 
 /// A stage of a preset: what leaving it out saves.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PruningRow {
+pub(super) struct PruningRow {
     /// Preset.
-    pub preset: String,
+    pub(super) preset: String,
     /// Stage.
-    pub stage: Forced,
+    pub(super) stage: Forced,
     /// What it changes and costs, or why the run with it did not finish.
-    pub found: Result<Gain, String>,
+    pub(super) found: Result<Gain, String>,
 }
 
 /// What a stage that is left out would change and cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gain {
+pub(super) struct Gain {
     /// What it changes.
-    pub difference: Difference,
+    pub(super) difference: Difference,
     /// Time with the stage over time without.
-    pub time_ratio: f64,
+    pub(super) time_ratio: f64,
     /// Linear iterations with over without.
-    pub work_ratio: f64,
+    pub(super) work_ratio: f64,
     /// Transforms with over without.
-    pub transform_ratio: f64,
+    pub(super) transform_ratio: f64,
 }
 
 impl PruningRow {
     /// Whether leaving it out changes no more than it may.
-    pub fn is_harmless(&self) -> bool {
+    pub(super) fn is_harmless(&self) -> bool {
         self.found
             .as_ref()
             .is_ok_and(|gain| gain.difference.greatest() <= self.stage.allowed().0)

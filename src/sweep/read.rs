@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::axis::{Axis, WARM_KEYS, shown};
+use super::axis::{Axis, MOST_CASES, WARM_KEYS, shown};
 use super::error::SweepError;
 use super::path;
 use super::presets;
-use super::spec::{ChainKeys, Combine, MOST_CASES, Sweep, setting};
+use super::spec::{ChainKeys, Combine, Sweep, setting};
 use crate::files::{fnv, read_up_to};
 use crate::scene::{Scene, SceneError, keys};
 
@@ -20,6 +20,37 @@ const LONGEST_MAP: u64 = 64 << 20;
 const CHAIN: usize = 7;
 /// Longest chain.
 const LONGEST_CHAIN: i64 = 1000;
+
+impl Sweep {
+    /// Reads a built-in sweep by name, or a file by path.
+    ///
+    /// # Errors
+    /// [`SweepError::File`] that names the key, the value and what is allowed.
+    pub fn load(name_or_path: &str) -> Result<Self, SweepError> {
+        if let Some(preset) = presets::find(name_or_path) {
+            return Self::parse(preset.toml, preset.name, Path::new(""));
+        }
+        let path = PathBuf::from(name_or_path);
+        let text = read(&path, name_or_path)?;
+        let name = path
+            .file_stem()
+            .map_or_else(|| "sweep".to_owned(), |s| s.to_string_lossy().into_owned());
+        let mut sweep = Self::parse(&text, &name, path.parent().unwrap_or(Path::new("")))?;
+        sweep.inputs.push(path);
+        Ok(sweep)
+    }
+
+    /// Reads a sweep's text; files that it names are sought from `folder`.
+    ///
+    /// # Errors
+    /// As [`Sweep::load`].
+    pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self, SweepError> {
+        read_sweep(text, name, folder).map_err(|source| SweepError::File {
+            origin: name.to_owned(),
+            source,
+        })
+    }
+}
 
 /// Reads a file, but never more than a sweep can be.
 pub(super) fn read(path: &Path, shown_path: &str) -> Result<String, SweepError> {
@@ -47,7 +78,7 @@ const TOP: [&str; 9] = [
     "title", "scene", "combine", "set", "vary", "chain", "gear", "race", "cam",
 ];
 
-pub(super) fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError> {
+fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError> {
     let root = text.parse::<Table>().map_err(|error| SceneError::Syntax {
         origin: name.to_owned(),
         reason: error.to_string(),

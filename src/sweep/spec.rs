@@ -18,19 +18,14 @@
 //! `asperity scenes NAME` prints their keys, except that the keys which allow warm starts come last, S after
 //! the amplitudes, because a chain runs along the last axis.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use toml::Value;
 
 use super::axis::{Axis, shown};
 use super::error::SweepError;
 use super::path::PathPoint;
-use super::presets;
-use super::read::{read, read_sweep};
 use crate::scene::{ContactKind, Override, Scene, SceneError};
-
-/// Most cases of one sweep.
-pub const MOST_CASES: usize = 1_000_000;
 
 /// How several axes combine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,35 +78,6 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads a built-in sweep by name, or a file by path.
-    ///
-    /// # Errors
-    /// [`SweepError::File`] that names the key, the value and what is allowed.
-    pub fn load(name_or_path: &str) -> Result<Self, SweepError> {
-        if let Some(preset) = presets::find(name_or_path) {
-            return Self::parse(preset.toml, preset.name, Path::new(""));
-        }
-        let path = PathBuf::from(name_or_path);
-        let text = read(&path, name_or_path)?;
-        let name = path
-            .file_stem()
-            .map_or_else(|| "sweep".to_owned(), |s| s.to_string_lossy().into_owned());
-        let mut sweep = Self::parse(&text, &name, path.parent().unwrap_or(Path::new("")))?;
-        sweep.inputs.push(path);
-        Ok(sweep)
-    }
-
-    /// Reads a sweep's text; files that it names are sought from `folder`.
-    ///
-    /// # Errors
-    /// As [`Sweep::load`].
-    pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self, SweepError> {
-        read_sweep(text, name, folder).map_err(|source| SweepError::File {
-            origin: name.to_owned(),
-            source,
-        })
-    }
-
     /// Number of cases.
     pub fn len(&self) -> usize {
         match self.combine {

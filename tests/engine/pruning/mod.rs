@@ -2,20 +2,22 @@
 //!
 //! For each preset the run is made as planned, and again with each left-out stage forced in ([`Forced`]). What the
 //! scene does not need must change nothing beyond a stated bound, and what it saves is told as a ratio of times and
-//! of work in one run of the study.
+//! of work in one run.
+//!
+//! `cargo test --release --test engine pruning::report -- --ignored` does so for every preset and writes
+//! `assets/reports/pruning.md`.
+#![expect(clippy::unwrap_used, reason = "tests")]
 
 mod force;
 mod measure;
 
 use std::fmt::Write as _;
 
-pub use force::Forced;
-pub use measure::{Difference, Gain, PruningRow};
-
-use super::table::{Table, figure};
-use super::{Extent, Progress, StudyError, refuse_nothing};
-use crate::plan::Plan;
-use crate::scene::{Override, Scene, presets};
+use asperity::plan::Plan;
+use asperity::scene::{ContactKind, Override, Scene, presets};
+use asperity::study::{Table, figure, machine};
+use force::Forced;
+use measure::{Gain, PruningRow};
 
 /// Presets and variants of them: name, preset, settings.
 type Variant = (String, &'static str, Vec<String>);
@@ -24,6 +26,7 @@ type Variant = (String, &'static str, Vec<String>);
 /// each step leaves adds up to 4 % of the life in FZG's point B (3.5, 1.4 and 0 % at 1e-4, 1e-5 and 1e-6), and two runs
 /// that differ by rounding differ by as much.
 const TOLERANCE: f64 = 1e-6;
+const THREADS: usize = 2;
 
 /// Scenes in which stages are left out that no preset leaves out.
 const VARIANTS: [(&str, &str, &[&str]); 4] = [
@@ -58,27 +61,22 @@ const VARIANTS: [(&str, &str, &[&str]); 4] = [
     ),
 ];
 
-fn variants(extent: Extent, only: Option<&str>) -> Vec<Variant> {
-    let common = |nodes: Option<usize>, passages: f64| {
-        let mut sets = vec![
-            format!("time.passages={passages}"),
-            "numerics.error_estimate=none".to_owned(),
-            "record.every_steps=16".to_owned(),
-            // So that a difference is the stage's and not the iteration's.
-            format!("numerics.tolerance={TOLERANCE:e}"),
-            "numerics.max_iterations=60".to_owned(),
-        ];
-        sets.extend(nodes.map(|nodes| format!("grid.nodes={nodes}")));
-        sets
-    };
-    let sets = match extent {
-        Extent::Quick => common(Some(65), 0.1),
-        Extent::Usual => common(None, 0.1),
-        Extent::Full => common(None, 1.0),
-    };
+/// The presets' own grids; or the default scene and the variants on a small one.
+fn variants(is_whole: bool) -> Vec<Variant> {
+    let mut sets = vec![
+        "time.passages=0.1".to_owned(),
+        "numerics.error_estimate=none".to_owned(),
+        "record.every_steps=16".to_owned(),
+        // So that a difference is the stage's and not the iteration's.
+        format!("numerics.tolerance={TOLERANCE:e}"),
+        "numerics.max_iterations=60".to_owned(),
+    ];
+    if !is_whole {
+        sets.push("grid.nodes=65".to_owned());
+    }
     let mut all: Vec<Variant> = presets::all()
         .iter()
-        .filter(|preset| extent != Extent::Quick || preset.name == presets::DEFAULT)
+        .filter(|preset| is_whole || preset.name == presets::DEFAULT)
         .map(|preset| (preset.name.to_owned(), preset.name, sets.clone()))
         .collect();
     all.extend(VARIANTS.iter().map(|(name, preset, more)| {
@@ -86,55 +84,29 @@ fn variants(extent: Extent, only: Option<&str>) -> Vec<Variant> {
         sets.extend(more.iter().map(|&text| text.to_owned()));
         ((*name).to_owned(), *preset, sets)
     }));
-    all.retain(|(name, ..)| only.is_none_or(|part| name.contains(part)));
     all
 }
 
-/// Forces in, preset by preset, what each leaves out.
-///
-/// # Errors
-/// [`StudyError`] when a run fails.
-pub fn pruning(
-    extent: Extent,
-    only: Option<&str>,
-    threads: usize,
-    progress: &mut Progress,
-) -> Result<Vec<PruningRow>, StudyError> {
-    let variants = variants(extent, only);
-    refuse_nothing(only, variants.is_empty())?;
+/// Forces in, variant by variant, what each leaves out.
+fn pruning(is_whole: bool) -> Vec<PruningRow> {
     let mut rows = Vec::new();
-    for (n, (name, preset, sets)) in variants.iter().enumerate() {
-        let failed = |reason: String| StudyError::Run {
-            case: name.clone(),
-            reason,
-        };
-        let (scene, plan) = prepared(preset, sets).map_err(StudyError::Scene)?;
-        progress(name, n, variants.len());
-        let base = measure::plain(&scene, &plan, threads).map_err(failed)?;
+    for (name, preset, sets) in variants(is_whole) {
+        let overrides: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
+        let scene = Scene::load_with(preset, &overrides).unwrap();
+        let plan = Plan::new(&scene).unwrap();
+        let base = measure::plain(&scene, &plan, THREADS).unwrap();
         for stage in Forced::ALL {
-            if stage == Forced::DeepWaves && scene.kind() == crate::scene::ContactKind::Line {
+            if stage == Forced::DeepWaves && scene.kind() == ContactKind::Line {
                 continue;
             }
-            progress(&format!("{name}: {}", stage.name()), n, variants.len());
-            rows.extend(measure::forced(name, stage, (&scene, &plan), &base));
+            rows.extend(measure::forced(&name, stage, (&scene, &plan), &base));
         }
     }
-    Ok(rows)
-}
-
-fn prepared(preset: &str, sets: &[String]) -> Result<(Scene, Plan), String> {
-    let overrides = sets
-        .iter()
-        .map(|text| text.parse::<Override>())
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| error.to_string())?;
-    let scene = Scene::load_with(preset, &overrides).map_err(|error| error.to_string())?;
-    let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
-    Ok((scene, plan))
+    rows
 }
 
 /// The rows as a table.
-pub fn pruning_table(rows: &[PruningRow]) -> Table {
+fn pruning_table(rows: &[PruningRow]) -> Table {
     let mut table = Table::new(&[
         "scene",
         "stage forced in",
@@ -171,7 +143,7 @@ pub fn pruning_table(rows: &[PruningRow]) -> Table {
 }
 
 /// The whole report as Markdown: the table, and each stage over all scenes.
-pub fn pruning_text(rows: &[PruningRow]) -> String {
+fn pruning_text(rows: &[PruningRow]) -> String {
     let mut text = format!(
         "Relative differences of the last step's fields and of life's stress factor, with the stage against without; times and work of \
          the whole run, start-up included. Steps are solved to {TOLERANCE:e} of the pressure: at the usual 1e-3 two runs that differ \
@@ -207,4 +179,45 @@ pub fn pruning_text(rows: &[PruningRow]) -> String {
         );
     }
     text
+}
+
+#[test]
+fn what_a_scene_does_not_need_changes_nothing() {
+    let rows = pruning(false);
+    println!("{}", pruning_text(&rows));
+    for row in &rows {
+        let (allowed, why) = row.stage.allowed();
+        assert!(
+            row.is_harmless(),
+            "{}, {}: {:?} > {allowed} ({why})",
+            row.preset,
+            row.stage.name(),
+            row.found
+        );
+    }
+    // Every stage is left out by one of these scenes.
+    for stage in Forced::ALL {
+        assert!(
+            rows.iter().any(|row| row.stage == stage),
+            "{} is never left out",
+            stage.name()
+        );
+    }
+}
+
+#[test]
+#[ignore = "minutes: writes a report"]
+fn report() {
+    let rows = pruning(true);
+    let text = format!(
+        "`cargo test --release --test engine pruning::report -- --ignored`\n\n# Pruning\n\n\
+         {}, on {}, {THREADS} threads.\n\n{}",
+        asperity::files::PROGRAM,
+        machine(),
+        pruning_text(&rows),
+    );
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/reports");
+    std::fs::write(format!("{folder}/pruning.md"), text).unwrap();
+    std::fs::write(format!("{folder}/pruning.csv"), pruning_table(&rows).csv()).unwrap();
+    assert!(rows.iter().all(PruningRow::is_harmless));
 }
