@@ -17,6 +17,7 @@ use super::{Extent, Progress, StudyError};
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::physics::stress_exact::hertz_axis_maximum;
+use crate::scene::Order;
 use crate::solve::dry::{Dry, DryProblem};
 use crate::solve::film::Elastic;
 use crate::solve::march::{Conditions, Flow, Guess, March, Shape};
@@ -118,6 +119,7 @@ fn hertz(n: usize, tolerance: f64) -> Result<Row, String> {
         curvature_y: 1.0,
         b_over_a: 1.0,
         kappa_s: 0.0,
+        order: Order::Second,
     };
     let medium = Medium {
         viscosity: Viscosity::Barus { alpha_p: 0.0 },

@@ -19,6 +19,7 @@ mod ladder;
 mod line;
 mod lubricants;
 mod motions;
+mod order;
 mod plan;
 mod random_scenes;
 mod regime;
