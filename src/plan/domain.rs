@@ -155,7 +155,7 @@ fn edges(film: &Truncation, nodes: usize) -> (f64, f64) {
                 let dx = 64.0 * spacing(size) / (nodes - 1) as f64;
                 (
                     inlet < INLET_ERROR,
-                    inlet + MESH_SHARE * film.mesh_error(dx),
+                    inlet + MESH_SHARE * film.second_order_mesh_error(dx),
                 )
             });
             with(LAST, spacing(size))
@@ -203,7 +203,10 @@ fn side(film: &Truncation, nodes: usize) -> f64 {
                 let side = film.side_error(size * most);
                 // In lengths of the wedge a spacing along y counts as one along x.
                 let dy = 2.0 * size * most * film.side / (nodes - 1) as f64;
-                (side <= SIDE_ERROR, side + MESH_SHARE * film.mesh_error(dy))
+                (
+                    side <= SIDE_ERROR,
+                    side + MESH_SHARE * film.second_order_mesh_error(dy),
+                )
             });
             size * most
         })
@@ -222,6 +225,7 @@ mod tests {
             l,
             rigid: 0.0,
             side: 1.0,
+            asked: crate::scene::OrderAsked::Second,
         }
     }
 

@@ -25,7 +25,9 @@ pub use warning::{LeftOut, PlanError, Warning};
 
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, EyringFlow, LEAST_HARDNESS, Record, Scene, StressMeasure};
+use crate::scene::{
+    ContactKind, EyringFlow, LEAST_HARDNESS, Order, OrderAsked, Record, Scene, StressMeasure,
+};
 
 /// Everything that is decided before the first step.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +48,8 @@ pub struct Plan {
     pub film: Option<FilmPlan>,
     /// Nodes and edges.
     pub domain: Domain,
+    /// Order of the discretisation at the scene's own speed and load.
+    pub order: Order,
     /// Node spacing along x, m.
     pub dx_m: f64,
     /// Node spacing along y, m; of a line that of the rows which show it.
@@ -107,6 +111,8 @@ pub struct FilmPlan {
     pub valleys: Valleys,
     /// What the pressure's flow meets in sheared oil; `None`: the oil is Newtonian.
     pub eyring_flow: Option<EyringFlow>,
+    /// Order of the discretisation that the scene asks for.
+    pub order: OrderAsked,
 }
 
 /// Whether oil between crests that touch can leave by the valleys of one of the surfaces.
@@ -255,10 +261,11 @@ impl Plan {
                 crests_m: decide::crest_m(scene),
             });
         }
+        let order = decide::order(scene, film.as_ref(), &domain);
         let step_m = scene.time.step_nodes * dx_m;
-        let waves = surfaces::plan(scene, [dx_m, dy_m], step_m, &mut warnings)?;
+        let waves = surfaces::plan(scene, [dx_m, dy_m], (step_m, order), &mut warnings)?;
         let march = decide::march(scene);
-        warnings.extend(decide::step_warning(scene, film.as_ref(), &waves));
+        warnings.extend(decide::step_warning(scene, film.as_ref(), &waves, order));
         let steps_per_passage = (4.0 * hertz.a_m / step_m).round().max(1.0) as u64;
         let steps = match march {
             March::Steady { .. } => 1,
@@ -273,6 +280,7 @@ impl Plan {
             slide_roll: scene.motion.slide_roll,
             film,
             domain,
+            order,
             dx_m,
             dy_m,
             symmetry: decide::symmetry(scene),

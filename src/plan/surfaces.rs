@@ -1,7 +1,7 @@
 //! What the grid and the time step make of the waves on each body.
 
 use super::{PlanError, Warning};
-use crate::scene::{Scene, Surface};
+use crate::scene::{Order, Scene, Surface};
 
 /// The waves of one body on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,8 +38,8 @@ impl WavePlan {
 const NODES_MIN: f64 = 4.0;
 /// Nodes of a wave below which its deformation is inaccurate.
 const NODES_GOOD: f64 = 12.0;
-/// Nodes of the convected film wave below which it decays numerically.
-const NODES_CONVECTED: f64 = 16.0;
+/// Nodes of the convected film wave below which it decays numerically, by order of the discretisation.
+const NODES_CONVECTED: [f64; 2] = [16.0, 10.0];
 /// Time steps per passing crest that rainflow counting wants.
 const SAMPLES_GOOD: f64 = 16.0;
 
@@ -47,7 +47,7 @@ const SAMPLES_GOOD: f64 = 16.0;
 pub(super) fn plan(
     scene: &Scene,
     spacing_m: [f64; 2],
-    step_m: f64,
+    (step_m, order): (f64, Order),
     warnings: &mut Vec<Warning>,
 ) -> Result<[Option<WavePlan>; 2], PlanError> {
     let mut waves = [None, None];
@@ -68,10 +68,15 @@ pub(super) fn plan(
             });
         }
         let convected = nodes[0] / speed_ratio;
-        if scene.lubricant.is_some() && convected < NODES_CONVECTED {
+        let advised = match order {
+            Order::Second => NODES_CONVECTED[0],
+            Order::High => NODES_CONVECTED[1],
+        };
+        if scene.lubricant.is_some() && convected < advised {
             warnings.push(Warning::CoarseConvectedWave {
                 body,
                 nodes: convected,
+                advised,
             });
         }
         let sliding = scene.motion.slide_roll.abs();

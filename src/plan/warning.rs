@@ -58,13 +58,15 @@ pub enum Warning {
     },
     /// The film wave that travels at U has few nodes.
     #[error(
-        "body {body}: {nodes:.1} nodes in its convected film wave (W U/U_{body}); 16 are advised"
+        "body {body}: {nodes:.1} nodes in its convected film wave (W U/U_{body}); {advised:.0} are advised"
     )]
     CoarseConvectedWave {
         /// Body, 1 or 2.
         body: u8,
         /// Nodes.
         nodes: f64,
+        /// Nodes that are advised.
+        advised: f64,
     },
     /// Crests pass a material point in few time steps.
     #[error(

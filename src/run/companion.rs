@@ -15,8 +15,10 @@
 //! when they are unlucky: a quadratic crest of Hertz and of the ripple. It costs about a seventh of the run.
 //! `tests/engine/discretisation.rs` compares all of it with true errors on ten scenes.
 //!
-//! The same two runs give the limit f + (f(dx) − f(2dx))/3 for q = 2 (Richardson), which is reported beside the value
-//! that was computed, never in its place: it is the better one where the sequence is as regular as it is taken to be.
+//! The same two runs give the limit f + (f(dx) − f(2dx))/(2^q − 1) (Richardson), q = 2, or 3 of [`Order::High`], whose
+//! central film moves by 3.9 and 1.6 % from 65 to 129 to 257 nodes (default scene); its estimate, too, is all of the
+//! difference. The limit is reported beside the value that was computed, never in its place: it is the better one where
+//! the sequence is as regular as it is taken to be.
 //!
 //! The estimate covers mesh and time step. It does not cover the edges of the domain (the plan's own rule),
 //! nor what the model leaves out.
@@ -28,7 +30,7 @@ use thiserror::Error;
 use super::outcome::{End, Outcome};
 use super::session::{Ending, Request, RunError, Session};
 use crate::plan::{Plan, PlanError};
-use crate::scene::{ErrorSource, Scene};
+use crate::scene::{ErrorSource, Order, Scene};
 use crate::sim::Summary;
 
 /// Fewest nodes per side that a companion makes sense on.
@@ -62,6 +64,7 @@ pub struct Companion {
     /// Its nodes per side.
     pub nodes: usize,
     crest: Crest,
+    order: Order,
 }
 
 /// What the greatest pressure at nodes may miss of a crest, as shares.
@@ -96,6 +99,8 @@ fn coarser(scene: &Scene, plan: &Plan) -> Result<Scene, NoEstimate> {
     coarse.grid.x_max_a = Some(plan.domain.x_max_a);
     coarse.grid.y_half_a = Some(plan.domain.y_half_b);
     coarse.time.tolerance = scene.time.tolerance.map(|tolerance| 4.0 * tolerance);
+    // Two orders would be no sequence.
+    coarse.numerics.order = plan.order.into();
     coarse.record = None;
     Ok(coarse)
 }
@@ -110,7 +115,7 @@ impl Companion {
             return Err(NoEstimate::NotAsked);
         }
         let coarse = coarser(scene, plan)?;
-        let crest = Crest::of(plan);
+        let (crest, order) = (Crest::of(plan), plan.order);
         let plan = Plan::new(&coarse)?;
         let nodes = coarse.grid.nodes;
         let session = Session::start(Request {
@@ -125,6 +130,7 @@ impl Companion {
             session,
             nodes,
             crest,
+            order,
         })
     }
 
@@ -141,7 +147,7 @@ impl Companion {
         else {
             return Err(NoEstimate::Unfinished);
         };
-        set_errors(summary, coarse, self.crest);
+        set_errors(summary, coarse, self.crest, self.order);
         Ok(outcome)
     }
 }
@@ -149,7 +155,8 @@ impl Companion {
 /// Of the extremes, for an observed order of 1.3: 3/(2^1.3 − 1).
 const EXTREMES: f64 = 2.0;
 
-fn set_errors(fine: &mut Summary, coarse: &Summary, crest: Crest) {
+fn set_errors(fine: &mut Summary, coarse: &Summary, crest: Crest, order: Order) {
+    let limit = |fine: f64, coarse: f64| limit(fine, coarse, order);
     let apart = |one: f64, two: f64| (one - two).abs();
     fine.error_h_central_m = Some(apart(fine.h_central_m, coarse.h_central_m));
     fine.error_h_min_m = Some(EXTREMES * apart(fine.h_min_m, coarse.h_min_m));
@@ -171,9 +178,13 @@ fn set_errors(fine: &mut Summary, coarse: &Summary, crest: Crest) {
     }
 }
 
-/// Where a second-order sequence ends: f + (f − f_coarse)/3.
-fn limit(fine: f64, coarse: f64) -> f64 {
-    fine + (fine - coarse) / 3.0
+/// Where a sequence of this order ends.
+fn limit(fine: f64, coarse: f64, order: Order) -> f64 {
+    let share = match order {
+        Order::Second => 3.0,
+        Order::High => 7.0,
+    };
+    fine + (fine - coarse) / share
 }
 
 #[cfg(test)]
@@ -222,7 +233,7 @@ mod tests {
             hertz: 0.0,
             ripple: 0.0,
         };
-        set_errors(&mut fine, &coarse, crest);
+        set_errors(&mut fine, &coarse, crest, Order::Second);
         assert!((fine.error_h_central_m.expect("set") - 0.1).abs() < 1e-12);
         assert!((fine.life_relative_low.expect("set") - 0.4).abs() < 1e-12);
         assert!((fine.life_relative_high.expect("set") - 0.625).abs() < 1e-12);

@@ -155,10 +155,11 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "numerics",
         need: Defaulted,
-        doc: "When a time step counts as converged.",
+        doc: "Order of the discretisation, and when a time step counts as converged.",
         keys: &[
             key("tolerance", "", Number(1e-9, 0.1), Defaulted, "relative change of the pressure"),
             key("max_iterations", "", Integer(1, 1000), Defaulted, "most Newton iterations of one step"),
+            key("order", "", Choice(&["second", "high", "by_mesh"]), Defaulted, "of steps, flow and deflection where they are smooth: 2, or 3 in time and up to 4 in space; by_mesh: high as long as the mesh carries the smooth film"),
             key("error_estimate", "", Choice(&["companion", "none"]), Defaulted, "headless runs: error of the mesh from a second run on half the nodes, or none"),
         ],
     },

@@ -30,5 +30,5 @@ pub use model::{
     Body, Contact, ContactKind, Event, Grid, Load, MapEdge, Motion, Record, Scene, Stress,
     StressMeasure, Surface,
 };
-pub use numerics::{ErrorSource, Numerics, Time};
+pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
 pub use shape::LEAST_HARDNESS;

@@ -34,8 +34,51 @@ pub struct Numerics {
     pub tolerance: f64,
     /// Most Newton iterations of one step.
     pub max_iterations: usize,
+    /// Order of the discretisation where the solution is smooth.
+    pub order: OrderAsked,
     /// Where a headless run's estimate of its discretisation error comes from.
     pub error_estimate: ErrorSource,
+}
+
+/// Order of the discretisation that a scene asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OrderAsked {
+    /// [`Order::Second`].
+    Second,
+    /// [`Order::High`].
+    High,
+    /// High as long as the mesh carries the smooth film.
+    ByMesh,
+}
+
+impl OrderAsked {
+    /// The order on a mesh that carries the smooth film, or does not.
+    pub fn order(self, is_carried: bool) -> Order {
+        match self {
+            Self::High => Order::High,
+            Self::ByMesh if is_carried => Order::High,
+            Self::Second | Self::ByMesh => Order::Second,
+        }
+    }
+}
+
+impl From<Order> for OrderAsked {
+    fn from(order: Order) -> Self {
+        match order {
+            Order::Second => Self::Second,
+            Order::High => Self::High,
+        }
+    }
+}
+
+/// Order of the discretisation of film and flow where they are smooth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// Two in space and time.
+    Second,
+    /// Three in time and of the deflection, four of the flow.
+    High,
 }
 
 /// Where the estimate of the discretisation error comes from.
@@ -53,6 +96,7 @@ impl Default for Numerics {
         Self {
             tolerance: 1.0e-3,
             max_iterations: 20,
+            order: OrderAsked::Second,
             error_estimate: ErrorSource::Companion,
         }
     }

@@ -13,6 +13,7 @@ use super::knob::Knob;
 use super::motion::Motion;
 use super::smooth::Conditions;
 use crate::plan::{FilmPlan, Plan};
+use crate::scene::Order;
 use crate::solve::march::Flow;
 use crate::solve::newton::Tolerance;
 use crate::solve::traction::TractionLaw;
@@ -26,6 +27,9 @@ pub(super) struct Regime {
     film: Option<FilmPlan>,
     speed_m_s: f64,
     force: f64,
+    /// Node spacing, in a of the scene's load; order of the discretisation without a film.
+    dx_a: f64,
+    order: Order,
     /// Of steps with flow and of steps without.
     tolerances: [Tolerance; 2],
 }
@@ -43,6 +47,8 @@ impl Regime {
             film: plan.film,
             speed_m_s,
             force: plan.force_n,
+            dx_a: plan.domain.dx_a(),
+            order: plan.order,
             tolerances: [tolerance(wet), tolerance(Flow::Dry)],
         }
     }
@@ -61,6 +67,13 @@ impl Regime {
         let base = self.base();
         let (speed, load) = (at.speed_m_s / base.speed_m_s, at.load / base.load);
         self.film.map(|film| film.at(speed, load))
+    }
+
+    /// Order of the discretisation at the knobs' present values.
+    pub(super) fn order_now(&self, door: &Door, drive: &Drive) -> Order {
+        let size = door.size_ratio(drive.get(door.load_knob()).now / self.force);
+        self.film_now(door, drive)
+            .map_or(self.order, |film| film.truncation().order(self.dx_a / size))
     }
 
     /// The scene's own load and speed.

@@ -164,6 +164,7 @@ fn shape_of(plan: &Plan, door: &Door) -> Shape {
         kappa_s: plan
             .traction_deflection
             .map_or(0.0, |t| door.kappa_s(t.mismatch_per_pa)),
+        order: plan.order,
     }
 }
 

@@ -378,6 +378,7 @@ impl Mover<'_> {
             tolerance: self.regime.tolerance(flow),
         };
         self.solver.flow = flow;
+        self.solver.newton.order = self.regime.order_now(self.door, self.drive);
         let hardness = self.yielding.as_ref().map(|(hardness, _)| *hardness);
         self.solver.yield_at(hardness.unwrap_or(f64::INFINITY));
         solve(self.solver, self.state, &conditions)

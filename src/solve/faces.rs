@@ -104,9 +104,9 @@ fn harmonic(q_a: f64, q_b: f64) -> f64 {
     2.0 * q_a * q_b / safe
 }
 
-/// Logarithmic mean of g.
+/// Logarithmic mean of g; `d` is the difference of their logarithms.
 #[inline(always)]
-fn log_mean(g_a: f64, g_b: f64, d: f64) -> f64 {
+pub(super) fn log_mean(g_a: f64, g_b: f64, d: f64) -> f64 {
     let near = d.abs() < NEAR;
     let safe = if near { 1.0 } else { d };
     let series = 0.5 * (g_a + g_b) * (1.0 - d * d / 12.0);

@@ -13,7 +13,9 @@
 //! | c_y | Rx/Ry; 0 for a line | scalar |
 //! | ℓ | length of the domain: K > 0 everywhere; another ℓ only shifts H0 | scalar |
 //!
-//! Second order in the spacing. The transform length 2(N−1) is exact because P = 0 on the boundary.
+//! Order of the spacing: 2, because a cell of uniform pressure smooths: its symbol is `K̂ (1 − |k|²d²/24)`. With
+//! [`Order::High`] the kernel is that of the sharpened pressure `P − (δx² + δy²)P/24`, whose symbol lacks that factor (order
+//! 3); since the sharpening is a stencil it is laid into K once and costs nothing. The transform length 2(N−1) is exact because P = 0 on the boundary.
 //! A line is the limit of strips of infinite length: ∫ dY'/r = const − 2 ln|X'|, with p and κ as they are.
 //! Source: Love (1929), Phil. Trans. R. Soc. A 228, 377-420, for the cell; Johnson, Contact Mechanics (1985), §2.5, for the strip.
 //! Test: the dry Hertz contacts (`tests/engine/hertz_dry.rs`, `tests/engine/line.rs`).
@@ -21,6 +23,7 @@
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
 use crate::math::kernel_symbol::{REPEATING, even_kernel_symbol};
+use crate::scene::Order;
 
 /// What lies on the outer boundary of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,13 +73,18 @@ pub fn strip_potential(x: f64, dx: f64, length: f64) -> f64 {
 }
 
 impl Elastic {
-    /// Plans the transforms and makes the symbol for stiffness `kappa`.
+    /// Second order: see [`Elastic::of_order`].
     pub fn new(grid: &Grid, kappa: f64) -> Self {
+        Self::of_order(grid, kappa, Order::Second)
+    }
+
+    /// Plans the transforms and makes the symbol for stiffness `kappa`.
+    pub fn of_order(grid: &Grid, kappa: f64, order: Order) -> Self {
         let mut double = Filter::new(grid, Padding::Doubled, 1);
         let mut single = Filter::new(grid, Padding::Doubled, 1);
         let (dx, dy) = (grid.dx, grid.dy);
         let length = dx * (grid.nx - 1) as f64;
-        let influence = |i: usize, j: usize| {
+        let cell = |i: usize, j: usize| {
             let x = i as f64 * dx;
             kappa
                 * match grid.symmetry {
@@ -85,6 +93,10 @@ impl Elastic {
                         cell_potential(x, j as f64 * dy, dx, dy)
                     }
                 }
+        };
+        let influence = |i: usize, j: usize| match order {
+            Order::Second => cell(i, j),
+            Order::High => sharpened(grid.symmetry, cell, i, j),
         };
         let rows = double.ly() / 2 + 1;
         let table: Vec<f64> = (0..grid.nx * rows)
@@ -163,6 +175,19 @@ impl Elastic {
     }
 }
 
+/// The influence of `P − (δx² + δy²)P/24`, from that of a cell.
+fn sharpened(symmetry: Symmetry, cell: impl Fn(usize, usize) -> f64, i: usize, j: usize) -> f64 {
+    let here = cell(i, j);
+    let along = cell(i + 1, j) + cell(i.abs_diff(1), j) - 2.0 * here;
+    let across = match symmetry {
+        Symmetry::Line => 0.0,
+        Symmetry::MirrorY | Symmetry::General => {
+            cell(i, j + 1) + cell(i, j.abs_diff(1)) - 2.0 * here
+        }
+    };
+    here - (along + across) / 24.0
+}
+
 /// The macroscopic gap `X²/2 + c_y Y²/2`.
 pub fn macroscopic_gap(grid: &Grid, curvature_y: f64, out: &mut [f64]) {
     for (j, row) in out.chunks_exact_mut(grid.nx).enumerate() {
@@ -185,6 +210,28 @@ mod tests {
         assert!((cell_potential(0.0, 0.0, 1.0, 1.0) - exact).abs() < 1e-14);
         // Far away: area over distance.
         assert!((cell_potential(30.0, 40.0, 1.0, 1.0) * 50.0 - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn the_sharpened_kernel_is_of_higher_order() {
+        // Under exp(−r²/2w²) the middle sinks by ∬ p/r = 2π w √(π/2).
+        let width = 0.3_f64;
+        let exact = std::f64::consts::TAU * width * std::f64::consts::FRAC_PI_2.sqrt();
+        let error = |nodes: usize, order: Order| {
+            let grid = Grid::new(nodes, -2.0, 2.0, 2.0, Symmetry::General);
+            let at = |n: usize| grid.x(n % nodes).powi(2) + grid.y(n / nodes).powi(2);
+            let p: Vec<f64> = (0..grid.len())
+                .map(|n| (-at(n) / (2.0 * width * width)).exp())
+                .collect();
+            let mut u = vec![0.0; grid.len()];
+            Elastic::of_order(&grid, 1.0, order).deflect(&p, &mut u);
+            (u[grid.len() / 2] / exact - 1.0).abs()
+        };
+        let of = |order| [33, 65].map(|nodes| error(nodes, order));
+        let (second, high) = (of(Order::Second), of(Order::High));
+        println!("second {second:?}, high {high:?}");
+        assert!(second[0] / second[1] > 3.5 && second[0] / second[1] < 4.5);
+        assert!(high[0] < 0.2 * second[0] && high[0] / high[1] > 7.0);
     }
 
     #[test]

@@ -2,25 +2,25 @@
 //!
 //! ```text
 //! U ∂x(ρh) + ∂t(ρh) = d(ρh)/dt along the mean speed
-//! C* = c1 + θ_s ω²/(1+2ω) (c1 − c2),   c1 = c(X−ΔT, T−ΔT),  c2 = c(X−ΔT−ΔT', T−ΔT−ΔT')
-//! s  = ΔT (1+ω)/(1+2ω) for θ_s = 1,   ω = ΔT/ΔT'
+//! C* = c1 + θ_s (v1 c1 + v2 c2 + v3 c3 − c1),   c_k = ρ̄H of the k-th last step, as far upstream as oil came since
+//! s  = ΔT [1 + θ_s (v0 − 1)]
+//! BDF2  v1 = 1 + w, v2 = −w, v3 = 0, v0 = (1+ω)/(1+2ω),   w = ω²/(1+2ω),  ω = ΔT/ΔT';   BDF3  [`formula`]
 //! ```
 //! With `c = ρ̄H` stored at each step, ΔT = dX shifts by exactly one node: no numerical diffusion.
 //! Local error of the step, from one more past mass:
 //! ```text
 //! e = ΔT³ (1+ω)²/(ω(1+2ω)) |c[T, T−ΔT, T−ΔT−ΔT', ...]|        (third divided difference along the path)
 //! ```
-//! Fractions of a node are interpolated (`shift.rs`), not below 0. For equal steps this is BDF2:
-//! `C* = (4 c1 − c2)/3, s = 2ΔT/3`. Where extrapolation would more than halve c1 the weight θ_s
+//! Fractions of a node are interpolated (`shift.rs`), not below 0. For equal steps BDF2 is
+//! `C* = (4 c1 − c2)/3, s = 2ΔT/3` and BDF3 `C* = (18 c1 − 9 c2 + 2 c3)/11, s = 6ΔT/11`. Where extrapolation would more than halve c1 the weight θ_s
 //! goes down and the formula towards backward Euler, node by node, each with its own s: nothing is
-//! clipped. Order 2 in time. Test: `tests/engine/ehl_transient.rs`.
+//! clipped. Order 2 or 3 in time ([`Past`]). Test: `tests/engine/ehl_transient.rs`.
 //!
-//! BDF3 was tried: it takes the time error of the central film at one node a step from 7 % to 1 % (default scene, 129
-//! nodes). But what the mesh errs by, in the other sign, then stands alone: with BDF2 the two shrink together at
-//! second order, and thin films on coarse grids come out within a tenth; with BDF3 (as with BDF2 at quarter steps) they
-//! come out up to 80 % too thick. So second order stays.
+//! BDF3 takes the time error of the central film at one node a step from 7 % to 1 % (default scene, 129 nodes). By itself
+//! it is no gain: what the flow errs by on the mesh, in the other sign, then stands alone. It goes with the flow of higher
+//! order (`reynolds/deferred.rs`).
 //!
-//! Sources: Hairer, Nørsett and Wanner (1993), *Solving Ordinary Differential Equations I*, §III.5, for BDF2 with steps of two lengths.
+//! Sources: Hairer, Nørsett and Wanner (1993), *Solving Ordinary Differential Equations I*, §III.5, for BDF2 and BDF3 with steps of several lengths.
 //! Ours: the weight θ_s, which takes BDF2 to backward Euler where two past masses extrapolate below half of the last.
 
 use serde::{Deserialize, Serialize};
@@ -29,6 +29,7 @@ use rayon::prelude::*;
 
 use super::shift::Shift;
 use crate::math::grid::Grid;
+use crate::scene::Order;
 
 /// Pressure below which ripples count as absolute, not relative. Enters the first guess of a step, and which
 /// nodes the error in time is a mean of; not what a step converges to. Untuned: a fiftieth of p_h.
@@ -37,14 +38,25 @@ const FLOOR: f64 = 0.02;
 /// untuned.
 const SLOW_NODES: f64 = 32.0;
 
-/// Convected mass of two past steps, and the ripple of two past pressures for the predictor.
+/// Past steps, in nodes, that a step's formula makes use of, the last one first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Past {
+    /// Backward Euler, whose C* is never extrapolated.
+    One,
+    /// BDF2.
+    Two(f64),
+    /// BDF3.
+    Three(f64, f64),
+}
+
+/// Convected mass of three past steps, and the ripple of two past pressures for the predictor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// ρ̄H one step back, shape ny × nx.
     pub mass_1: Vec<f64>,
     /// ρ̄H two steps back.
     pub mass_2: Vec<f64>,
-    /// ρ̄H three steps back, for the local error alone.
+    /// ρ̄H three steps back.
     pub mass_3: Vec<f64>,
     /// Pressure one step back.
     pub pressure_1: Vec<f64>,
@@ -101,25 +113,38 @@ impl History {
         .all(|field| field.len() == len)
     }
 
-    /// C* and s for a step of `nodes` nodes after one of `before` nodes: the last one, or 0 for backward Euler.
+    /// Past of which a step of `nodes` nodes makes use for this order: of order 3 where the steps do not grow so fast that
+    /// the formula is unstable (by 1.534 each: Calvo, Grande & Grigorieff 1990).
+    pub fn past(&self, order: Order, nodes: f64) -> Past {
+        /// Growth of steps up to which BDF3 is used.
+        const MOST_GROWTH: f64 = 1.5;
+        let (last, earlier) = (self.last_nodes, self.earlier_nodes);
+        let grows = nodes > MOST_GROWTH * last || last > MOST_GROWTH * earlier;
+        match order {
+            Order::High if earlier > 0.0 && !grows => Past::Three(last, earlier),
+            Order::Second | Order::High if last > 0.0 => Past::Two(last),
+            Order::Second | Order::High => Past::One,
+        }
+    }
+
+    /// C* and s for a step of `nodes` nodes after such a past.
     pub fn convect(
         &self,
         grid: &Grid,
-        (nodes, before): (f64, f64),
+        (nodes, past): (f64, Past),
         c_star: &mut [f64],
         s: &mut [f64],
     ) {
         let dt = nodes * grid.dx;
-        let (weight, implicit) = if before > 0.0 {
-            let omega = nodes / before;
-            (
-                omega * omega / (1.0 + 2.0 * omega),
-                (1.0 + omega) / (1.0 + 2.0 * omega),
-            )
-        } else {
-            (0.0, 1.0)
+        let ([_, v2, v3], implicit) = formula(nodes, past);
+        let (before, earlier) = match past {
+            Past::One => (0.0, 0.0),
+            Past::Two(last) => (last, 0.0),
+            Past::Three(last, earlier) => (last, earlier),
         };
         let (back_1, back_2) = (Shift::new(nodes), Shift::new(nodes + before));
+        let back_3 = Shift::new(nodes + before + earlier);
+        let is_third = matches!(past, Past::Three(..));
         let nx = grid.nx;
         let rows = c_star.par_chunks_mut(nx).zip(s.par_chunks_mut(nx));
         rows.enumerate()
@@ -127,10 +152,15 @@ impl History {
             .for_each(|(j, (c_star, s))| {
                 let row_1 = &self.mass_1[j * nx..(j + 1) * nx];
                 let row_2 = &self.mass_2[j * nx..(j + 1) * nx];
+                let row_3 = &self.mass_3[j * nx..(j + 1) * nx];
                 for i in 0..nx {
                     let c1 = back_1.of(row_1, i).max(0.0);
                     let c2 = back_2.of(row_2, i).max(0.0);
-                    let extra = weight * (c1 - c2);
+                    // The weights add up to 1.
+                    let mut extra = -v2 * (c1 - c2);
+                    if is_third {
+                        extra -= v3 * (c1 - back_3.of(row_3, i).max(0.0));
+                    }
                     let theta = if extra < -0.5 * c1 {
                         -0.5 * c1 / extra
                     } else {
@@ -247,6 +277,29 @@ impl History {
     }
 }
 
+/// Weights of c1, c2, c3 and s/ΔT of the backward differentiation formula for a step of `nodes` nodes.
+fn formula(nodes: f64, past: Past) -> ([f64; 3], f64) {
+    match past {
+        Past::One => ([1.0, 0.0, 0.0], 1.0),
+        Past::Two(last) => {
+            let omega = nodes / last;
+            let weight = omega * omega / (1.0 + 2.0 * omega);
+            let implicit = (1.0 + omega) / (1.0 + 2.0 * omega);
+            ([1.0 + weight, -weight, 0.0], implicit)
+        }
+        Past::Three(last, earlier) => {
+            // Slope at 0 of the cubic through its values at 0, −a, −b, −c.
+            let (a, b) = (nodes, nodes + last);
+            let c = b + earlier;
+            let own = 1.0 / a + 1.0 / b + 1.0 / c;
+            let v1 = b * c / (a * (b - a) * (c - a));
+            let v2 = -a * c / (b * (b - a) * (c - b));
+            let v3 = a * b / (c * (c - a) * (c - b));
+            ([v1 / own, v2 / own, v3 / own], 1.0 / (own * a))
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -266,11 +319,41 @@ mod tests {
         history.mass_2 = row(1.0);
         history.last_nodes = 0.5;
         let (mut c, mut s) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
-        history.convect(&grid, (0.5, history.last_nodes), &mut c, &mut s);
+        history.convect(&grid, (0.5, Past::Two(history.last_nodes)), &mut c, &mut s);
         for n in 5..30 {
             assert!((c[n] - cubic(grid.x(n))).abs() < 1e-10);
             assert!((s[n] - 0.5 * grid.dx * 2.0 / 3.0).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn the_third_order_formula_is_exact_for_cubics_in_time() {
+        let ([v1, v2, v3], implicit) = formula(1.0, Past::Three(1.0, 1.0));
+        for (got, exact) in [(v1, 18.0), (v2, -9.0), (v3, 2.0), (implicit, 6.0)] {
+            assert!((got - exact / 11.0).abs() < 1e-14);
+        }
+        // Uneven steps: c = t³ at t = 0 after c at −a, −b, −c.
+        let (a, b, c) = (0.7_f64, 0.7 + 0.5, 0.7 + 0.5 + 0.9);
+        let ([v1, v2, v3], implicit) = formula(0.7, Past::Three(0.5, 0.9));
+        for power in 0..4 {
+            let value = |t: f64| t.powi(power);
+            let slope = if power == 1 { 1.0 } else { 0.0 };
+            let past = v1 * value(-a) + v2 * value(-b) + v3 * value(-c);
+            let left = past + implicit * a * slope - value(0.0);
+            assert!(left.abs() < 1e-14, "{power}: {left}");
+        }
+    }
+
+    #[test]
+    fn fast_growing_steps_are_second_order() {
+        let mut history = History::steady(&[1.0], &[0.0], 0.0);
+        assert_eq!(history.past(Order::High, 1.0), Past::One);
+        history.last_nodes = 1.0;
+        assert_eq!(history.past(Order::High, 1.0), Past::Two(1.0));
+        history.earlier_nodes = 1.0;
+        assert_eq!(history.past(Order::High, 1.0), Past::Three(1.0, 1.0));
+        assert_eq!(history.past(Order::High, 1.6), Past::Two(1.0));
+        assert_eq!(history.past(Order::Second, 1.0), Past::Two(1.0));
     }
 
     #[test]
@@ -291,7 +374,7 @@ mod tests {
             let error = history.path_error(&grid, (&now, &pressed), nodes);
             // BDF2 with the exact slope 3 g t² at the new time.
             let (mut c, mut s) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
-            history.convect(&grid, (nodes, last), &mut c, &mut s);
+            history.convect(&grid, (nodes, Past::Two(last)), &mut c, &mut s);
             let slope = 3.0 * g * nodes * nodes / grid.dx;
             let true_error = (c[8] + s[8] * slope - now[8]).abs() / now[8] / nodes;
             let ratio = error.expect("three steps") / true_error;

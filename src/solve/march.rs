@@ -21,6 +21,7 @@ use super::newton::{NewtonReport, Tolerance};
 use super::reynolds::Medium;
 use super::traction::TractionLaw;
 use crate::math::grid::Grid;
+use crate::scene::Order;
 
 /// What a restart needs: the last committed step and its past.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -107,6 +108,8 @@ pub struct Shape {
     pub b_over_a: f64,
     /// κ_s of the deflection by traction; 0: the bodies are alike.
     pub kappa_s: f64,
+    /// Order of the discretisation.
+    pub order: Order,
 }
 
 /// What a step is solved under.

@@ -29,11 +29,12 @@ use super::jacobian::Jacobian;
 use super::krylov::Krylov;
 use super::newton_rows::{film_row, move_pressure, set_rhs, split_row};
 use super::precondition::Preconditioner;
-use super::reynolds::{Linearisation, Medium, Reynolds};
+use super::reynolds::{Guessed, Linearisation, Medium, Reynolds};
 use super::tangential::Shear;
 pub use super::tangential::Sheared;
 use super::yielding::Yielding;
 use crate::math::grid::Grid;
+use crate::scene::Order;
 use judge::Evaluation;
 
 /// Most halvings of the line search; untuned.
@@ -85,6 +86,10 @@ pub struct Newton {
     krylov: Krylov,
     active: Vec<bool>,
     deflection: Vec<f64>,
+    /// Order of the flow.
+    pub order: Order,
+    /// C* with what the flow of second order lacks.
+    corrected: Vec<f64>,
     reference: Vec<f64>,
     old_p: Vec<f64>,
     v: Vec<f32>,
@@ -96,10 +101,15 @@ pub struct Newton {
 }
 
 impl Newton {
-    /// Makes all buffers; `s` is the usual effective step, for the preconditioner's symbols.
+    /// Second order: see [`Newton::of_order`].
     pub fn new(grid: &Grid, kappa: f64, s: f64) -> Self {
+        Self::of_order(grid, kappa, s, Order::Second)
+    }
+
+    /// Makes all buffers; `s` is the usual effective step, for the preconditioner's symbols.
+    pub fn of_order(grid: &Grid, kappa: f64, s: f64, order: Order) -> Self {
         let n = grid.len();
-        let elastic = Elastic::new(grid, kappa);
+        let elastic = Elastic::of_order(grid, kappa, order);
         let precondition = Preconditioner::new(grid, &elastic, kappa, s);
         Self {
             elastic,
@@ -111,6 +121,8 @@ impl Newton {
             krylov: Krylov::new(grid),
             active: vec![false; n],
             deflection: vec![0.0; n],
+            order,
+            corrected: vec![0.0; n],
             reference: vec![1.0; n],
             old_p: vec![0.0; n],
             v: vec![0.0; n],
@@ -150,7 +162,9 @@ impl Newton {
         if let Some(yielding) = &mut self.yielding {
             yielding.begin(iterate.p);
         }
+        self.corrected.copy_from_slice(problem.c_star);
         self.evaluate(problem, iterate, &mut report);
+        self.correct(problem, iterate);
         self.begin_traction(problem, iterate);
         let mut now = self.judge_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
@@ -205,6 +219,22 @@ impl Newton {
         self.balance(problem, iterate);
     }
 
+    /// Lays what the flow of second order lacks, at the first guess, into C* for the whole step.
+    fn correct(&mut self, problem: &Problem, iterate: &Iterate) {
+        // Dry: nothing flows.
+        if self.order == Order::Second || problem.medium.lambda.is_infinite() {
+            return;
+        }
+        let at = Guessed {
+            p: iterate.p,
+            h: iterate.h,
+            c_star: problem.c_star,
+            s: problem.s,
+        };
+        self.reynolds
+            .correct(problem.grid, &at, &mut self.corrected);
+    }
+
     /// Properties, F and D of pressure and film.
     fn balance(&mut self, problem: &Problem, iterate: &Iterate) {
         let grid = problem.grid;
@@ -216,7 +246,7 @@ impl Newton {
             problem.medium.lambda,
             iterate.p,
             iterate.h,
-            problem.c_star,
+            &self.corrected,
             problem.s,
         );
     }
@@ -260,7 +290,7 @@ impl Newton {
         let at = Linearisation {
             p: iterate.p,
             h: iterate.h,
-            c_star: problem.c_star,
+            c_star: &self.corrected,
             s: problem.s,
             lambda: problem.medium.lambda,
             k00: self.elastic.k00,

@@ -15,15 +15,17 @@
 //! | D | ρ̄K00 + s Σ τ/d²: turns F into pressure units, F/D | ny × nx |
 //!
 //! The harmonic mean lets no flow through a touching node; the logarithmic mean is exact for Barus'
-//! law along a line of constant flow. There is no floor on H: H ≤ 0 has no conductance. As τ → 0 the
+//! law along a line of constant flow. What both lack beyond second order is added where films are smooth (`deferred.rs`). There is no floor on H: H ≤ 0 has no conductance. As τ → 0 the
 //! equation is the dry contact condition ρ̄H = C* ≥ 0. Second order. Tests: `tests/engine/ehl_smooth.rs`.
 //! Sources: Venner and Lubrecht (2000) for the scaling; Hu and Zhu (2000) for the unified view.
 
 mod closing;
+mod deferred;
 mod linearise;
 
 use rayon::prelude::*;
 
+pub use deferred::Guessed;
 pub use linearise::Linearisation;
 
 use super::faces::{Faces, conductances};

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::physics::groups::OperatingPoint;
+use asperity::scene::Order;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{
     Iterate, Newton, NewtonReport, Problem, Sheared, Tolerance, Verdict,
@@ -73,6 +74,7 @@ pub(crate) const CIRCLE: Shape = Shape {
     curvature_y: 1.0,
     b_over_a: 1.0,
     kappa_s: 0.0,
+    order: Order::Second,
 };
 
 pub(crate) const LOAD: f64 = 2.0 * PI / 3.0;

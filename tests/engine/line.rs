@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use crate::common::contact::{DRY, Fluid, converged, steady};
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::plan::{LINE_ROWS, Plan};
-use asperity::scene::{ContactKind, Override, Scene, StressMeasure};
+use asperity::scene::{ContactKind, Order, Override, Scene, StressMeasure};
 use asperity::sim::{Frame, Knob, Simulation};
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{NewtonReport, Tolerance, Verdict};
@@ -18,6 +18,7 @@ const LINE: Shape = Shape {
     curvature_y: 0.0,
     b_over_a: 1.0,
     kappa_s: 0.0,
+    order: Order::Second,
 };
 
 /// ∫ √(1 − X²) dX.

@@ -19,6 +19,7 @@ mod ladder;
 mod line;
 mod lubricants;
 mod motions;
+mod order;
 mod peers;
 mod plan;
 mod pruning;

@@ -18,6 +18,7 @@ use std::time::Instant;
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::physics::stress_exact::hertz_axis_maximum;
+use asperity::scene::Order;
 use asperity::solve::dry::{Dry, DryProblem};
 use asperity::solve::film::Elastic;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
@@ -120,6 +121,7 @@ fn hertz(n: usize, tolerance: f64) -> Result<Row, String> {
         curvature_y: 1.0,
         b_over_a: 1.0,
         kappa_s: 0.0,
+        order: Order::Second,
     };
     let medium = Medium {
         viscosity: Viscosity::Barus { alpha_p: 0.0 },

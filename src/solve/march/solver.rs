@@ -4,12 +4,13 @@
 
 use super::super::dry::Dry;
 use super::super::film::macroscopic_gap;
-use super::super::history::History;
+use super::super::history::{History, Past};
 use super::super::newton::{CARRIED, Iterate, Newton, NewtonReport, OVERLAP, Problem, Sheared};
 use super::super::tangential::{Shear, Tangential};
 use super::super::yielding::Yielding;
 use super::{Conditions, Flow, Guess, Shape, State};
 use crate::math::grid::Grid;
+use crate::scene::Order;
 
 /// A solution that nobody has committed yet.
 pub(super) struct Trial {
@@ -48,7 +49,8 @@ impl Solver {
     /// Makes all memory for `grid`; `nodes` is the usual step; `flow` whether there is a film at all.
     pub fn new(grid: Grid, shape: &Shape, nodes: f64, flow: Flow) -> Self {
         let zero = vec![0.0; grid.len()];
-        let mut newton = Newton::new(&grid, shape.kappa, 2.0 / 3.0 * nodes * grid.dx);
+        let mut newton =
+            Newton::of_order(&grid, shape.kappa, 2.0 / 3.0 * nodes * grid.dx, shape.order);
         if shape.kappa_s != 0.0 {
             let tangential = Tangential::new(&grid, shape.kappa_s);
             newton.shear = Some(Shear::new(&grid, tangential));
@@ -142,12 +144,12 @@ impl Solver {
         nodes: f64,
         guess: Guess,
     ) -> NewtonReport {
-        let second_order_after = state.history.last_nodes;
-        self.attempt_after(state, conditions, (nodes, second_order_after), guess)
+        let past = state.history.past(self.newton.order, nodes);
+        self.attempt_after(state, conditions, (nodes, past), guess)
     }
 
     /// A last try of a step of `nodes` nodes, with everything on the safe side: backward Euler, whose C* is
-    /// never extrapolated; the last pressure as first guess; the preconditioner's symbols made for this very
+    /// never extrapolated, and no correction of the flow; the last pressure as first guess; the preconditioner's symbols made for this very
     /// step, not for the usual one; three times the iterations.
     pub fn attempt_safely(
         &mut self,
@@ -159,17 +161,19 @@ impl Solver {
         self.set_symbols(nodes * dx);
         let mut patient = *conditions;
         patient.tolerance.max_iterations *= 3;
-        let report = self.attempt_after(state, &patient, (nodes, 0.0), Guess::Last);
+        let order = std::mem::replace(&mut self.newton.order, Order::Second);
+        let report = self.attempt_after(state, &patient, (nodes, Past::One), Guess::Last);
+        self.newton.order = order;
         self.set_symbols(2.0 / 3.0 * self.usual_nodes * dx);
         report
     }
 
-    /// Tries a step of so many nodes after one of so many (0: backward Euler).
+    /// Tries a step of so many nodes after such a past.
     fn attempt_after(
         &mut self,
         state: &State,
         conditions: &Conditions,
-        (nodes, before): (f64, f64),
+        (nodes, past): (f64, Past),
         guess: Guess,
     ) -> NewtonReport {
         let history = &state.history;
@@ -181,7 +185,7 @@ impl Solver {
         if self.flow == Flow::Dry {
             return self.attempt_dry(conditions);
         }
-        history.convect(&self.grid, (nodes, before), &mut self.c_star, &mut self.s);
+        history.convect(&self.grid, (nodes, past), &mut self.c_star, &mut self.s);
         self.least_film = conditions.tolerance.least_film;
         let problem = Problem {
             grid: &self.grid,

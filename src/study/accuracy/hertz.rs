@@ -11,6 +11,7 @@ use std::f64::consts::PI;
 use super::row::{AccuracyRow, Against, Part, Timed, Varied, timed};
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
+use crate::scene::Order;
 use crate::solve::film::Elastic;
 use crate::solve::march::{Conditions, Flow, Guess, March, Shape};
 use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
@@ -22,6 +23,7 @@ pub(super) const CIRCLE: Shape = Shape {
     curvature_y: 1.0,
     b_over_a: 1.0,
     kappa_s: 0.0,
+    order: Order::Second,
 };
 /// ∬p of Hertz.
 pub(super) const LOAD: f64 = 2.0 * PI / 3.0;
