@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 mod circles;
+mod features;
 mod guide;
 mod provenance;
 

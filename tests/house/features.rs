@@ -1,0 +1,31 @@
+//! The tests ask nothing else of the program's dependencies: `cargo test` after `cargo build` compiles none again.
+
+use std::collections::BTreeSet;
+use std::process::Command;
+
+/// Every package that Cargo would build, with its version and features.
+fn packages(edges: &str) -> BTreeSet<String> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["tree", "--locked", "--offline", "--prefix", "none"])
+        .args(["--format", "{p}: {f}", "--edges", edges])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    let lines = String::from_utf8(output.stdout).unwrap();
+    let packages = lines.lines().map(|line| line.trim_end_matches(" (*)"));
+    packages.map(str::to_owned).collect()
+}
+
+#[test]
+fn tests_compile_no_dependency_again() {
+    let (program, tests) = (packages("normal"), packages("normal,dev"));
+    assert!(program.len() > 50 && tests.len() > program.len());
+    let others: Vec<&String> = program.difference(&tests).collect();
+    assert!(
+        others.is_empty(),
+        "built with other features by the tests: {others:#?}"
+    );
+}
