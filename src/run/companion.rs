@@ -159,7 +159,11 @@ fn set_errors(fine: &mut Summary, coarse: &Summary, crest: Crest, order: Order) 
     let limit = |fine: f64, coarse: f64| limit(fine, coarse, order);
     let apart = |one: f64, two: f64| (one - two).abs();
     fine.error_h_central_m = Some(apart(fine.h_central_m, coarse.h_central_m));
-    fine.error_h_min_m = Some(EXTREMES * apart(fine.h_min_m, coarse.h_min_m));
+    // Both grids may meet the same least film by chance; what the inlet lets in too much or too little is in it all the same.
+    let inlet =
+        apart(fine.h_central_m, coarse.h_central_m) / fine.h_central_m.max(f64::MIN_POSITIVE);
+    let least = EXTREMES * apart(fine.h_min_m, coarse.h_min_m);
+    fine.error_h_min_m = Some(least.max(fine.h_min_m * inlet.min(1.0)));
     let ripple = (fine.p_max_pa - fine.p_hertz_pa).max(0.0);
     let missed = crest.hertz * fine.p_hertz_pa + crest.ripple * ripple;
     fine.error_p_max_pa = Some(EXTREMES * apart(fine.p_max_pa, coarse.p_max_pa) + missed);

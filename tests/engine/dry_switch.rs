@@ -90,9 +90,10 @@ fn nothing_jumps_where_the_film_is_given_up() {
             text.contains("less than one layer of molecules (0.4 nm): solved dry"),
             "{text}"
         );
-        let (life_wet, life_dry) = (wet.stress_factor.unwrap(), dry.stress_factor.unwrap());
+        // Life itself and not a factor of it: the body that governs may change, and with it the unit of its cycles.
+        let (life_wet, life_dry) = (wet.life_relative.unwrap(), dry.life_relative.unwrap());
         println!(
-            "{more:?} at {switch:.3e} m/s: pressure {:+.1} %, stress factor of life {:+.1} %",
+            "{more:?} at {switch:.3e} m/s: pressure {:+.1} %, life {:+.1} %",
             100.0 * (p_dry / p_wet - 1.0),
             100.0 * (life_dry / life_wet - 1.0)
         );
