@@ -17,6 +17,7 @@
 //! Source: Hintermüller, Ito and Kunisch (2002), SIAM J. Optim. 13, 865-888: the active set as a semi-smooth Newton method.
 //! Ours: the border of the load, the film as unknown at the upper bound, what is carried over.
 
+mod correct;
 mod follow;
 mod judge;
 
@@ -29,7 +30,7 @@ use super::jacobian::Jacobian;
 use super::krylov::Krylov;
 use super::newton_rows::{film_row, move_pressure, set_rhs, split_row};
 use super::precondition::Preconditioner;
-use super::reynolds::{Guessed, Linearisation, Medium, Reynolds};
+use super::reynolds::{Linearisation, Medium, Reynolds};
 use super::tangential::Shear;
 pub use super::tangential::Sheared;
 use super::yielding::Yielding;
@@ -217,22 +218,6 @@ impl Newton {
             yielding.add_to(iterate.p, iterate.h);
         }
         self.balance(problem, iterate);
-    }
-
-    /// Lays what the flow of second order lacks, at the first guess, into C* for the whole step.
-    fn correct(&mut self, problem: &Problem, iterate: &Iterate) {
-        // Dry: nothing flows.
-        if self.order == Order::Second || problem.medium.lambda.is_infinite() {
-            return;
-        }
-        let at = Guessed {
-            p: iterate.p,
-            h: iterate.h,
-            c_star: problem.c_star,
-            s: problem.s,
-        };
-        self.reynolds
-            .correct(problem.grid, &at, &mut self.corrected);
     }
 
     /// Properties, F and D of pressure and film.

@@ -272,6 +272,10 @@ fn against_lambda(
             curve.points.sort_by(|one, two| one.0.total_cmp(&two.0));
         }
         figure.curves.retain(|curve| curve.points.len() > 1);
+        // Friction falls and life rises with the film.
+        if name != "stribeck" {
+            figure.legend = Corner::UpperLeft;
+        }
         let is_drawn = !figure.curves.is_empty();
         is_drawn.then(|| (name.to_owned(), figure))
     };

@@ -208,11 +208,17 @@ fn life_falls_with_sliding_and_more_for_the_slower_body() {
     );
     assert_eq!(rows.worst(), CaseEnd::Converged);
     let column = |name: &str| rows.column(&sweep, name).unwrap();
-    let (life, slower, faster) = (
-        column("life_relative"),
-        column("life_body_1"),
-        column("life_body_2"),
-    );
+    let life = column("life_relative");
+    // In own loading cycles; the table has those of the faster body.
+    let own = |name: &str, sign: f64| -> Vec<f64> {
+        let speeds =
+            [-1.0, -0.5, 0.0, 0.5, 1.0].map(|s: f64| (1.0 + 0.5 * sign * s, 1.0 + 0.5 * s.abs()));
+        let lives = column(name).into_iter().zip(speeds);
+        lives
+            .map(|(life, (own, fastest))| life * own / fastest)
+            .collect()
+    };
+    let (slower, faster) = (own("life_body_1", -1.0), own("life_body_2", 1.0));
     println!("life {life:?}\nbody 1 {slower:?}\nbody 2 {faster:?}");
     assert!(life[2] > life[3] && life[3] > life[4], "S > 0: {life:?}");
     assert!(life[2] > life[1] && life[1] > life[0], "S < 0: {life:?}");

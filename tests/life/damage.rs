@@ -91,6 +91,26 @@ fn life_falls_with_sliding_and_with_roughness() {
     falls(&[1e-7, 2e-7, 3e-7, 4.5e-7].map(|a| case(0.5, a)));
 }
 
+/// As in every experiment. (With one viscosity in both directions it does not: `assets/reports/lambda.md`.)
+#[test]
+fn life_rises_with_the_film() {
+    let case = |speed_m_s: f64| {
+        let sets = [
+            "life.spread=off".to_owned(),
+            "life.damage_map=off".to_owned(),
+            format!("motion.entrainment_m_s={speed_m_s}"),
+        ];
+        let out = run("demonstration", &sets);
+        let (lambda, life) = (out.lambda_ratio.unwrap(), out.life_relative.unwrap());
+        println!("U = {speed_m_s} m/s, lambda {lambda:.3}: life {life:.3}");
+        life
+    };
+    let lives = [0.02, 0.1, 0.5, 2.0].map(case);
+    for pair in lives.windows(2) {
+        assert!(pair[1] > 1.02 * pair[0], "{lives:?}");
+    }
+}
+
 #[test]
 fn no_slide_to_roll_ratio_is_a_jump() {
     let life = |s: f64| {

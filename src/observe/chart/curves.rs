@@ -44,6 +44,8 @@ pub(crate) struct Curve {
 pub(crate) enum Corner {
     /// Curves that fall leave it free.
     UpperRight,
+    /// Curves that rise leave it free.
+    UpperLeft,
     /// Curves that start high leave it free.
     LowerLeft,
 }
@@ -138,6 +140,7 @@ impl Chart for Figure {
                 .configure_series_labels()
                 .position(match self.legend {
                     Corner::UpperRight => SeriesLabelPosition::UpperRight,
+                    Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
                     Corner::LowerLeft => SeriesLabelPosition::LowerLeft,
                 })
                 .background_style(WHITE.mix(0.85))

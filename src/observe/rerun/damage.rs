@@ -11,8 +11,9 @@ use rerun::{Rgba32, SegmentationImage};
 
 use super::colour::{BACKGROUND, GREEN, WHITE, faded};
 use super::depths::Depths;
+use super::picture::{Field, Pixels, Scale, Sign};
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Height, Raster};
 use super::stream::Stream;
 use super::waiting::ClassImage;
 use crate::math::number::sig;

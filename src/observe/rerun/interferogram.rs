@@ -15,8 +15,8 @@ use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, Segmenta
 
 use super::colour::{GREY, WHITE};
 use super::geometry::Geometry;
+use super::picture::{Pixels, log_styled};
 use super::plot::{Labels, PlotBox, ticks_at};
-use super::raster::{Pixels, log_styled};
 use super::stream::Stream;
 use super::waiting::ClassImage;
 use crate::observe::ObserveError;

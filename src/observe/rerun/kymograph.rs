@@ -10,8 +10,9 @@ use rerun::components::Colormap;
 
 use super::colour::WHITE;
 use super::geometry::Geometry;
+use super::picture::{Pixels, Scale, Sign};
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Height, Raster};
 use super::stream::{Holds, Stream};
 use crate::observe::ObserveError;
 use crate::observe::scales::{GPA, UM, ticks};

@@ -4,8 +4,8 @@ use rerun::ChannelDatatype;
 use rerun::components::ImageFormat;
 
 use super::colour::WHITE;
+use super::picture::{Pixels, Scale, Sign, log_styled, range, styled};
 use super::plot::{Labels, PlotBox};
-use super::raster::{Pixels, Scale, Sign, log_styled, range, styled};
 use super::stream::{Holds, Stream};
 use crate::observe::ObserveError;
 use crate::observe::scales::{divisions, number};

@@ -6,8 +6,9 @@ use rerun::{AnnotationContext, AsComponents, ChannelDatatype, Rgba32, Segmentati
 use super::colour::WHITE;
 use super::geometry::Geometry;
 use super::interferogram::Interferogram;
+use super::picture::{Field, Pixels, Scale, Sign};
 use super::plot::{Hertz, PlotBox, ticks_at};
-use super::raster::{Field, Height, Pixels, Raster, Scale, Sign};
+use super::raster::{Height, Raster};
 use super::stream::Stream;
 use super::text::Widened;
 use super::waiting::ClassImage;

@@ -29,6 +29,7 @@ mod mesh;
 mod message;
 mod moment;
 mod note;
+mod picture;
 mod plot;
 mod properties;
 mod raster;

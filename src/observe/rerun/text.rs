@@ -6,7 +6,7 @@ use rerun::components::MediaType;
 use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
 
 use super::note::Note;
-use super::raster::{Beyond, Scale};
+use super::picture::{Beyond, Scale};
 use super::stream::Stream;
 use crate::math::number::{counted, seconds, sig, sig_or_dash};
 use crate::observe::scales::number;

@@ -3,7 +3,7 @@
 //! Part of `material.rs`.
 
 use super::{DamageBasis, MaterialTracker, Tally};
-use crate::solve::tally::{History, mean};
+use crate::solve::tally::mean;
 
 impl MaterialTracker {
     /// Mean over the points' last whole crossings of the pressure's cycles; `None` until one is finished.
@@ -71,20 +71,25 @@ impl MaterialTracker {
         true
     }
 
-    /// Mean damage of the greatest cycle of a crossing at depth `k`, of all that the small ones come from: the last crossings
-    /// alone may be milder than those before, where surfaces run in, by orders of magnitude to the power of c. Of what all points together saw, where none has ended.
+    /// Mean damage of the greatest cycle of a crossing at depth `k`: of all whole crossings, not of each point's last, which are
+    /// milder where surfaces run in. As long as not every point has finished one, what all points together saw stands for the
+    /// rest: those in the valleys of their own surface alone would be milder than the crests by orders of magnitude to the power of c.
     fn greatest_damage(&self, k: usize) -> f64 {
-        if self.crossings > 0 {
-            return self.greatest[k] / self.crossings as f64;
+        let share = (self.crossings as f64 / self.points.len().max(1) as f64).min(1.0);
+        let finished = match self.crossings {
+            0 => 0.0,
+            n => self.greatest[k] / n as f64,
+        };
+        if share >= 1.0 {
+            return finished;
         }
-        let exponent = self.spec.damage_exponent;
-        let histories = || self.points.iter().map(|point| &point.shear[k]);
-        // Points that stand each see one place; a crossing sees all of them.
-        let (low, high) = histories()
-            .map(History::ends)
+        let (low, high) = self
+            .points
+            .iter()
+            .map(|point| point.shear[k].ends())
             .fold((0.0_f64, 0.0_f64), |all, ends| {
                 (all.0.min(ends.0), all.1.max(ends.1))
             });
-        (high - low).powf(exponent)
+        share * finished + (1.0 - share) * (high - low).powf(self.spec.damage_exponent)
     }
 }

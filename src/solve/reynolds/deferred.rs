@@ -10,9 +10,12 @@
 //! ```
 //! The harmonic mean of ρ̄H³ errs by (dX H'/H)²: in the inlet, whose length is of H_c^(2/3), that is the rule for the error
 //! of the film on a mesh (`plan/truncation.rs`). A flow through faces loses no oil. e is taken at the first guess of a step
-//! and held (deferred correction: Stetter 1978), so that Newton's matrix stays what it is; a steady film is its own first
+//! and held, so that Newton's matrix stays what it is; a steady film is its own first
 //! guess. There is none where one of the four nodes around has no pressure or no film, and it is bounded by the flow itself
 //! and by the oil of both nodes, so that C* stays above 0 and films that close stay with the harmonic mean, which cannot leak.
+//!
+//! Source: Stetter (1978), *The defect correction principle and discretization methods*, Numer. Math. 29, for correcting a scheme by
+//! the residual of a better one. Ours: the resistance in place of the fluidity, and the bounds.
 //!
 //! Tried and left: 1/H³ integrated for a film that is linear between nodes, in place of the harmonic mean in every iteration:
 //! crests then leak, films close that are 25 nm thick, and steps take forty times the iterations.
