@@ -227,11 +227,12 @@ mod tests {
             Elastic::of_order(&grid, 1.0, order).deflect(&p, &mut u);
             (u[grid.len() / 2] / exact - 1.0).abs()
         };
-        let of = |order| [33, 65].map(|nodes| error(nodes, order));
+        let of = |order| [33, 65, 129].map(|nodes| error(nodes, order));
         let (second, high) = (of(Order::Second), of(Order::High));
         println!("second {second:?}, high {high:?}");
-        assert!(second[0] / second[1] > 3.5 && second[0] / second[1] < 4.5);
-        assert!(high[0] < 0.2 * second[0] && high[0] / high[1] > 7.0);
+        // At 33 nodes, five a half-width, the order is not yet the one of fine meshes.
+        assert!(second[0] / second[1] > 3.0 && (3.5..4.5).contains(&(second[1] / second[2])));
+        assert!(high[0] < 0.3 * second[0] && high[0] / high[1] > 7.0 && high[1] / high[2] > 7.0);
     }
 
     #[test]

@@ -344,7 +344,6 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
                 life_damage: Some(0.9 * peak_factor * traction_factor),
                 ..LifeDetail::default()
             },
-            ..LifeEstimate::default()
         }),
         n_body_1: Some(n_1),
         n_body_2: Some(n_2),
