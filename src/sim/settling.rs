@@ -61,8 +61,9 @@ impl Settling {
         damage: Option<(&Marks, f64)>,
         is_smooth: bool,
     ) {
-        // The first steps of a run: the start-up has solved the steady contact, and nothing passes through it.
-        if is_smooth && repeat.is_some_and(|r| r.rhythm == Rhythm::Steady && r.drift.is_none()) {
+        // The first steps of a run, of which nothing is known yet: the start-up has solved the steady contact, and nothing
+        // passes through it.
+        if is_smooth && repeat.is_none_or(|repeat| repeat.drift.is_none()) {
             self.settled = true;
             return;
         }

@@ -5,7 +5,7 @@
 
 use asperity::plan::Plan;
 use asperity::scene::{Override, Scene, Surface};
-use asperity::sim::{Knob, LifeEstimate, Simulation, Stage, State};
+use asperity::sim::{CautionCode, Knob, LifeEstimate, Simulation, Stage, State};
 
 fn scene(name: &str, sets: &[&str]) -> Scene {
     let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
@@ -207,4 +207,23 @@ fn no_step_of_a_ramp_is_in_a_mean() {
         }
     }
     assert!(way - walked.unwrap() > 4.0);
+}
+
+/// The start-up of a smooth contact ends where it stays: the plan makes one step of it, and its life is the result.
+#[test]
+fn a_smooth_contact_is_settled_at_once() {
+    let smooth = ["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"];
+    for name in ["demonstration", "ball_bearing", "fzg_point_b"] {
+        for count in ["life.cycles=damage", "life.cycles=global"] {
+            let scene = scene(name, &[smooth[0], smooth[1], count, "grid.nodes=65"]);
+            let mut sim = simulation(&scene);
+            while !sim.is_done() {
+                sim.step().unwrap();
+            }
+            let life = sim.metrics().life.unwrap();
+            let codes: Vec<_> = sim.summary().cautions.iter().map(|c| c.code).collect();
+            println!("{name}, {count}: {} steps, {life:?}", sim.passage_steps());
+            assert!(life.settled && !codes.contains(&CautionCode::NotSettled));
+        }
+    }
 }
