@@ -100,8 +100,12 @@ impl Scope {
             return false;
         }
         self.turned = turned;
-        self.to_come = ToCome::of(scene, &self.first, turned);
-        let ranges = Ranges::of(&self.first, &self.to_come);
+        let to_come = ToCome::of(scene, &self.first, turned);
+        if to_come == self.to_come {
+            return false;
+        }
+        let ranges = Ranges::of(&self.first, &to_come);
+        self.to_come = to_come;
         std::mem::replace(&mut self.ranges, ranges) != ranges
     }
 }

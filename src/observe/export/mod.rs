@@ -202,7 +202,7 @@ fn write_frame(file: File, frame: &Frame) -> std::io::Result<u64> {
 impl Observer for Export {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
         self.scene_toml.clone_from(&context.scene_toml);
-        self.pictures = Pictures::new(&context.scene.title);
+        self.pictures = Pictures::new(&context.scene);
         Ok(())
     }
 

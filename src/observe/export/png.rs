@@ -1,13 +1,13 @@
 //! Pictures of chosen steps as PNG: the maps of the contact, the stress below it and the classic figure of the
 //! centre line. Each has its axes in mm, a colour bar with the unit, the scene's name and the state; colours have
-//! the same range in every step.
+//! the range of all that the scene's script can bring, and of what a knob was turned to so far.
 
 use std::path::{Path, PathBuf};
 
 use super::drawing::{Curve, Drawing, Figure, Map, Right};
 use crate::observe::ramp::Ramp;
 use crate::observe::scales::{GPA, MM, MPA, Ranges, Scope, UM, number};
-use crate::scene::ContactKind;
+use crate::scene::{ContactKind, Scene};
 use crate::sim::{Frame, StressSlice};
 
 /// Rows of a slice's picture.
@@ -16,16 +16,16 @@ const SLICE_ROWS: usize = 192;
 /// Draws the pictures of a run.
 #[derive(Debug, Default)]
 pub(super) struct Pictures {
-    scene: String,
-    ranges: Option<Ranges>,
+    scene: Option<Scene>,
+    scope: Option<Scope>,
 }
 
 impl Pictures {
-    /// Pictures of the scene of that name.
-    pub(super) fn new(scene: &str) -> Self {
+    /// Pictures of that scene.
+    pub(super) fn new(scene: &Scene) -> Self {
         Self {
-            scene: scene.to_owned(),
-            ranges: None,
+            scene: Some(scene.clone()),
+            scope: None,
         }
     }
 
@@ -59,12 +59,14 @@ impl Pictures {
         subject: Subject,
         file: &Path,
     ) -> Result<(), String> {
-        let ranges = *self
-            .ranges
-            .get_or_insert_with(|| Scope::of(None, frame).ranges);
+        let scene = self.scene.as_ref();
+        let scope = self.scope.get_or_insert_with(|| Scope::of(scene, frame));
+        scope.grows(scene, &frame.metrics);
+        let ranges = scope.ranges;
+        let name = scene.map_or("", |scene| scene.title.as_str());
         let drawing = Drawing {
             file,
-            title: format!("{}: {}", self.scene, subject.title()),
+            title: format!("{name}: {}", subject.title()),
             state: state(frame),
         };
         match subject {
