@@ -10,7 +10,7 @@ use asperity::observe::Overwrite;
 use asperity::run::{Activity, Command, Ending, Request, RunError, Session, Status};
 use asperity::sweep::{Background, Ground};
 use asperity::tui::{
-    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, TuiError, Wiring,
+    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, TuiError, Wiring,
 };
 use miette::miette;
 
@@ -202,20 +202,22 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     let shown = recording.clone();
     let name = prepared.name.clone();
     Wiring {
-        scene: prepared.scene.clone(),
-        name: prepared.name.clone(),
-        load_n: plan.force_n,
-        half_width_m: plan.hertz.a_m,
-        p_hertz_pa: plan.hertz.p_max_pa,
-        plan_text: plan.to_string(),
-        left_out: plan
-            .left_out
-            .iter()
-            .map(|item| LeftOut {
-                stage: item.stage.to_owned(),
-                reason: item.why.clone(),
-            })
-            .collect(),
+        setup: Setup {
+            scene: prepared.scene.clone(),
+            name: prepared.name.clone(),
+            load_n: plan.force_n,
+            half_width_m: plan.hertz.a_m,
+            p_hertz_pa: plan.hertz.p_max_pa,
+            plan_text: plan.to_string(),
+            left_out: plan
+                .left_out
+                .iter()
+                .map(|item| LeftOut {
+                    stage: item.stage.to_owned(),
+                    reason: item.why.clone(),
+                })
+                .collect(),
+        },
         frames: session.latest(),
         commands: session.commands(),
         status: Box::new(move || run_status(&status(), recorded.as_ref())),

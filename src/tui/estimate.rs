@@ -9,7 +9,7 @@ use crate::physics::fatigue::LifeLaw;
 use crate::physics::hertz::HertzShape;
 use crate::physics::waviness::Waviness;
 use crate::scene::{CycleBasis, Rheology, Scene, Surface, ViscosityLaw};
-use crate::tui::app::Setup;
+use crate::tui::wiring::Setup;
 
 /// Ellipses from this b/a on are taken for lines.
 const WIDE: f64 = 2.0;

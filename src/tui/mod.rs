@@ -41,13 +41,13 @@ use crate::run::Command;
 use crate::scene::Scene;
 use crate::sweep::Background;
 use action::lookup;
-use app::{App, Effect, ErrandKind, Setup};
+use app::{App, Effect, ErrandKind};
 use pixels::{Canvas, Pixels};
 use terminal::{Input, Panics, Stage};
 use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{
-    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, Shown, TuiError, Wiring,
-    WriteShown,
+    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, Shown, TuiError,
+    Wiring, WriteShown,
 };
 
 /// Time from one drawing to the next.
@@ -78,7 +78,7 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
     let variable = |name: &str| env::var(name).ok();
     let mut theme = Theme::new(Capabilities::detect(variable));
     theme.contrast = Contrast::detect(variable);
-    let mut app = App::new(setup_of(&wiring, theme));
+    let mut app = App::new(wiring.setup.clone(), errands_of(&wiring), theme);
     app.set_pixels(Pixels::detect(variable));
     let panics = Panics::watch();
     let result = Stage::enter().and_then(|stage| {
@@ -102,7 +102,8 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
     Ok(result?)
 }
 
-fn setup_of(wiring: &Wiring, theme: Theme) -> Setup {
+/// The errands that are wired.
+fn errands_of(wiring: &Wiring) -> Vec<ErrandKind> {
     let errands = [
         (wiring.toggle_recording.is_some(), ErrandKind::Record),
         (wiring.open_viewer.is_some(), ErrandKind::View),
@@ -110,20 +111,8 @@ fn setup_of(wiring: &Wiring, theme: Theme) -> Setup {
         (wiring.rebuild.is_some(), ErrandKind::Rebuild),
         (wiring.write_shown.is_some(), ErrandKind::Write),
     ];
-    Setup {
-        scene: wiring.scene.clone(),
-        name: wiring.name.clone(),
-        load_n: wiring.load_n,
-        half_width_m: wiring.half_width_m,
-        p_hertz_pa: wiring.p_hertz_pa,
-        plan_text: wiring.plan_text.clone(),
-        left_out: wiring.left_out.clone(),
-        errands: errands
-            .into_iter()
-            .filter_map(|(wired, errand)| wired.then_some(errand))
-            .collect(),
-        theme,
-    }
+    let wired = errands.into_iter().filter(|(wired, _)| *wired);
+    wired.map(|(_, errand)| errand).collect()
 }
 
 /// The loop around the screen.
@@ -283,12 +272,7 @@ impl Show<'_> {
                 self.sweep = None;
                 self.panics.another_run();
                 *self.wiring = next;
-                let setup = setup_of(self.wiring, self.app.theme);
-                let setup = app::Setup {
-                    errands: self.app.setup.errands.clone(),
-                    ..setup
-                };
-                for effect in self.app.rebuilt(setup) {
+                for effect in self.app.rebuilt(self.wiring.setup.clone()) {
                     if let Effect::Send(command) = effect {
                         let _ = self.wiring.commands.send(command);
                     }

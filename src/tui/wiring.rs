@@ -97,8 +97,9 @@ pub type WriteShown = Box<dyn FnMut(Shown) -> Receiver<Result<String, String>>>;
 /// [`Wiring::rebuild`] itself, which stays).
 pub type Rebuild = Box<dyn FnMut(&Scene, &str) -> Result<Wiring, String>>;
 
-/// What the program itself fills in. An errand that is `None` has no key and no row in the help.
-pub struct Wiring {
+/// The run behind the screen, as far as it is known before its first frame; plain data, so that a test can make it.
+#[derive(Debug, Clone)]
+pub struct Setup {
     /// The scene that runs.
     pub scene: Arc<Scene>,
     /// Its name: that of its preset or file.
@@ -107,12 +108,18 @@ pub struct Wiring {
     pub load_n: f64,
     /// Hertz half-width along x at that load, m.
     pub half_width_m: f64,
-    /// Maximum Hertz pressure at that load, Pa.
+    /// Hertz pressure at that load, Pa.
     pub p_hertz_pa: f64,
     /// The plan as text.
     pub plan_text: String,
-    /// What the plan leaves out.
+    /// What it leaves out.
     pub left_out: Vec<LeftOut>,
+}
+
+/// What the program itself fills in. An errand that is `None` has no key and no row in the help.
+pub struct Wiring {
+    /// The run that is shown.
+    pub setup: Setup,
     /// The newest frame.
     pub frames: Latest,
     /// Where commands go. A run that has ended and hears nothing is no error.

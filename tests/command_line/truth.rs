@@ -15,7 +15,7 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::common::tui_fixture::setup_planned;
+use crate::common::tui_fixture::{plain, setup_planned};
 use asperity::plan::Plan;
 use asperity::scene::{ContactKind, Override, Scene};
 use asperity::sim::{Frame, Simulation};
@@ -300,7 +300,11 @@ impl Screen {
         let scene = Scene::load_with(&case.scene, &sets).unwrap();
         let (kind, plan) = (scene.kind(), Plan::new(&scene).unwrap());
         let mut sim = Simulation::new(&scene, plan.clone(), 2).unwrap();
-        let mut app = App::new(setup_planned(&scene, &case.scene, &plan));
+        let mut app = App::new(
+            setup_planned(&scene, &case.scene, &plan),
+            Vec::new(),
+            plain(),
+        );
         while !sim.is_done() {
             sim.step().unwrap();
         }

@@ -15,9 +15,9 @@ use asperity::sim::{
     StressSlice,
 };
 use asperity::sweep::{Began, Conditions, Found};
-use asperity::tui::app::{App, Effect, ErrandKind, Setup};
+use asperity::tui::app::{App, Effect, ErrandKind};
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-use asperity::tui::{LeftOut, RecorderActivity, RecorderState, RunStatus, view};
+use asperity::tui::{LeftOut, RecorderActivity, RecorderState, RunStatus, Setup, view};
 use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -111,7 +111,7 @@ pub(crate) fn theme(depth: ColorDepth, glyphs: Glyphs) -> Theme {
 }
 
 pub(crate) fn app(theme: Theme) -> App {
-    App::new(Setup {
+    let setup = Setup {
         scene: Arc::new(scene()),
         name: "demonstration".into(),
         load_n: 800.0,
@@ -128,9 +128,9 @@ pub(crate) fn app(theme: Theme) -> App {
                 reason: "both bodies have the same elastic constants, so shear does not part them".into(),
             },
         ],
-        errands: vec![ErrandKind::Record, ErrandKind::Save, ErrandKind::Rebuild],
-        theme,
-    })
+    };
+    let errands = vec![ErrandKind::Record, ErrandKind::Save, ErrandKind::Rebuild];
+    App::new(setup, errands, theme)
 }
 
 pub(crate) fn status(frames: u64) -> RunStatus {
@@ -423,8 +423,6 @@ pub(crate) fn setup_of(scene: Scene) -> Setup {
         p_hertz_pa: P_HERTZ_PA,
         plan_text: String::new(),
         left_out: Vec::new(),
-        errands: vec![ErrandKind::Rebuild],
-        theme: plain(),
     }
 }
 
@@ -435,7 +433,6 @@ pub(crate) fn setup_planned(scene: &Scene, name: &str, plan: &Plan) -> Setup {
         load_n: plan.force_n,
         half_width_m: plan.hertz.a_m,
         p_hertz_pa: plan.hertz.p_max_pa,
-        errands: Vec::new(),
         ..setup_of(scene.clone())
     }
 }

@@ -1,6 +1,8 @@
 //! Steel that yields under oil and on the move: bounds in every step of the stiff set, shakedown of what comes back.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::fmt::Write as _;
+
 use crate::common::stiff::{self, Stiff};
 use asperity::plan::Plan;
 use asperity::scene::{Override, Scene};
@@ -78,23 +80,22 @@ fn run(sets: &[String], steps: u64) -> Outcome {
     outcome
 }
 
-#[test]
-fn the_stiff_set_stays_at_the_hardness() {
-    for (speed, slide_roll) in [
-        (0.1, 2.0),
-        (0.1, -2.0),
-        (0.1, 0.5),
-        (1e-3, 2.0),
-        (1e-4, -2.0),
-    ] {
-        stays_at_the_hardness(65, speed, slide_roll, &[H_PA, 5e9]);
-    }
-}
+/// Nodes, entrainment in m/s and slide-to-roll ratio.
+const STIFF: [(usize, f64, f64); 6] = [
+    (65, 0.1, 2.0),
+    (65, 0.1, -2.0),
+    (65, 0.1, 0.5),
+    (65, 1e-3, 2.0),
+    (65, 1e-4, -2.0),
+    (129, 0.1, 2.0),
+];
 
 #[test]
-#[ignore = "minutes: one of the set at twice the nodes, for assets/reports/hardness.md"]
-fn a_stiff_case_on_a_finer_grid_stays_at_the_hardness() {
-    stays_at_the_hardness(129, 0.1, 2.0, &[H_PA]);
+fn the_stiff_set_stays_at_the_hardness() {
+    for (nodes, speed, slide_roll) in STIFF {
+        let hardnesses: &[f64] = if nodes == 65 { &[H_PA, 5e9] } else { &[H_PA] };
+        stays_at_the_hardness(nodes, speed, slide_roll, hardnesses);
+    }
 }
 
 /// Twenty steps of a stiff case, elastic and with each hardness: bounds, and what it costs.
@@ -326,41 +327,55 @@ fn a_load_that_no_body_carries_is_refused_from_events_and_from_hands() {
 
 #[test]
 fn what_has_flowed_goes_with_an_amplitude_that_is_turned_away() {
-    let sets = [
-        "grid.nodes=65",
-        "time.passages=4",
-        "life=none",
-        "stress=none",
-        "body_1.hardness_pa=2e9",
-        "body_2.hardness_pa=2e9",
-    ]
-    .map(str::to_owned);
-    let mut sim = simulation("demonstration", &sets);
-    let mut frame = Frame::default();
-    let step = |sim: &mut Simulation, frame: &mut Frame| {
-        sim.step().unwrap();
-        assert!(sim.metrics().converged);
-        sim.fill(frame);
-    };
-    while sim.passage_steps() < 8 {
-        step(&mut sim, &mut frame);
+    for flow in ["along_across", "secant"] {
+        let mut sets = [
+            "grid.nodes=65",
+            "time.passages=4",
+            "life=none",
+            "stress=none",
+            "body_1.hardness_pa=2e9",
+            "body_2.hardness_pa=2e9",
+        ]
+        .map(str::to_owned)
+        .to_vec();
+        sets.push(format!("lubricant.eyring_flow={flow}"));
+        let mut sim = simulation("demonstration", &sets);
+        let mut frame = Frame::default();
+        let step = |sim: &mut Simulation, frame: &mut Frame| {
+            sim.step().unwrap();
+            assert!(sim.metrics().converged);
+            sim.fill(frame);
+            sim.metrics().yielded_m3.unwrap()
+        };
+        while sim.passage_steps() < 8 {
+            step(&mut sim, &mut frame);
+        }
+        let highest = |frame: &Frame| {
+            let heights = frame.roughness_1_m.iter().chain(&frame.roughness_2_m);
+            heights.fold(0.0_f32, |most, z| most.max(z.abs()))
+        };
+        let (flowed, before) = (sim.metrics().yielded_m3.unwrap(), highest(&frame));
+        assert!(before > 1e-8 && flowed[0] > 0.0 && flowed[1] > 0.0);
+        for knob in [Knob::Amplitude1M, Knob::Amplitude2M] {
+            sim.set(knob, 0.0).unwrap();
+        }
+        let (mut earlier, mut told) = (flowed, flowed);
+        while sim.metrics().amplitude_1_m + sim.metrics().amplitude_2_m > 0.0 {
+            earlier = told;
+            told = step(&mut sim, &mut frame);
+        }
+        // Neither crests nor the dents in their places: what is left has flowed in the step that ends at no amplitude.
+        let (left, last) = (highest(&frame), told[0] + told[1] - earlier[0] - earlier[1]);
+        println!(
+            "{flow}: {before:.3e} m before, {left:.3e} m left; {last:.3e} m³ in the last step"
+        );
+        assert!(if last == 0.0 {
+            left == 0.0
+        } else {
+            left < 0.1 * before
+        });
+        assert!(told[0] >= flowed[0] && told[1] >= flowed[1]);
     }
-    let highest = |frame: &Frame| {
-        let heights = frame.roughness_1_m.iter().chain(&frame.roughness_2_m);
-        heights.fold(0.0_f32, |most, z| most.max(z.abs()))
-    };
-    let (flowed, before) = (sim.metrics().yielded_m3.unwrap(), highest(&frame));
-    assert!(highest(&frame) > 1e-8 && flowed[0] > 0.0 && flowed[1] > 0.0);
-    for knob in [Knob::Amplitude1M, Knob::Amplitude2M] {
-        sim.set(knob, 0.0).unwrap();
-    }
-    while sim.metrics().amplitude_1_m + sim.metrics().amplitude_2_m > 0.0 {
-        step(&mut sim, &mut frame);
-    }
-    // Neither crests nor the dents in their places: what is left flowed on the way there.
-    assert!(highest(&frame) < 0.1 * before, "{}", highest(&frame));
-    let told = sim.metrics().yielded_m3.unwrap();
-    assert!(told[0] >= flowed[0] && told[1] >= flowed[1]);
 }
 
 #[test]
@@ -390,16 +405,15 @@ const GROUND: [&str; 5] = [
 ];
 
 /// Lives of the gear presets after each part of what decides them: flow along the sliding, hardness, how cycles count.
-///
-/// `cargo test --release --test engine yielding_steps::gear_lives -- --ignored --nocapture`; the table stands in
-/// `assets/reports/hardness.md`. The last column's count is the preset's own, the others' the paper's.
-#[test]
-#[ignore = "minutes: prints a table"]
-fn gear_lives() {
-    println!(
-        "| case | secant, elastic, global | along_across, elastic, global | along_across, 6.84 GPa, global | along_across, 6.84 GPa, its own count |"
+/// The last column's count is the preset's own, the others' the paper's.
+fn gear_lives(out: &mut String) {
+    out.push_str(
+        "\n## Lives after each part\n\n\
+         Relative life after two passages with one viscosity in both directions, elastic and by the paper's count; then \
+         with the oil's own law along the sliding; then with steel that yields; then with cycles by damage.\n\n\
+         | case | secant, elastic, global | along_across, elastic, global | along_across, 6.84 GPa, global | along_across, 6.84 GPa, its own count |\n\
+         |---|---|---|---|---|\n",
     );
-    println!("|---|---|---|---|---|");
     for preset in [
         "fzg_pitch_point",
         "fzg_point_b",
@@ -420,14 +434,44 @@ fn gear_lives() {
                 format!("{:.2e}", sim.summary().life_relative.unwrap())
             };
             let global = Some("global");
-            println!(
+            writeln!(
+                out,
                 "| {preset}{label} | {} | {} | {} | {} |",
                 life("secant", "none", global),
                 life("along_across", "none", global),
                 life("along_across", "6.84e9", global),
                 life("along_across", "6.84e9", None),
-            );
+            )
+            .unwrap();
         }
+    }
+}
+
+/// The stiff set: bounds, and what it costs, elastic and with a hardness.
+fn stiff_set(out: &mut String) {
+    out.push_str(
+        "\n## The stiff set\n\n\
+         Steel on steel in stiff oil, rough bodies, 4.3 GPa (`stiff` of the same file), twenty steps after the start-up: what no \
+         step exceeds, and the work. Wanted: load within 1e-5, mass within 1e-4, no more Newtons than elastic.\n\n\
+         | nodes | U, m/s | S | hardness, GPa | greatest p, GPa | load | mass | Newtons | elastic | flow, m³ | not converged |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for (nodes, speed, slide_roll) in STIFF {
+        let elastic = run(&stiff(nodes, speed, slide_roll, None), 20);
+        let yields = run(&stiff(nodes, speed, slide_roll, Some(H_PA)), 20);
+        writeln!(
+            out,
+            "| {nodes} | {speed} | {slide_roll} | {:.2} | {:.2} | {:.1e} | {:.1e} | {} | {} | {:.2e} | {} |",
+            1e-9 * H_PA,
+            1e-9 * yields.p_max_pa,
+            yields.load,
+            yields.mass,
+            yields.newton,
+            elastic.newton,
+            yields.yielded_m3,
+            yields.not_converged,
+        )
+        .unwrap();
     }
 }
 
@@ -435,7 +479,6 @@ fn gear_lives() {
 #[test]
 #[ignore = "minutes: writes a report"]
 fn report() {
-    use std::fmt::Write as _;
     let mut out = String::from(
         "`cargo test --release --test engine yielding_steps::report -- --ignored`\n\n\
          # Gear flanks that yield\n\n\
@@ -491,9 +534,10 @@ fn report() {
                 yields.steps_not_converged,
             )
             .unwrap();
-            println!("{out}");
         }
     }
+    gear_lives(&mut out);
+    stiff_set(&mut out);
     std::fs::write(
         concat!(env!("CARGO_MANIFEST_DIR"), "/assets/reports/hardness.md"),
         out,

@@ -60,6 +60,83 @@ fn a_ripple_of_no_height_costs_nothing() {
     assert!(high.windows(2).all(|pair| pair[1] < pair[0]), "{high:?}");
 }
 
+/// Life against amplitude from 0 to 1 µm, each step a factor of 1.5; steps above 5 % in quarters. Written to
+/// `assets/reports/amplitude.md`. A slope is no jump: of a slope a quarter step takes a quarter, give or take how it bends,
+/// and a jump would stay whole in one of the four.
+#[test]
+#[ignore = "minutes: writes a report"]
+fn life_against_amplitude() {
+    use std::fmt::Write as _;
+    let mut out = String::from(
+        "`cargo test --release --test life damage::life_against_amplitude -- --ignored`\n\n\
+         # Life against amplitude\n\n\
+         Both bodies' amplitude from 0 to 1 µm in steps of 1.5, 129 nodes, cycles by damage. *Step*: life over that of the \
+         row above, less 1. Where it is above 5 %, the step was taken in four equal ratios: *largest of four* is the \
+         part of the step (in ln life) that falls into the largest of them: 0.25 of an even slope, 1 of a jump. Greatest \
+         pressure and the paper's count beside it.\n",
+    );
+    for preset in ["demonstration", "fzg_point_b"] {
+        write!(
+            out,
+            "\n## {preset}\n\n| amplitude, m | life | step, % | largest of four | body | greatest p, GPa | paper's count |\n|---|---|---|---|---|---|---|\n"
+        )
+        .unwrap();
+        let case = |amplitude_m: f64| {
+            let mut sets = vec!["grid.nodes=129".to_owned(), "life.spread=off".to_owned()];
+            sets.extend(
+                [1, 2].map(|body| format!("body_{body}.surface.amplitude_m={amplitude_m:e}")),
+            );
+            run(preset, &sets)
+        };
+        let life = |s: &Summary| s.life_relative.unwrap();
+        let (mut amplitude_m, mut before) = (0.0, case(0.0));
+        let mut row = |amplitude_m: f64, s: &Summary, step: f64, largest: Option<f64>| {
+            writeln!(
+                out,
+                "| {amplitude_m:.2e} | {:.3e} | {:.1} | {} | {} | {:.2} | {:.2e} |",
+                life(s),
+                1e2 * step,
+                largest.map_or("-".to_owned(), |largest| format!("{largest:.2}")),
+                s.life_body.unwrap(),
+                1e-9 * s.p_max_greatest_pa,
+                s.life_global.unwrap(),
+            )
+            .unwrap();
+        };
+        row(amplitude_m, &before, 0.0, None);
+        let mut next_m = 1e-10;
+        while next_m < 1.05e-6 {
+            let now = case(next_m);
+            let step = life(&now) / life(&before) - 1.0;
+            let largest = (step.abs() > 0.05 && amplitude_m > 0.0).then(|| {
+                let ratio = (next_m / amplitude_m).powf(0.25);
+                let inner = [1, 2, 3].map(|k| life(&case(amplitude_m * ratio.powi(k))).ln());
+                let all = [
+                    life(&before).ln(),
+                    inner[0],
+                    inner[1],
+                    inner[2],
+                    life(&now).ln(),
+                ];
+                let most = all
+                    .windows(2)
+                    .map(|two| (two[1] - two[0]).abs())
+                    .fold(0.0, f64::max);
+                most / (all[4] - all[0]).abs()
+            });
+            row(next_m, &now, step, largest);
+            assert!(
+                step.abs() <= 0.05 || largest.is_some_and(|part| part < 0.6),
+                "{preset} {next_m:e}"
+            );
+            (amplitude_m, before) = (next_m, now);
+            next_m *= 1.5;
+        }
+    }
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/reports/amplitude.md");
+    std::fs::write(file, out).unwrap();
+}
+
 /// What the paper reports holds by this count too, but for the end of the first: peaks cost what sliding costs, and they
 /// no longer grow once every crest has met every other.
 #[test]

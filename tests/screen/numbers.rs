@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::common::tui_fixture::setup_planned;
+use crate::common::tui_fixture::{plain, setup_planned};
 use asperity::physics::cycles::{BodyId, Kinematics};
 use asperity::plan::Plan;
 use asperity::run::Command;
@@ -72,7 +72,11 @@ impl Bench {
     fn new(scene: &Scene) -> Self {
         let plan = Plan::new(scene).unwrap();
         let sim = Simulation::new(scene, plan.clone(), 1).unwrap();
-        let app = App::new(setup_planned(scene, "demonstration", &plan));
+        let app = App::new(
+            setup_planned(scene, "demonstration", &plan),
+            Vec::new(),
+            plain(),
+        );
         Self {
             app,
             sim,

@@ -325,7 +325,8 @@ fn time_from_a_turn_of_s_to_its_life() {
 #[test]
 #[ignore = "prints a ratio of times"]
 fn drawing_costs_the_simulation() {
-    use asperity::tui::app::{App, Setup};
+    use crate::common::tui_fixture::setup_planned;
+    use asperity::tui::app::App;
     use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
     use asperity::tui::view;
     use ratatui::backend::CrosstermBackend;
@@ -344,20 +345,12 @@ fn drawing_costs_the_simulation() {
     };
     let session = Session::start(request).unwrap();
     wait_for(&session, |session| session.status().steps > 8);
-    let mut app = App::new(Setup {
-        scene,
-        name: "demonstration".into(),
-        load_n: plan.force_n,
-        half_width_m: plan.hertz.a_m,
-        p_hertz_pa: plan.hertz.p_max_pa,
-        plan_text: plan.to_string(),
-        left_out: Vec::new(),
-        errands: Vec::new(),
-        theme: Theme::new(Capabilities {
-            depth: ColorDepth::True,
-            glyphs: Glyphs::Unicode,
-        }),
+    let setup = setup_planned(&scene, "demonstration", &plan);
+    let theme = Theme::new(Capabilities {
+        depth: ColorDepth::True,
+        glyphs: Glyphs::Unicode,
     });
+    let mut app = App::new(setup, Vec::new(), theme);
     let options = TerminalOptions {
         viewport: Viewport::Fixed(Rect::new(0, 0, 160, 48)),
     };

@@ -182,7 +182,7 @@ fn the_saved_scene_is_the_one_on_the_screen() {
 fn a_smooth_surface_has_nothing_to_turn() {
     let mut smooth = scene();
     smooth.body_1.surface = Surface::Smooth {};
-    let mut app = App::new(setup_of(smooth));
+    let mut app = App::new(setup_of(smooth), vec![ErrandKind::Rebuild], plain());
     app.apply(Action::Choose(2));
     assert_eq!(app.apply(Action::Turn(1)), []);
     assert!(app.message().unwrap().contains("smooth"));
@@ -315,7 +315,7 @@ fn captions_of_a_scripted_scene_are_shown() {
         set: std::collections::BTreeMap::new(),
         caption: "Now S = 1.".into(),
     });
-    let mut app = App::new(setup_of(scripted));
+    let mut app = App::new(setup_of(scripted), vec![ErrandKind::Rebuild], plain());
     play(&mut app, 1..=5, &State::default());
     assert!(text(&app, 80, 24).contains("Now S = 1."));
     // Half a passage later it has been read.
@@ -367,7 +367,7 @@ fn the_mouse_moves_sliders_and_reads_the_map() {
 /// Where the number comes from, what it is against, and the weightiest caution are read on every screen.
 #[test]
 fn the_source_of_the_life_and_its_weightiest_caution_fit_small_screens() {
-    let new = App::new(setup_of(scene()));
+    let new = App::new(setup_of(scene()), vec![ErrandKind::Rebuild], plain());
     let mut live = running(plain());
     let first = live.cautions().first().unwrap().clone();
     for (width, height) in [(80, 24), (100, 30), (160, 48)] {

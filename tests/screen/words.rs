@@ -10,7 +10,7 @@ use crate::common::tui_fixture::{
 };
 use asperity::sim::{Frame, LubricationRegime, Metrics, Repeat, Rhythm, Stage};
 use asperity::tui::action::Action;
-use asperity::tui::app::App;
+use asperity::tui::app::{App, ErrandKind};
 use asperity::tui::theme::{ColorDepth, Contrast, Glyphs, Theme};
 use ratatui::style::Color;
 
@@ -74,7 +74,7 @@ fn a_scene_without_life_or_oil_says_so() {
     let mut bare = scene();
     bare.life = None;
     bare.lubricant = None;
-    let mut app = App::new(setup_of(bare));
+    let mut app = App::new(setup_of(bare), vec![ErrandKind::Rebuild], plain());
     let started = text(&app, 80, 24);
     assert!(started.contains("starting: dry Hertz") && !started.contains("then film"));
     take(&mut app, 1, |metrics| {

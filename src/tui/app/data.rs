@@ -1,14 +1,10 @@
 //! What the screen's state is made of, and what it asks for.
 
-use std::sync::Arc;
-
 use crate::run::Command;
 use crate::scene::Scene;
 use crate::sim::Frame;
 use crate::sweep::Order;
 use crate::tui::app::Leading;
-use crate::tui::theme::Theme;
-use crate::tui::wiring::LeftOut;
 
 /// What a key does outside of the screen and the run, where the program offers it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,7 +51,7 @@ pub struct Pinned {
     pub leading: Leading,
     /// S.
     pub slide_roll: f64,
-    /// Load, N; of a line N/m.
+    /// The load, N, of a line N/m (the scene may give it as a Hertz pressure).
     pub load_n: f64,
     /// Hertz pressure, Pa.
     pub p_hertz_pa: f64,
@@ -121,27 +117,4 @@ pub struct LifeSample {
     pub passages: f64,
     /// Relative life.
     pub life_relative: f64,
-}
-
-/// What an app is made of; plain data, so that a test can make it.
-#[derive(Debug, Clone)]
-pub struct Setup {
-    /// The scene that runs.
-    pub scene: Arc<Scene>,
-    /// Its name: that of its preset or file.
-    pub name: String,
-    /// Load, N; of a line N/m.
-    pub load_n: f64,
-    /// Hertz half-width along x at that load, m.
-    pub half_width_m: f64,
-    /// Hertz pressure at that load, Pa.
-    pub p_hertz_pa: f64,
-    /// The plan as text.
-    pub plan_text: String,
-    /// What it leaves out.
-    pub left_out: Vec<LeftOut>,
-    /// Errands that are offered.
-    pub errands: Vec<ErrandKind>,
-    /// Looks.
-    pub theme: Theme,
 }

@@ -29,9 +29,9 @@ use crate::tui::replay::Replay;
 use crate::tui::theme::Theme;
 use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
-use crate::tui::wiring::{Health, RunStatus};
+use crate::tui::wiring::{Health, RunStatus, Setup};
 use curve::MeanFriction;
-pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Setup, Trouble, Unconverged};
+pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Trouble, Unconverged};
 pub use held::PointNow;
 pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
@@ -39,6 +39,8 @@ pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantit
 #[derive(Debug, Clone)]
 pub struct App {
     pub(crate) setup: Setup,
+    /// Errands that are offered.
+    errands: Vec<ErrandKind>,
     pub(crate) theme: Theme,
     pub(crate) units: Units,
     pixels: Pixels,
@@ -104,15 +106,16 @@ pub struct App {
 }
 
 impl App {
-    /// A screen before the first frame.
-    pub fn new(setup: Setup) -> Self {
+    /// A screen before the first frame, which offers those errands.
+    pub fn new(setup: Setup, errands: Vec<ErrandKind>, theme: Theme) -> Self {
         let dials = dials(&setup.scene, setup.load_n, setup.p_hertz_pa);
         let basis = basis(&setup);
         let start = point_of(&dials);
         let loaded = basis.loaded(&start);
         let estimate = basis.estimate(&loaded, None, &start);
         Self {
-            theme: setup.theme,
+            errands,
+            theme,
             units: Units::default(),
             pixels: Pixels::default(),
             chosen: 0,
@@ -274,7 +277,7 @@ impl App {
 
     /// Whether the program offers an errand.
     pub fn offers(&self, errand: ErrandKind) -> bool {
-        self.setup.errands.contains(&errand)
+        self.errands.contains(&errand)
     }
 }
 

@@ -6,12 +6,12 @@ use crate::run::Command;
 use crate::scene::Scene;
 use crate::sim::{Knob, Stage};
 use crate::tui::action::Action;
-use crate::tui::app::{App, Effect, ErrandKind, Overlay, Setup};
+use crate::tui::app::{App, Effect, ErrandKind, Overlay};
 use crate::tui::choice::Draft;
 use crate::tui::dial::Dial;
 use crate::tui::lessons::TourState;
 use crate::tui::tables;
-use crate::tui::wiring::Shown;
+use crate::tui::wiring::{Setup, Shown};
 
 impl App {
     /// The screen of a new run, which keeps how things are shown, the tour and the pinned life where it can
@@ -19,10 +19,10 @@ impl App {
     pub fn rebuilt(&mut self, setup: Setup) -> Vec<Effect> {
         let same_contact = setup.scene.contact == self.setup.scene.contact
             && (setup.p_hertz_pa / self.setup.p_hertz_pa - 1.0).abs() < 1e-9;
-        let fresh = Self::new(setup);
+        let fresh = Self::new(setup, std::mem::take(&mut self.errands), self.theme);
         let old = std::mem::replace(self, fresh);
         self.units = old.units;
-        (self.theme, self.now, self.message) = (old.theme, old.now, old.message);
+        (self.now, self.message) = (old.now, old.message);
         (self.map, self.zoom, self.quantity) = (old.map, old.zoom, old.quantity);
         (self.curve, self.pixels) = (old.curve, old.pixels);
         self.pinned = old.pinned.filter(|_| same_contact);
