@@ -3,11 +3,14 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::Metrics;
+use super::door::Door;
 use crate::math::grid::{Grid, Symmetry};
 use crate::solve::traction::TractionLaw;
 
 /// What one pass over the fields gives, dimensionless.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub(super) struct Measured {
     /// Greatest P.
     pub(super) p_max: f64,
@@ -24,6 +27,19 @@ pub(super) struct Measured {
     pub(super) contact_load_ratio: f64,
     /// ∬Q/∬P.
     pub(super) friction: f64,
+}
+
+impl Measured {
+    /// The same in SI.
+    pub(super) fn publish(&self, door: &Door, m: &mut Metrics) {
+        m.p_max_pa = door.pa_from_p(self.p_max);
+        m.h_central_m = door.m_from_h(self.h_central);
+        m.h_min_m = door.m_from_h(self.h_min);
+        m.h_mean_m = door.m_from_h(self.h_mean);
+        m.contact_ratio = self.contact_ratio;
+        m.contact_load_ratio = self.contact_load_ratio;
+        m.friction_coefficient = self.friction.abs();
+    }
 }
 
 /// Fields of a step and the law of its traction.

@@ -1,6 +1,6 @@
 //! Three systems of units for people; how a number is written is [`crate::math::number`].
 
-pub use crate::math::number::{bytes, nice_ceiling, seconds, sig, sig_or_dash, tick};
+pub use crate::math::number::{Unit, bytes, nice_ceiling, seconds, sig, sig_or_dash, tick};
 
 /// A system of units for the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -12,27 +12,6 @@ pub enum Units {
     Mpa,
     /// ksi, µin, lbf, in/s.
     Shop,
-}
-
-/// A unit: its name, and how many of it make one SI unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unit {
-    /// Name, as printed.
-    pub name: &'static str,
-    /// Units per SI unit.
-    pub per_si: f64,
-}
-
-impl Unit {
-    /// `value` (SI) in this unit.
-    pub fn of(self, value: f64) -> f64 {
-        value * self.per_si
-    }
-
-    /// `value` (SI) with its unit, to `digits` significant figures.
-    pub fn show(self, value: f64, digits: i32) -> String {
-        format!("{} {}", sig(self.of(value), digits), self.name)
-    }
 }
 
 impl Units {
