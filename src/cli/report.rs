@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use asperity::math::number::{counted, seconds, sig};
 use asperity::run::{End, Outcome};
 use asperity::scene::{ContactKind, Scene};
-use asperity::sim::{LubricationRegime, Rhythm, Summary};
+use asperity::sim::{CATALOGUE, LubricationRegime, Rhythm, Summary};
 
 pub(crate) use self::complaints::complaints;
 
@@ -146,11 +146,25 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
     if let Some(repetition) = repetition(s) {
         line(text, "passage", &repetition);
     }
+    push_by_itself(text, scene, s);
     push_life(text, scene, s);
     let errors = format!("load {:.1e}, mass {:.1e}", s.load_error, s.mass_error);
     line(text, "errors", &errors);
     for (k, caution) in s.cautions.iter().enumerate() {
         line(text, if k == 0 { "cautions" } else { "" }, &caution.text);
+    }
+}
+
+/// Quantities that the catalogue shows by themselves.
+fn push_by_itself(text: &mut String, scene: &Scene, s: &Summary) {
+    for quantity in CATALOGUE {
+        for (over, key) in quantity.over {
+            if let Some(Some(value)) = s.by_itself.get(*key) {
+                let value = quantity.in_words(*value, scene.kind());
+                let what = format!("{} {value}, {} of the steps", quantity.meaning, over.word());
+                line(text, quantity.symbol, &what);
+            }
+        }
     }
 }
 

@@ -101,7 +101,7 @@ impl Dimension {
     }
 
     /// Unit in texts: films in nanometres.
-    pub fn unit_in_words(self, kind: ContactKind) -> Unit {
+    fn unit_in_words(self, kind: ContactKind) -> Unit {
         match self {
             Self::Film => Unit {
                 name: "nm",
@@ -145,6 +145,12 @@ impl Quantity {
     /// Of a frame as a number, SI.
     pub fn number(&self, frame: &Frame) -> Option<f64> {
         self.read(frame).number()
+    }
+
+    /// A value (SI) with its unit, as texts have it.
+    pub fn in_words(&self, value: f64, kind: ContactKind) -> String {
+        let text = self.dimension.unit_in_words(kind).show(value, 4);
+        text.trim_end().to_owned()
     }
 
     /// Symbol with its unit, as legends have it.
