@@ -158,12 +158,15 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
 /// Quantities that the catalogue shows by themselves.
 fn push_by_itself(text: &mut String, scene: &Scene, s: &Summary) {
     for quantity in CATALOGUE {
-        for (over, key) in quantity.over {
-            if let Some(Some(value)) = s.by_itself.get(*key) {
-                let value = quantity.in_words(*value, scene.kind());
-                let what = format!("{} {value}, {} of the steps", quantity.meaning, over.word());
-                line(text, quantity.symbol, &what);
-            }
+        let sums = quantity.over.iter().filter_map(|(over, key)| {
+            let value = (*s.by_itself.get(*key)?)?;
+            let value = quantity.in_words(value, scene.kind());
+            Some(format!("{} of the steps {value}", over.word()))
+        });
+        let sums: Vec<String> = sums.collect();
+        if !sums.is_empty() {
+            let what = format!("{}: {}", quantity.meaning, sums.join(", "));
+            line(text, quantity.symbol, &what);
         }
     }
 }

@@ -194,7 +194,7 @@ pub struct Metrics {
 /// fields, reports and the explorer look it up here. A new one comes last and is shown `by_itself`.
 #[rustfmt::skip]
 pub const CATALOGUE: &[Quantity] = {
-    use Dimension::{Film, Length, Load, Plain, Pressure, Share, Speed, Time, Volume};
+    use Dimension::{Film, Height, Length, Load, Plain, Pressure, Share, Speed, Time, Volume};
     use Over::{Greatest, Least, Mean};
     const fn frame(names: [&'static str; 2], dimension: Dimension, meaning: &'static str, of: fn(&Frame) -> Reading) -> Quantity {
         Quantity::of_frame(names, dimension, meaning, of)
@@ -223,8 +223,8 @@ pub const CATALOGUE: &[Quantity] = {
         metric(["entrainment_m_s", "U"], Speed, "entrainment speed", |m| m.entrainment_m_s.into()),
         metric(["load_n", "load"], Load, "load asked for", |m| m.load_n.into()).over(&[(Mean, "load_n")]),
         metric(["load_target_n", "load target"], Load, "where the load is going", |m| m.load_target_n.into()),
-        metric(["amplitude_1_m", "A1"], Length, "amplitude of body 1's roughness", |m| m.amplitude_1_m.into()),
-        metric(["amplitude_2_m", "A2"], Length, "amplitude of body 2's roughness", |m| m.amplitude_2_m.into()),
+        metric(["amplitude_1_m", "A1"], Height, "amplitude of body 1's roughness", |m| m.amplitude_1_m.into()),
+        metric(["amplitude_2_m", "A2"], Height, "amplitude of body 2's roughness", |m| m.amplitude_2_m.into()),
         metric(["p_max_pa", "p_max"], Pressure, "greatest pressure", |m| m.p_max_pa.into()).over(&[(Mean, "p_max_pa"), (Greatest, "p_max_greatest_pa")]),
         metric(["h_central_m", "h_central"], Film, "film at the origin", |m| m.h_central_m.into()).over(&[(Mean, "h_central_m")]),
         metric(["h_min_m", "h_min"], Film, "least film under pressure", |m| m.h_min_m.into()).over(&[(Mean, "h_min_m"), (Least, "h_min_least_m")]),

@@ -241,7 +241,6 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
     let peak_factor = 0.2 + 0.6 * (1.0 - settling);
     let life_relative = cycle_factor * peak_factor * 0.9;
     Metrics {
-        yielded_m3: None,
         converged: true,
         residual: 4e-4 * (1.5 + wobble),
         newton_iterations: 3 + u32::from(wobble > 0.5),
@@ -291,7 +290,6 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         n_body_2: Some(2.5),
         n_counted_body_1: (step > 60).then_some(4.0),
         n_counted_body_2: (step > 60).then_some(2.4),
-        repeat: None,
-        errors: None,
+        ..Metrics::default()
     }
 }

@@ -297,7 +297,6 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
     Metrics {
         converged: state.converged,
         residual: if state.converged { 3.1e-4 } else { 4.7e-2 },
-        yielded_m3: None,
         newton_iterations: 4,
         linear_iterations: 31,
         retries: if state.converged { 0 } else { 3 },
@@ -349,8 +348,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         n_body_2: Some(n_2),
         n_counted_body_1: Some(n_1 - 0.2),
         n_counted_body_2: Some(n_2 + 0.1),
-        repeat: None,
-        errors: None,
+        ..Metrics::default()
     }
 }
 

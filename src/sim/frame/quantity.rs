@@ -60,8 +60,10 @@ pub enum Dimension {
     Pressure,
     /// m, of films.
     Film,
-    /// m
+    /// m, of places and sizes.
     Length,
+    /// m, of roughness.
+    Height,
     /// m/s
     Speed,
     /// N, of a line N/m.
@@ -91,7 +93,7 @@ impl Dimension {
             Self::Share => ("%", 100.0),
             Self::Time => ("s", 1.0),
             Self::Pressure => ("GPa", 1e-9),
-            Self::Film | Self::Length => ("µm", 1e6),
+            Self::Film | Self::Length | Self::Height => ("µm", 1e6),
             Self::Speed => ("m/s", 1.0),
             Self::Load if kind == ContactKind::Line => ("N/m", 1.0),
             Self::Load => ("N", 1.0),
@@ -208,9 +210,9 @@ impl Quantity {
         Self { over, ..self }
     }
 
-    /// Shown everywhere by its line alone.
-    #[expect(dead_code, reason = "the next quantity is the first")]
-    pub(super) const fn by_itself(self) -> Self {
+    /// The same, shown everywhere by its line alone.
+    #[must_use]
+    pub const fn by_itself(self) -> Self {
         Self {
             by_itself: true,
             ..self
