@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use asperity::math::number::{counted, seconds, sig};
 use asperity::run::{End, Outcome};
 use asperity::scene::{ContactKind, Scene};
-use asperity::sim::{LubricationRegime, Rhythm, Summary};
+use asperity::sim::{CATALOGUE, LubricationRegime, Rhythm, Summary};
 
 pub(crate) use self::complaints::complaints;
 
@@ -146,11 +146,28 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
     if let Some(repetition) = repetition(s) {
         line(text, "passage", &repetition);
     }
+    push_by_itself(text, scene, s);
     push_life(text, scene, s);
     let errors = format!("load {:.1e}, mass {:.1e}", s.load_error, s.mass_error);
     line(text, "errors", &errors);
     for (k, caution) in s.cautions.iter().enumerate() {
         line(text, if k == 0 { "cautions" } else { "" }, &caution.text);
+    }
+}
+
+/// Quantities that the catalogue shows by themselves.
+fn push_by_itself(text: &mut String, scene: &Scene, s: &Summary) {
+    for quantity in CATALOGUE {
+        let sums = quantity.over.iter().filter_map(|(over, key)| {
+            let value = (*s.by_itself.get(*key)?)?;
+            let value = quantity.in_words(value, scene.kind());
+            Some(format!("{} of the steps {value}", over.word()))
+        });
+        let sums: Vec<String> = sums.collect();
+        if !sums.is_empty() {
+            let what = format!("{}: {}", quantity.meaning, sums.join(", "));
+            line(text, quantity.symbol, &what);
+        }
     }
 }
 

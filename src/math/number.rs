@@ -79,6 +79,27 @@ pub fn nice_ceiling(value: f64) -> f64 {
     chosen.unwrap_or(10.0) * decade
 }
 
+/// A unit: its name, and how many of it make one SI unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// Name, as printed.
+    pub name: &'static str,
+    /// Units per SI unit.
+    pub per_si: f64,
+}
+
+impl Unit {
+    /// `value` (SI) in this unit.
+    pub fn of(self, value: f64) -> f64 {
+        value * self.per_si
+    }
+
+    /// `value` (SI) with its unit, to `digits` significant figures.
+    pub fn show(self, value: f64, digits: i32) -> String {
+        format!("{} {}", sig(self.of(value), digits), self.name)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,6 +6,8 @@
 
 use std::fmt::Write as _;
 
+use crate::sim::Reading;
+
 /// Cells one after another in one buffer, which is used again for the next row.
 #[derive(Debug, Default)]
 pub(crate) struct Cells {
@@ -46,10 +48,14 @@ impl Cells {
         self.number(value.unwrap_or(f64::NAN));
     }
 
-    /// So many empty cells.
-    pub(crate) fn empty(&mut self, n: usize) {
-        let end = self.text.len();
-        self.ends.extend(std::iter::repeat_n(end, n));
+    /// What was read of a quantity.
+    pub(crate) fn reading(&mut self, reading: Reading) {
+        match reading {
+            Reading::Unknown => self.optional(None),
+            Reading::Number(value) => self.number(value),
+            Reading::Count(count) => self.text(count),
+            Reading::Word(word) => self.text(word),
+        }
     }
 
     /// The cells from left to right.
@@ -109,7 +115,8 @@ mod tests {
         cells.optional(None);
         cells.number(f64::INFINITY);
         cells.text("warm");
-        cells.empty(2);
+        cells.reading(Reading::Unknown);
+        cells.reading(None::<f64>.into());
         cells.optional(Some(2.0));
         assert_eq!(
             cells.iter().collect::<Vec<_>>(),

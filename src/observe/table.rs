@@ -1,6 +1,6 @@
 //! The scalars of every step as comma-separated values, one row per step.
 //!
-//! The header names every column with its unit; what is not known yet is an empty cell. Every row
+//! The columns are the [`CATALOGUE`]'s; what is not known yet is an empty cell. Every row
 //! reaches the file at once, so a killed run leaves a table up to its last step.
 
 use std::fs::File;
@@ -12,69 +12,7 @@ use super::placed::Placed;
 use super::{
     NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
 };
-use crate::sim::{Frame, LifeEstimate, Metrics, Stage};
-
-/// Columns in the order of [`Row::write`], which destructures every field: a new metric that is
-/// not given a column does not compile.
-const COLUMNS: [&str; 57] = [
-    "step",
-    "time_s",
-    "passages",
-    "stage",
-    "a_m",
-    "b_m",
-    "p_hertz_pa",
-    "converged",
-    "residual",
-    "newton_iterations",
-    "linear_iterations",
-    "retries",
-    "slide_roll",
-    "slide_roll_target",
-    "entrainment_m_s",
-    "load_n",
-    "load_target_n",
-    "amplitude_1_m",
-    "amplitude_2_m",
-    "p_max_pa",
-    "h_central_m",
-    "h_min_m",
-    "h_mean_m",
-    "lambda_ratio",
-    "film_to_roughness",
-    "contact_ratio",
-    "contact_load_ratio",
-    "regime",
-    "load_error",
-    "film_error",
-    "mass_error",
-    "overlap_m",
-    "friction_coefficient",
-    "sigma_eff_max_pa",
-    "sigma_eff_max_depth_m",
-    "sigma_eff_max_x_m",
-    "n_body_1",
-    "n_body_2",
-    "n_counted_body_1",
-    "n_counted_body_2",
-    "i_ref",
-    "i_mean",
-    "phases",
-    "cycle_factor",
-    "stress_factor",
-    "peak_factor",
-    "traction_factor",
-    "load_factor",
-    "life_relative",
-    "life_relative_low",
-    "life_relative_high",
-    "settled",
-    "point_x_m",
-    "point_effective_pa",
-    "point_cycles_counted",
-    "yielded_body_1_m3",
-    "yielded_body_2_m3",
-];
+use crate::sim::{CATALOGUE, Frame};
 
 /// Writes the table.
 #[derive(Debug)]
@@ -82,7 +20,7 @@ pub struct Table {
     output: String,
     writer: csv::Writer<File>,
     placed: Placed,
-    row: Row,
+    row: Cells,
     rows: u64,
 }
 
@@ -97,20 +35,23 @@ impl Table {
             output: path.display().to_string(),
             writer: csv::Writer::from_writer(file),
             placed,
-            row: Row::default(),
+            row: Cells::default(),
             rows: 0,
         };
         table
             .writer
-            .write_record(COLUMNS)
+            .write_record(CATALOGUE.iter().map(|quantity| quantity.name))
             .and_then(|()| Ok(table.writer.flush()?))
             .map_err(|error| table.failed(&error.into()))?;
         Ok(table)
     }
 
     fn write(&mut self, frame: &Frame) -> Result<(), csv::Error> {
-        self.row.write(frame);
-        for cell in self.row.cells.iter() {
+        self.row.clear();
+        for quantity in CATALOGUE {
+            self.row.reading(quantity.read(frame));
+        }
+        for cell in self.row.iter() {
             self.writer.write_field(cell)?;
         }
         self.writer.write_record(None::<&[u8]>)?;
@@ -165,163 +106,10 @@ impl Observer for Table {
     }
 }
 
-/// One row, used again for the next.
-#[derive(Debug, Default)]
-struct Row {
-    cells: Cells,
-}
-
-impl Row {
-    fn cell(&mut self, value: f64) {
-        self.cells.number(value);
-    }
-
-    fn count(&mut self, value: impl Into<u64>) {
-        self.cells.text(value.into());
-    }
-
-    fn optional(&mut self, value: Option<f64>) {
-        self.cells.optional(value);
-    }
-
-    fn write(&mut self, frame: &Frame) {
-        self.cells.clear();
-        self.count(frame.step);
-        self.cell(frame.time_s);
-        self.cell(frame.passages);
-        self.cells.text(match frame.stage {
-            Stage::StartUp => "start_up",
-            Stage::Passage => "passage",
-        });
-        self.cell(frame.a_m);
-        self.cell(frame.b_m);
-        self.cell(frame.p_hertz_pa);
-        self.metrics(&frame.metrics);
-        self.life(frame.metrics.life.as_ref());
-        let point = frame.material_point.as_ref();
-        self.optional(point.map(|point| point.x_m));
-        self.optional(point.map(|point| point.effective_pa));
-        self.optional(point.map(|point| point.cycles_counted));
-        let yielded = frame.metrics.yielded_m3;
-        self.optional(yielded.map(|both| both[0]));
-        self.optional(yielded.map(|both| both[1]));
-    }
-
-    fn metrics(&mut self, metrics: &Metrics) {
-        let Metrics {
-            converged,
-            residual,
-            newton_iterations,
-            linear_iterations,
-            retries,
-            slide_roll,
-            slide_roll_target,
-            entrainment_m_s,
-            load_n,
-            load_target_n,
-            amplitude_1_m,
-            amplitude_2_m,
-            p_max_pa,
-            h_central_m,
-            h_min_m,
-            h_mean_m,
-            lambda_ratio,
-            film_to_roughness,
-            contact_ratio,
-            contact_load_ratio,
-            regime,
-            load_error,
-            film_error,
-            mass_error,
-            overlap_m,
-            asked: _,
-            friction_coefficient,
-            yielded_m3: _,
-            sigma_eff_max_pa,
-            sigma_eff_max_depth_m,
-            sigma_eff_max_x_m,
-            life: _,
-            n_body_1,
-            n_body_2,
-            n_counted_body_1,
-            n_counted_body_2,
-            repeat: _,
-            errors: _,
-        } = metrics;
-        self.count(u8::from(*converged));
-        self.cell(*residual);
-        self.count(*newton_iterations);
-        self.count(*linear_iterations);
-        self.count(*retries);
-        self.cell(*slide_roll);
-        self.cell(*slide_roll_target);
-        self.cell(*entrainment_m_s);
-        self.cell(*load_n);
-        self.cell(*load_target_n);
-        self.cell(*amplitude_1_m);
-        self.cell(*amplitude_2_m);
-        self.cell(*p_max_pa);
-        self.cell(*h_central_m);
-        self.cell(*h_min_m);
-        self.cell(*h_mean_m);
-        self.optional(*lambda_ratio);
-        self.optional(*film_to_roughness);
-        self.cell(*contact_ratio);
-        self.cell(*contact_load_ratio);
-        self.cells.text(regime.name());
-        self.cell(*load_error);
-        self.cell(*film_error);
-        self.cell(*mass_error);
-        self.cell(*overlap_m);
-        self.cell(*friction_coefficient);
-        self.optional(*sigma_eff_max_pa);
-        self.optional(*sigma_eff_max_depth_m);
-        self.optional(*sigma_eff_max_x_m);
-        self.optional(*n_body_1);
-        self.optional(*n_body_2);
-        self.optional(*n_counted_body_1);
-        self.optional(*n_counted_body_2);
-    }
-
-    fn life(&mut self, life: Option<&LifeEstimate>) {
-        let Some(life) = life else {
-            self.cells.empty(12);
-            return;
-        };
-        let LifeEstimate {
-            i_ref,
-            i_mean,
-            phases,
-            cycle_factor,
-            stress_factor,
-            peak_factor,
-            traction_factor,
-            load_factor,
-            life_relative,
-            life_relative_low,
-            life_relative_high,
-            settled,
-            detail: _,
-        } = life;
-        self.cell(*i_ref);
-        self.cell(*i_mean);
-        self.count(*phases);
-        self.cell(*cycle_factor);
-        self.cell(*stress_factor);
-        self.cell(*peak_factor);
-        self.cell(*traction_factor);
-        self.cell(*load_factor);
-        self.cell(*life_relative);
-        self.cell(*life_relative_low);
-        self.cell(*life_relative_high);
-        self.count(u8::from(*settled));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::MaterialPoint;
+    use crate::sim::{LifeEstimate, MaterialPoint, Metrics};
 
     fn frame(step: u64) -> Arc<Frame> {
         Arc::new(Frame {

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
-use super::frame::{LifeDetail, LifeEstimate, Repeat};
+use super::estimates::{LifeDetail, LifeEstimate, Repeat};
 use super::reference::Calibration;
 use super::settling::Settling;
 use super::smooth::Conditions;

@@ -1,15 +1,20 @@
-//! What one time step looks like from outside: SI, plain data, `f32` fields.
+//! What one time step looks like from outside: SI, plain data, `f32` fields, and the catalogue of its scalars.
 //!
 //! Fields are stored row by row: index `j * nx + i`, `i` along x (rolling direction), `j` along y.
 //! Frames always hold the full domain, also where the solver worked on half of it. A line contact is shown
 //! by [`crate::plan::LINE_ROWS`] equal rows: nothing varies along y.
 
-use std::sync::Arc;
+mod quantity;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Grounds, LubricationRegime};
-use crate::scene::{ContactKind, LifeModel};
+pub use self::quantity::{Dimension, Over, Quantity, Reading, named};
+pub(super) use self::quantity::{SUMMED, summed, total};
+use super::{
+    DamageBlock, Grounds, LifeEstimate, LubricationRegime, MaterialPoint, MeshErrors, Repeat,
+    StressPlane, StressSlice,
+};
+use crate::scene::ContactKind;
 
 /// Which part of a run a frame belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,6 +24,16 @@ pub enum Stage {
     StartUp,
     /// The passage: every number counts.
     Passage,
+}
+
+impl Stage {
+    /// Name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::StartUp => "start_up",
+            Self::Passage => "passage",
+        }
+    }
 }
 
 /// One frame.
@@ -85,105 +100,6 @@ pub struct Frame {
     pub grounds: Grounds,
 }
 
-/// Stress of body 1 in a plane: index `row * width + i`.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct StressPlane {
-    /// Axis that the plane is normal to: `'x'`, `'y'` or `'z'`.
-    pub normal: char,
-    /// Where it cuts that axis, m.
-    pub at_m: f64,
-    /// Points along a row: along y for x = const, else along x.
-    pub width: usize,
-    /// Rows: depths as in the slice, but along y for z = const.
-    pub rows: usize,
-    /// First coordinate along a row, m.
-    pub first_m: f64,
-    /// Spacing along a row, m.
-    pub step_m: f64,
-    /// Effective stress, Pa.
-    pub effective_pa: Vec<f32>,
-    /// Principal stresses, greatest (most tensile) first, Pa.
-    pub principal_pa: [Vec<f32>; 3],
-}
-
-/// Damage of a block of one surface that moves with its body: index `column * depths + k`.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct DamageBlock {
-    /// Length of the block along the surface, m: one wavelength, or the whole track of a smooth body. Columns
-    /// divide it evenly; place 0 is a crest.
-    pub length_m: f64,
-    /// Columns.
-    pub columns: usize,
-    /// Depths below the surface, m, increasing.
-    pub depths_m: Arc<[f64]>,
-    /// Damage of one crossing by Miner's rule over that of the worst point of the smooth contact; 0 where no
-    /// material point has crossed yet.
-    pub damage: Vec<f32>,
-    /// Columns that have been crossed.
-    pub filled: usize,
-    /// Middle of the worst column, way from a crest, m.
-    pub pit_place_m: f64,
-    /// Depth of the worst point, m.
-    pub pit_depth_m: f64,
-    /// Its damage.
-    pub pit_damage: f64,
-}
-
-/// Stress in the plane y = 0 below a body's surface: index `k * nx + i`, `k` over depths.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct StressSlice {
-    /// Depths below the surface, m, increasing.
-    pub depths_m: Arc<[f64]>,
-    /// Effective stress by the scene's measure (von Mises by default), Pa.
-    pub effective_pa: Vec<f32>,
-    /// Signed orthogonal shear, Pa.
-    pub tau_xz_pa: Vec<f32>,
-}
-
-/// Which material point is shown. It changes no result.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Follow {
-    /// Body: 1 or 2.
-    pub body: u8,
-    /// The nearest depth that is computed, m.
-    pub depth_m: f64,
-    /// The nearest of the points that are counted, m; `None`: the one that is shown.
-    pub x_m: Option<f64>,
-}
-
-/// A point of body 1 or 2 that crosses the contact at its body's speed.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MaterialPoint {
-    /// Body: 1 or 2.
-    pub body: u8,
-    /// Where it is now, m.
-    pub x_m: f64,
-    /// Depth at which its stress is given, m.
-    pub depth_m: f64,
-    /// Pressure on the surface above it, Pa.
-    pub pressure_pa: f64,
-    /// Effective stress at the point, Pa.
-    pub effective_pa: f64,
-    /// Signed orthogonal shear at the point, Pa.
-    pub tau_xz_pa: f64,
-    /// Peaks of the pressure passed so far in this crossing, each of which closes one cycle (a peak has passed
-    /// when the pressure has fallen from it by rainflow's gate, 5 % of p_h).
-    pub cycles_counted: f64,
-    /// The last of them.
-    pub last_peak: Option<PassedPeak>,
-    /// Cycles that rainflow closed in the point's last whole crossing.
-    pub cycles_before: Option<f64>,
-}
-
-/// A peak of the pressure on a material point.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PassedPeak {
-    /// Where, m.
-    pub x_m: f64,
-    /// How high, Pa.
-    pub pressure_pa: f64,
-}
-
 /// Scalars of one step. NaN never appears: what is not known yet is `None`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Metrics {
@@ -247,6 +163,9 @@ pub struct Metrics {
     pub asked: [f64; 2],
     /// Friction force over load, positive.
     pub friction_coefficient: f64,
+    /// Greatest shear stress on the surfaces, of sheared oil and of touching spots, Pa.
+    #[serde(default)]
+    pub traction_max_pa: f64,
     /// What body 1 and 2 have yielded since the roughness came up, m³ (of a line m³ per metre of length); `None`: both
     /// are elastic.
     #[serde(default)]
@@ -273,109 +192,144 @@ pub struct Metrics {
     pub errors: Option<MeshErrors>,
 }
 
-/// Relative errors by the mesh as far as the start-up shows them: what the smooth contact changed from the
-/// last but one grid to the last (all of it, as in a run's own estimate), and for the pressure what ripples
-/// of few nodes lose, (2π/n)²/12 of a ripple as high as the mean. Where knobs have left the scene's speed or load the
-/// films' errors follow the plan's mesh rule, the pressure's (ΔX/a)².
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct MeshErrors {
-    /// Of the central film.
-    pub h_central: f64,
-    /// Of the least film.
-    pub h_min: f64,
-    /// Of the greatest pressure.
-    pub p_max: f64,
-}
+/// Every scalar of a step, in the order of a table's columns: the one place where it gets its name and symbol, what it
+/// measures, what it is in words, where it is read, and how a summary sums it up. Tables, summaries, recordings, exported
+/// fields, reports and the explorer look it up here. A new one comes last and is shown `by_itself`.
+#[rustfmt::skip]
+pub const CATALOGUE: &[Quantity] = {
+    use Dimension::{Film, Height, Length, Load, Plain, Pressure, Share, Speed, Time, Volume};
+    use Over::{Greatest, Least, Mean};
+    const fn frame(names: [&'static str; 2], dimension: Dimension, meaning: &'static str, of: fn(&Frame) -> Reading) -> Quantity {
+        Quantity::of_frame(names, dimension, meaning, of)
+    }
+    const fn metric(names: [&'static str; 2], dimension: Dimension, meaning: &'static str, of: fn(&Metrics) -> Reading) -> Quantity {
+        Quantity::of_metrics(names, dimension, meaning, of)
+    }
+    const fn life(names: [&'static str; 2], meaning: &'static str, of: fn(&LifeEstimate) -> Reading) -> Quantity {
+        Quantity::of_life(names, meaning, of)
+    }
+    &[
+        frame(["step", "step"], Plain, "time step of the passage", |f| f.step.into()),
+        frame(["time_s", "t"], Time, "time since the start of the passage", |f| f.time_s.into()),
+        frame(["passages", "passages"], Plain, "lengths of 4 a travelled at U", |f| f.passages.into()),
+        frame(["stage", "stage"], Plain, "part of the run", |f| Reading::Word(f.stage.name())),
+        frame(["a_m", "a (along x)"], Length, "Hertz half-width along x at the load of now", |f| f.a_m.into()),
+        frame(["b_m", "b (across)"], Length, "Hertz half-width across", |f| f.b_m.into()),
+        frame(["p_hertz_pa", "p_Hertz"], Pressure, "greatest Hertz pressure at the load of now", |f| f.p_hertz_pa.into()),
+        metric(["converged", "converged (1/0)"], Plain, "whether the step converged", |m| m.converged.into()),
+        metric(["residual", "residual"], Plain, "relative change of pressure in the last iteration", |m| m.residual.into()),
+        metric(["newton_iterations", "Newton iterations"], Plain, "Newton iterations of the step", |m| m.newton_iterations.into()),
+        metric(["linear_iterations", "linear iterations"], Plain, "Krylov iterations of the step", |m| m.linear_iterations.into()),
+        metric(["retries", "retries"], Plain, "times that the step was halved", |m| m.retries.into()),
+        metric(["slide_roll", "S"], Plain, "slide-to-roll ratio (U2 - U1)/U", |m| m.slide_roll.into()),
+        metric(["slide_roll_target", "S target"], Plain, "where S is going", |m| m.slide_roll_target.into()),
+        metric(["entrainment_m_s", "U"], Speed, "entrainment speed", |m| m.entrainment_m_s.into()),
+        metric(["load_n", "load"], Load, "load asked for", |m| m.load_n.into()).over(&[(Mean, "load_n")]),
+        metric(["load_target_n", "load target"], Load, "where the load is going", |m| m.load_target_n.into()),
+        metric(["amplitude_1_m", "A1"], Height, "amplitude of body 1's roughness", |m| m.amplitude_1_m.into()),
+        metric(["amplitude_2_m", "A2"], Height, "amplitude of body 2's roughness", |m| m.amplitude_2_m.into()),
+        metric(["p_max_pa", "p_max"], Pressure, "greatest pressure", |m| m.p_max_pa.into()).over(&[(Mean, "p_max_pa"), (Greatest, "p_max_greatest_pa")]),
+        metric(["h_central_m", "h_central"], Film, "film at the origin", |m| m.h_central_m.into()).over(&[(Mean, "h_central_m")]),
+        metric(["h_min_m", "h_min"], Film, "least film under pressure", |m| m.h_min_m.into()).over(&[(Mean, "h_min_m"), (Least, "h_min_least_m")]),
+        metric(["h_mean_m", "h_mean"], Film, "mean film of the central part", |m| m.h_mean_m.into()),
+        metric(["lambda_ratio", "λ ratio"], Plain, "smooth central film by formula over composite roughness", |m| m.lambda_ratio.into()),
+        metric(["film_to_roughness", "h_mean/Rq"], Plain, "mean film of the central part over composite roughness", |m| m.film_to_roughness.into()),
+        metric(["contact_ratio", "area in contact"], Share, "part of the Hertz ellipse in contact", |m| m.contact_ratio.into()).over(&[(Mean, "contact_ratio")]),
+        metric(["contact_load_ratio", "load on contacts"], Share, "part of the load that contacts carry", |m| m.contact_load_ratio.into()).over(&[(Mean, "contact_load_ratio")]),
+        metric(["regime", "regime"], Plain, "lubrication regime", |m| Reading::Word(m.regime.name())),
+        metric(["load_error", "load error"], Plain, "|carried - asked|/asked", |m| m.load_error.into()).over(&[(Greatest, "load_error")]),
+        metric(["film_error", "film error"], Plain, "residual of the film equation over the mass under pressure", |m| m.film_error.into()),
+        metric(["mass_error", "mass error"], Plain, "the part of it that no step takes over", |m| m.mass_error.into()).over(&[(Greatest, "mass_error")]),
+        metric(["overlap_m", "overlap"], Film, "deepest overlap of a step that did not converge", |m| m.overlap_m.into()),
+        metric(["friction_coefficient", "friction coefficient"], Plain, "friction force over load", |m| m.friction_coefficient.into()).over(&[(Mean, "friction_coefficient")]),
+        metric(["sigma_eff_max_pa", "σ_eff max"], Pressure, "greatest effective stress", |m| m.sigma_eff_max_pa.into()),
+        metric(["sigma_eff_max_depth_m", "z of σ_eff max"], Length, "its depth", |m| m.sigma_eff_max_depth_m.into()),
+        metric(["sigma_eff_max_x_m", "x of σ_eff max"], Length, "its place along x", |m| m.sigma_eff_max_x_m.into()),
+        metric(["n_body_1", "n body 1, formula"], Plain, "contacts per loading cycle of body 1 by formula", |m| m.n_body_1.into()),
+        metric(["n_body_2", "n body 2, formula"], Plain, "contacts per loading cycle of body 2 by formula", |m| m.n_body_2.into()),
+        metric(["n_counted_body_1", "n body 1, counted"], Plain, "cycles of body 1 counted by rainflow", |m| m.n_counted_body_1.into()),
+        metric(["n_counted_body_2", "n body 2, counted"], Plain, "cycles of body 2 counted by rainflow", |m| m.n_counted_body_2.into()),
+        life(["i_ref", "I of the reference"], "volume integral of the smooth, frictionless contact", |l| l.i_ref.into()),
+        life(["i_mean", "I"], "volume integral, mean over the phases", |l| l.i_mean.into()),
+        life(["phases", "phases"], "phases in that mean", |l| l.phases.into()),
+        life(["cycle_factor", "cycle factor"], "n_ref/n", |l| l.cycle_factor.into()),
+        life(["stress_factor", "stress factor"], "(I_ref/I)^(1/e)", |l| l.stress_factor.into()),
+        life(["peak_factor", "peak factor"], "part of the stress factor due to pressure peaks", |l| l.peak_factor.into()),
+        life(["traction_factor", "traction factor"], "part of the stress factor due to traction", |l| l.traction_factor.into()),
+        life(["load_factor", "load factor"], "what the load and speed of now cost on the smooth contact", |l| l.load_factor.into()),
+        life(["life_relative", "relative life"], "life over that of the smooth, frictionless contact at S = 0", |l| l.life_relative.into()),
+        life(["life_relative_low", "life, low"], "lower end of its band", |l| l.life_relative_low.into()),
+        life(["life_relative_high", "life, high"], "upper end of its band", |l| l.life_relative_high.into()),
+        life(["settled", "settled (1/0)"], "whether the average has stopped moving", |l| l.settled.into()),
+        frame(["point_x_m", "x"], Length, "where the followed point is", |f| f.material_point.map(|point| point.x_m).into()),
+        frame(["point_effective_pa", "effective stress"], Pressure, "effective stress at the followed point", |f| f.material_point.map(|point| point.effective_pa).into()),
+        frame(["point_cycles_counted", "peaks so far in this crossing"], Plain, "peaks of the pressure on it in this crossing", |f| f.material_point.map(|point| point.cycles_counted).into()),
+        metric(["yielded_body_1_m3", "body 1 has yielded"], Volume, "what body 1 has yielded since the roughness came up", |m| m.yielded_m3.map(|both| both[0]).into()),
+        metric(["yielded_body_2_m3", "body 2 has yielded"], Volume, "what body 2 has yielded since the roughness came up", |m| m.yielded_m3.map(|both| both[1]).into()),
+        metric(["traction_max_pa", "τ max"], Pressure, "greatest shear stress on the surfaces", |m| m.traction_max_pa.into()).over(&[(Mean, "traction_max_pa"), (Greatest, "traction_max_greatest_pa")]).by_itself(),
+    ]
+};
 
-/// What can repeat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Rhythm {
-    /// No crest passes: every step should be like the last.
-    Steady,
-    /// Both bodies' crests are in the same places again after a period.
-    Orbit,
-    /// No common period: only means can settle.
-    Statistics,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Whether the passage repeats.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Repeat {
-    /// What is compared.
-    pub rhythm: Rhythm,
-    /// After which time, s: the period of both bodies' waves, or the window of the means.
-    pub period_s: f64,
-    /// Relative difference of the fields one period apart (of the means); `None`: not seen yet.
-    pub drift: Option<f64>,
-    /// Whether the drift is below 0.5 % (means: 1 %).
-    pub repeats: bool,
-}
+    /// What is no scalar, or is told in parts.
+    const OTHERS: [&str; 6] = ["asked", "yielded_m3", "life", "repeat", "errors", "detail"];
 
-/// Relative life (reference: smooth, frictionless, S = 0, load, speed and geometry of now) and its factors:
-/// `life_relative = cycle_factor * stress_factor`, `stress_factor = peak_factor * traction_factor`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct LifeEstimate {
-    /// Volume integral of the reference, in Pa^(c e) m^3 scaled by p_h^(c e) a^3 at the load of now; of a line per
-    /// length, a^2.
-    pub i_ref: f64,
-    /// Same integral, mean over the phases seen so far (last full passage period).
-    pub i_mean: f64,
-    /// Phases in the mean.
-    pub phases: u32,
-    /// n_ref/n, least of the two bodies.
-    pub cycle_factor: f64,
-    /// (I_ref/I)^(1/e).
-    pub stress_factor: f64,
-    /// Part of the stress factor due to pressure peaks.
-    pub peak_factor: f64,
-    /// Part of the stress factor due to traction.
-    pub traction_factor: f64,
-    /// What the load itself costs: life of the smooth contact at the load, speed and radii of now over its life at
-    /// those that the scene began with. `life_relative * load_factor` compares lives at different loads.
-    #[serde(default)]
-    pub load_factor: f64,
-    /// Relative life.
-    pub life_relative: f64,
-    /// Lower end of the band: of the discretisation error, and of what a mean without a common period still wanders.
-    pub life_relative_low: f64,
-    /// Upper end of the band.
-    pub life_relative_high: f64,
-    /// Whether no step of a ramp, or of what the ramp left in the film, is in the average, and the average has stopped
-    /// moving within its own band.
-    pub settled: bool,
-    /// Both bodies, other forms, other models.
-    pub detail: LifeDetail,
-}
+    #[test]
+    fn every_scalar_is_in_the_catalogue_once() {
+        let metrics = serde_json::to_value(Metrics::default()).expect("plain data");
+        let life = serde_json::to_value(LifeEstimate::default()).expect("plain data");
+        let fields = [metrics, life];
+        let fields = fields.iter().filter_map(|value| value.as_object());
+        let names: Vec<&str> = CATALOGUE.iter().map(|quantity| quantity.name).collect();
+        let mut found = 0;
+        for field in fields.flat_map(serde_json::Map::keys) {
+            let times = names.iter().filter(|name| *name == field).count();
+            assert_eq!(
+                times,
+                usize::from(!OTHERS.contains(&field.as_str())),
+                "{field}"
+            );
+            found += times;
+        }
+        assert!(found > 40, "{found}");
+    }
 
-/// What stands beside a life.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct LifeDetail {
-    /// The model.
-    pub model: Option<LifeModel>,
-    /// Body that gives the life, 1 or 2.
-    pub body: u8,
-    /// Relative life of body 1 and 2 in own loading cycles (by damage: of the faster body); `None`: the body stands, or is
-    /// not counted yet.
-    pub life_body: [Option<f64>; 2],
-    /// Both together in time, as equal discs, relative to both of the reference.
-    pub life_system: Option<f64>,
-    /// Life by the paper's count, one n by formula times the mean of snapshots; `None`: the body stands.
-    #[serde(default)]
-    pub life_global: Option<f64>,
-    /// Life with every cycle by the damage it does.
-    #[serde(default)]
-    pub life_damage: Option<f64>,
-    /// Same life by the mean of snapshots.
-    pub life_snapshot: Option<f64>,
-    /// Same life by the swept integral.
-    pub life_swept: Option<f64>,
-    /// Least life over the choice of model (`life.spread`).
-    pub spread_low: f64,
-    /// Greatest.
-    pub spread_high: f64,
-    /// Variants in the spread.
-    pub variants: u32,
-    /// Loading cycles at the scene's survival; `None` without a calibration point.
-    pub cycles: Option<f64>,
+    #[test]
+    fn names_and_keys_have_one_meaning() {
+        let quantities = CATALOGUE.iter();
+        let mut keys: Vec<&str> = quantities
+            .clone()
+            .flat_map(|q| q.over)
+            .map(|(_, key)| *key)
+            .collect();
+        let mut names: Vec<&str> = quantities.map(|quantity| quantity.name).collect();
+        for list in [&mut keys, &mut names] {
+            let all = list.len();
+            list.sort_unstable();
+            list.dedup();
+            assert_eq!(list.len(), all);
+        }
+        assert_eq!(summed().count(), SUMMED);
+    }
+
+    #[test]
+    fn what_is_not_known_is_no_number() {
+        let mut frame = Frame::default();
+        let life = const { named("life_relative") };
+        assert_eq!(life.number(&frame), None);
+        frame.metrics.life = Some(LifeEstimate {
+            life_relative: 0.5,
+            ..LifeEstimate::default()
+        });
+        assert_eq!(life.number(&frame), Some(0.5));
+        assert_eq!(
+            const { named("stage") }.read(&frame),
+            Reading::Word("start_up")
+        );
+        let film = const { named("h_central_m") };
+        assert_eq!(film.label(ContactKind::Point), "h_central, µm");
+    }
 }

@@ -3,11 +3,14 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::Metrics;
+use super::door::Door;
 use crate::math::grid::{Grid, Symmetry};
 use crate::solve::traction::TractionLaw;
 
 /// What one pass over the fields gives, dimensionless.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub(super) struct Measured {
     /// Greatest P.
     pub(super) p_max: f64,
@@ -24,6 +27,22 @@ pub(super) struct Measured {
     pub(super) contact_load_ratio: f64,
     /// ∬Q/∬P.
     pub(super) friction: f64,
+    /// Greatest |Q|.
+    pub(super) traction_max: f64,
+}
+
+impl Measured {
+    /// The same in SI.
+    pub(super) fn publish(&self, door: &Door, m: &mut Metrics) {
+        m.p_max_pa = door.pa_from_p(self.p_max);
+        m.h_central_m = door.m_from_h(self.h_central);
+        m.h_min_m = door.m_from_h(self.h_min);
+        m.h_mean_m = door.m_from_h(self.h_mean);
+        m.contact_ratio = self.contact_ratio;
+        m.contact_load_ratio = self.contact_load_ratio;
+        m.friction_coefficient = self.friction.abs();
+        m.traction_max_pa = door.pa_from_p(self.traction_max);
+    }
 }
 
 /// Fields of a step and the law of its traction.
@@ -44,6 +63,7 @@ pub(super) struct Fields<'a> {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct RowSums {
     p_max: f64,
+    traction_max: f64,
     h_min: f64,
     load: f64,
     drag: f64,
@@ -88,12 +108,14 @@ pub(super) fn measure(fields: &Fields, traction: &mut [f64], rows: &mut [RowSums
         contact_ratio: total.contact / whole,
         contact_load_ratio: total.touching / load,
         friction: total.drag / load,
+        traction_max: total.traction_max,
     }
 }
 
 impl RowSums {
     fn add(&mut self, row: &Self, weight: f64) {
         self.p_max = self.p_max.max(row.p_max);
+        self.traction_max = self.traction_max.max(row.traction_max);
         self.h_min = self.h_min.min(row.h_min);
         self.load += weight * row.load;
         self.drag += weight * row.drag;
@@ -120,6 +142,7 @@ fn sum_row(
         sums.load += p[i];
         sums.drag += q[i];
         sums.p_max = sums.p_max.max(p[i]);
+        sums.traction_max = sums.traction_max.max(q[i].abs());
         if p[i] > 0.0 {
             sums.h_min = sums.h_min.min(h[i]);
         }

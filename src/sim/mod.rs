@@ -7,7 +7,9 @@ mod damage_count;
 mod door;
 mod drive;
 mod error;
+mod estimates;
 mod fatigue_stage;
+mod fields;
 mod fill;
 mod fitness;
 mod follow;
@@ -40,10 +42,9 @@ mod yielded;
 
 pub use caution::{Caution, CautionCode, Grounds};
 pub use error::{SimError, StepError, Unsolved};
-pub use frame::{
-    DamageBlock, Follow, Frame, LifeDetail, LifeEstimate, MaterialPoint, MeshErrors, Metrics,
-    PassedPeak, Repeat, Rhythm, Stage, StressPlane, StressSlice,
-};
+pub use estimates::{LifeDetail, LifeEstimate, MeshErrors, Repeat, Rhythm};
+pub use fields::{DamageBlock, Follow, MaterialPoint, PassedPeak, StressPlane, StressSlice};
+pub use frame::{CATALOGUE, Dimension, Frame, Metrics, Over, Quantity, Reading, Stage, named};
 pub use knob::Knob;
 pub use lubrication::LubricationRegime;
 pub use simulation::Simulation;

@@ -15,7 +15,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Metrics;
-use super::frame::{Repeat, Rhythm};
+use super::estimates::{Repeat, Rhythm};
 use crate::solve::life::Window;
 
 /// Longest period that is looked for, in a.

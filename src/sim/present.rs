@@ -23,17 +23,13 @@ impl Simulation {
         )
     }
 
-    /// Films, regime and mesh error of the committed step.
+    /// What was measured of the committed step, its regime and mesh error.
     pub(super) fn publish_lubrication(&mut self, measured: &Measured) {
         let film = self.regime.film_now(&self.door, &self.state.drive);
         let flows = self.regime.flow_now(&self.door, &self.state.drive) != Flow::Dry;
         let errors = self.mesh_errors_now(film);
-        let (m, door) = (&mut self.state.metrics, &self.door);
-        m.h_central_m = door.m_from_h(measured.h_central);
-        m.h_min_m = door.m_from_h(measured.h_min);
-        m.h_mean_m = door.m_from_h(measured.h_mean);
-        m.contact_ratio = measured.contact_ratio;
-        m.contact_load_ratio = measured.contact_load_ratio;
+        let m = &mut self.state.metrics;
+        measured.publish(&self.door, m);
         m.amplitude_1_m = self.state.drive.get(Knob::Amplitude1M).now;
         m.amplitude_2_m = self.state.drive.get(Knob::Amplitude2M).now;
         let rq = (m.amplitude_1_m * self.composite[0]).hypot(m.amplitude_2_m * self.composite[1]);

@@ -20,7 +20,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::frame::{Repeat, Rhythm};
+use super::estimates::{Repeat, Rhythm};
 use crate::physics::fatigue::LifeLaw;
 use crate::solve::life::LifeMeter;
 use crate::solve::marks::Marks;

@@ -1,5 +1,7 @@
 //! The result of a run in one flat record: the keys that scripts read.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Caution, LubricationRegime, Rhythm, Stats};
@@ -191,6 +193,9 @@ pub struct Summary {
     pub life_extrapolated: Option<f64>,
     /// Same of `h_central_m`, m.
     pub h_central_extrapolated_m: Option<f64>,
+    /// Quantities of the catalogue that are shown by themselves, summed up as it says, by their keys there.
+    #[serde(flatten)]
+    pub by_itself: BTreeMap<String, Option<f64>>,
 }
 
 /// The point of a surface whose damage is greatest.

@@ -1,13 +1,14 @@
 //! Means over the last passage, and the summary of a run.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use serde::{Deserialize, Serialize};
 
 use super::caution;
 use super::fatigue_stage::LifeStage;
+use super::frame::{SUMMED, summed, total};
 use super::summary::PitStart;
-use super::{Grounds, LifeEstimate, Metrics, Simulation, Stats, Summary};
+use super::{CATALOGUE, Grounds, LifeEstimate, Metrics, Over, Simulation, Stats, Summary};
 use crate::physics::cycles::BodyId;
 use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
 
@@ -18,7 +19,8 @@ struct Entry {
     way: f64,
     /// Its length, in a.
     span: f64,
-    values: [f64; 9],
+    /// What the catalogue sums up, in its order.
+    values: [Option<f64>; SUMMED],
     /// Greatest effective stress: value, depth, x.
     stress: Option<[f64; 3]>,
     /// What both bodies have yielded up to its end, m³.
@@ -64,33 +66,54 @@ impl Totals {
             (Some(value), Some(depth), Some(x)) => Some([value, depth, x]),
             _ => None,
         };
+        let mut values = [None; SUMMED];
+        for (value, quantity) in values.iter_mut().zip(summed()) {
+            *value = quantity.read_metrics(m).number();
+        }
         self.recent.push_back(Entry {
             way,
             span,
-            values: [
-                m.h_central_m,
-                m.h_min_m,
-                m.p_max_pa,
-                m.contact_ratio,
-                m.friction_coefficient,
-                m.load_error,
-                m.mass_error,
-                m.load_n,
-                m.contact_load_ratio,
-            ],
+            values,
             stress,
             yielded_m3: m.yielded_m3.map_or(0.0, |[one, two]| one + two),
         });
         self.not_converged += u64::from(!m.converged);
     }
 
+    /// One number of the steps, as [`total`] places it; `None`: it was not known in any of them.
+    fn sum_up(&self, (place, over): (usize, Over)) -> Option<f64> {
+        let mut values = self.recent.iter().filter_map(|entry| entry.values[place]);
+        match over {
+            Over::Mean => self.mean(place),
+            Over::Greatest => values.reduce(f64::max),
+            Over::Least => values.reduce(f64::min),
+            Over::Last => values.next_back(),
+        }
+    }
+
+    /// Same of what every step knows; 0 before the first.
+    fn number(&self, total: (usize, Over)) -> f64 {
+        self.sum_up(total).unwrap_or(0.0)
+    }
+
     /// Mean by length; of the first step only what lies within the window.
-    fn mean(&self, k: usize) -> f64 {
+    fn mean(&self, place: usize) -> Option<f64> {
         let start = self.way - self.window;
-        let weight = |entry: &Entry| entry.span.min((entry.way - start).max(0.0));
-        let sum: f64 = self.recent.iter().map(|e| weight(e) * e.values[k]).sum();
-        let length: f64 = self.recent.iter().map(weight).sum();
-        sum / length.max(f64::MIN_POSITIVE)
+        let known = self.recent.iter().filter_map(|entry| {
+            let weight = entry.span.min((entry.way - start).max(0.0));
+            Some((weight, entry.values[place]?))
+        });
+        let sum: f64 = known.clone().map(|(weight, value)| weight * value).sum();
+        let length: f64 = known.map(|(weight, _)| weight).sum();
+        (length > 0.0).then(|| sum / length.max(f64::MIN_POSITIVE))
+    }
+
+    /// What is shown by itself, each by its key.
+    fn by_themselves(&self) -> BTreeMap<String, Option<f64>> {
+        let shown = CATALOGUE.iter().filter(|quantity| quantity.by_itself);
+        let keys = shown.flat_map(|quantity| quantity.over);
+        keys.map(|(_, key)| ((*key).to_owned(), self.sum_up(total(key))))
+            .collect()
     }
 
     fn greatest_stress(&self) -> Option<[f64; 3]> {
@@ -101,7 +124,7 @@ impl Totals {
     /// Adds what cautions need of the steps.
     pub(super) fn ground(&self, grounds: &mut Grounds) {
         grounds.steps_not_converged = self.not_converged;
-        grounds.p_max_greatest_pa = self.greatest(2);
+        grounds.p_max_greatest_pa = self.number(const { total("p_max_greatest_pa") });
         grounds.yielded_last_share = self.yielded_last_share();
         grounds.sigma_eff_greatest_pa = self.greatest_stress().map(|stress| stress[0]);
     }
@@ -111,15 +134,6 @@ impl Totals {
         let (first, last) = self.recent.front().zip(self.recent.back())?;
         let lately = last.yielded_m3 - first.yielded_m3;
         (last.yielded_m3 > 0.0).then(|| lately / last.yielded_m3)
-    }
-
-    fn least(&self, k: usize) -> f64 {
-        let values = self.recent.iter().map(|e| e.values[k]);
-        values.reduce(f64::min).unwrap_or(0.0)
-    }
-
-    fn greatest(&self, k: usize) -> f64 {
-        self.recent.iter().map(|e| e.values[k]).fold(0.0, f64::max)
     }
 }
 
@@ -133,27 +147,26 @@ pub(super) fn summary(
     let m = sim.metrics();
     let size = sim.size_now();
     let stress = totals.greatest_stress();
-    let stage = sim.state.life.as_ref();
     Summary {
         converged: totals.not_converged == 0,
         steps: sim.passage_steps(),
         steps_not_converged: totals.not_converged,
         a_m: sim.plan.hertz.a_m * size,
         p_hertz_pa: sim.plan.hertz.p_max_pa * size,
-        h_central_m: totals.mean(0),
-        h_min_m: totals.mean(1),
-        p_max_pa: totals.mean(2),
-        p_max_greatest_pa: totals.greatest(2),
-        h_min_least_m: totals.least(1),
+        h_central_m: totals.number(const { total("h_central_m") }),
+        h_min_m: totals.number(const { total("h_min_m") }),
+        p_max_pa: totals.number(const { total("p_max_pa") }),
+        p_max_greatest_pa: totals.number(const { total("p_max_greatest_pa") }),
+        h_min_least_m: totals.number(const { total("h_min_least_m") }),
         regime: m.regime,
         cautions: caution::list(m, &sim.grounds()),
         lambda_ratio: m.lambda_ratio,
-        contact_ratio: totals.mean(3),
-        contact_load_ratio: totals.mean(8),
-        load_n: totals.mean(7),
-        load_error: totals.greatest(5),
-        mass_error: totals.greatest(6),
-        friction_coefficient: totals.mean(4),
+        contact_ratio: totals.number(const { total("contact_ratio") }),
+        contact_load_ratio: totals.number(const { total("contact_load_ratio") }),
+        load_n: totals.number(const { total("load_n") }),
+        load_error: totals.number(const { total("load_error") }),
+        mass_error: totals.number(const { total("mass_error") }),
+        friction_coefficient: totals.number(const { total("friction_coefficient") }),
         yielded_body_1_m3: m.yielded_m3.map(|both| both[0]),
         yielded_body_2_m3: m.yielded_m3.map(|both| both[1]),
         yielded_last_share: totals.yielded_last_share(),
@@ -161,6 +174,27 @@ pub(super) fn summary(
         n_body_2: m.n_body_2,
         n_counted_body_1: m.n_counted_body_1,
         n_counted_body_2: m.n_counted_body_2,
+        sigma_eff_max_pa: stress.map(|s| s[0]),
+        sigma_eff_max_depth_m: stress.map(|s| s[1]),
+        sigma_eff_max_x_m: stress.map(|s| s[2]),
+        counters,
+        pit_body_1: pit(sim, BodyId::One),
+        pit_body_2: pit(sim, BodyId::Two),
+        cycles_end_depth_1_m: cycles_end(sim, BodyId::One),
+        cycles_end_depth_2_m: cycles_end(sim, BodyId::Two),
+        a_iso: a_iso(sim),
+        rhythm: m.repeat.map(|r| r.rhythm),
+        period_s: m.repeat.map(|r| r.period_s),
+        period_drift: m.repeat.and_then(|r| r.drift),
+        periodic: m.repeat.map(|r| r.repeats),
+        by_itself: totals.by_themselves(),
+        ..with_life(life, sim.state.life.as_ref())
+    }
+}
+
+/// What a summary says of the life.
+fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary {
+    Summary {
         i_ref: life.map(|l| l.i_ref),
         i_mean: life.map(|l| l.i_mean),
         cycle_factor: life.map(|l| l.cycle_factor),
@@ -172,10 +206,6 @@ pub(super) fn summary(
         life_relative_low: life.map(|l| l.life_relative_low),
         life_relative_high: life.map(|l| l.life_relative_high),
         survival_ratio: stage.map(LifeStage::survival_ratio),
-        sigma_eff_max_pa: stress.map(|s| s[0]),
-        sigma_eff_max_depth_m: stress.map(|s| s[1]),
-        sigma_eff_max_x_m: stress.map(|s| s[2]),
-        counters,
         life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
         life_count: stage.map(LifeStage::count_text),
         life_basis: stage.map(LifeStage::basis_text),
@@ -195,15 +225,6 @@ pub(super) fn summary(
             .and_then(|l| Some(l.detail.cycles? * l.life_relative_low / l.life_relative)),
         life_cycles_high: life
             .and_then(|l| Some(l.detail.cycles? * l.life_relative_high / l.life_relative)),
-        pit_body_1: pit(sim, BodyId::One),
-        pit_body_2: pit(sim, BodyId::Two),
-        cycles_end_depth_1_m: cycles_end(sim, BodyId::One),
-        cycles_end_depth_2_m: cycles_end(sim, BodyId::Two),
-        a_iso: a_iso(sim),
-        rhythm: m.repeat.map(|r| r.rhythm),
-        period_s: m.repeat.map(|r| r.period_s),
-        period_drift: m.repeat.and_then(|r| r.drift),
-        periodic: m.repeat.map(|r| r.repeats),
         ..Summary::default()
     }
 }

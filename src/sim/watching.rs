@@ -167,8 +167,6 @@ impl Simulation {
             (s.now, self.state.wanted.get(Knob::SlideRoll).target);
         (m.load_n, m.load_target_n) = (force.now, self.state.wanted.get(load).target);
         m.entrainment_m_s = door.heading.sign() * self.state.drive.get(Knob::EntrainmentMS).now;
-        m.p_max_pa = door.pa_from_p(measured.p_max);
-        m.friction_coefficient = measured.friction.abs();
         let volumes = self.state.yielded.as_ref().map(Yielded::volumes);
         m.yielded_m3 = volumes.map(|both| both.map(|volume| door.m3_from_volume(volume)));
         if let Some(stress) = self.work.stress.as_ref().filter(|_| has_stress) {

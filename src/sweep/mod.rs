@@ -45,4 +45,4 @@ pub use points::points_csv;
 pub use presets::{SweepPreset, all as presets, names as preset_names};
 pub use run::{Progress, Report, cost, run};
 pub use spec::{ChainKeys, Combine, Sweep};
-pub use table::{COLUMNS, Rows, numbers};
+pub use table::Rows;

@@ -15,131 +15,90 @@ use super::folder::Folder;
 use super::spec::Sweep;
 use crate::files::fnv;
 use crate::observe::cells::Cells;
+use crate::sim::{CATALOGUE, Summary};
 
-/// Columns after those of the path and the axes, in the order of [`numbers`].
-pub const COLUMNS: [&str; 56] = [
-    "h_regression_m",
-    "h_min_regression_m",
-    "lambda_ratio",
-    "a_m",
-    "p_hertz_pa",
-    "load_n",
-    "h_central_m",
-    "h_min_m",
-    "h_min_least_m",
-    "p_max_pa",
-    "p_max_greatest_pa",
-    "contact_ratio",
-    "contact_load_ratio",
-    "friction_coefficient",
-    "n_body_1",
-    "n_body_2",
-    "n_counted_body_1",
-    "n_counted_body_2",
-    "i_ref",
-    "i_mean",
-    "cycle_factor",
-    "stress_factor",
-    "peak_factor",
-    "traction_factor",
-    "load_factor",
-    "life_relative",
-    "life_relative_low",
-    "life_relative_high",
-    "life_body",
-    "life_body_1",
-    "life_body_2",
-    "life_system",
-    "life_global",
-    "life_damage",
-    "life_snapshot",
-    "life_swept",
-    "life_models_low",
-    "life_models_high",
-    "life_cycles",
-    "survival_ratio",
-    "sigma_eff_max_pa",
-    "sigma_eff_max_depth_m",
-    "sigma_eff_max_x_m",
-    "cycles_end_depth_1_m",
-    "cycles_end_depth_2_m",
-    "pit_depth_1_m",
-    "pit_depth_2_m",
-    "period_s",
-    "period_drift",
-    "load_error",
-    "mass_error",
-    "steps",
-    "steps_not_converged",
-    "newton_iterations",
-    "linear_iterations",
-    "ffts",
+/// Where a column's number stands in a record.
+type InRecord = fn(&CaseRecord) -> Option<f64>;
+
+/// Columns after those of the path and the axes; what the catalogue shows by itself follows them.
+#[rustfmt::skip]
+const COLUMNS: [(&str, InRecord); 56] = [
+    ("h_regression_m", |r| r.h_regression_m),
+    ("h_min_regression_m", |r| r.h_min_regression_m),
+    ("lambda_ratio", |r| r.lambda_ratio),
+    ("a_m", |r| got(r, |s| s.a_m)),
+    ("p_hertz_pa", |r| got(r, |s| s.p_hertz_pa)),
+    ("load_n", |r| got(r, |s| s.load_n)),
+    ("h_central_m", |r| got(r, |s| s.h_central_m)),
+    ("h_min_m", |r| got(r, |s| s.h_min_m)),
+    ("h_min_least_m", |r| got(r, |s| s.h_min_least_m)),
+    ("p_max_pa", |r| got(r, |s| s.p_max_pa)),
+    ("p_max_greatest_pa", |r| got(r, |s| s.p_max_greatest_pa)),
+    ("contact_ratio", |r| got(r, |s| s.contact_ratio)),
+    ("contact_load_ratio", |r| got(r, |s| s.contact_load_ratio)),
+    ("friction_coefficient", |r| got(r, |s| s.friction_coefficient)),
+    ("n_body_1", |r| r.summary.n_body_1),
+    ("n_body_2", |r| r.summary.n_body_2),
+    ("n_counted_body_1", |r| r.summary.n_counted_body_1),
+    ("n_counted_body_2", |r| r.summary.n_counted_body_2),
+    ("i_ref", |r| r.summary.i_ref),
+    ("i_mean", |r| r.summary.i_mean),
+    ("cycle_factor", |r| r.summary.cycle_factor),
+    ("stress_factor", |r| r.summary.stress_factor),
+    ("peak_factor", |r| r.summary.peak_factor),
+    ("traction_factor", |r| r.summary.traction_factor),
+    ("load_factor", |r| r.summary.load_factor),
+    ("life_relative", |r| r.summary.life_relative),
+    ("life_relative_low", |r| r.summary.life_relative_low),
+    ("life_relative_high", |r| r.summary.life_relative_high),
+    ("life_body", |r| r.summary.life_body.map(f64::from)),
+    ("life_body_1", |r| r.summary.life_body_1),
+    ("life_body_2", |r| r.summary.life_body_2),
+    ("life_system", |r| r.summary.life_system),
+    ("life_global", |r| r.summary.life_global),
+    ("life_damage", |r| r.summary.life_damage),
+    ("life_snapshot", |r| r.summary.life_snapshot),
+    ("life_swept", |r| r.summary.life_swept),
+    ("life_models_low", |r| r.summary.life_models_low),
+    ("life_models_high", |r| r.summary.life_models_high),
+    ("life_cycles", |r| r.summary.life_cycles),
+    ("survival_ratio", |r| r.summary.survival_ratio),
+    ("sigma_eff_max_pa", |r| r.summary.sigma_eff_max_pa),
+    ("sigma_eff_max_depth_m", |r| r.summary.sigma_eff_max_depth_m),
+    ("sigma_eff_max_x_m", |r| r.summary.sigma_eff_max_x_m),
+    ("cycles_end_depth_1_m", |r| r.summary.cycles_end_depth_1_m),
+    ("cycles_end_depth_2_m", |r| r.summary.cycles_end_depth_2_m),
+    ("pit_depth_1_m", |r| r.summary.pit_body_1.map(|pit| pit.depth_m)),
+    ("pit_depth_2_m", |r| r.summary.pit_body_2.map(|pit| pit.depth_m)),
+    ("period_s", |r| r.summary.period_s),
+    ("period_drift", |r| r.summary.period_drift),
+    ("load_error", |r| got(r, |s| s.load_error)),
+    ("mass_error", |r| got(r, |s| s.mass_error)),
+    ("steps", |r| got(r, |s| s.steps as f64)),
+    ("steps_not_converged", |r| got(r, |s| s.steps_not_converged as f64)),
+    ("newton_iterations", |r| got(r, |s| s.counters.newton_iterations as f64)),
+    ("linear_iterations", |r| got(r, |s| s.counters.linear_iterations as f64)),
+    ("ffts", |r| got(r, |s| s.counters.ffts as f64)),
 ];
 
-/// A record's numbers in the order of [`COLUMNS`].
-pub fn numbers(record: &CaseRecord) -> [Option<f64>; COLUMNS.len()] {
-    let s = &record.summary;
-    let got = s.steps > 0;
-    let some = |value: f64| got.then_some(value);
-    let count = |value: u64| got.then_some(value as f64);
-    [
-        record.h_regression_m,
-        record.h_min_regression_m,
-        record.lambda_ratio,
-        some(s.a_m),
-        some(s.p_hertz_pa),
-        some(s.load_n),
-        some(s.h_central_m),
-        some(s.h_min_m),
-        some(s.h_min_least_m),
-        some(s.p_max_pa),
-        some(s.p_max_greatest_pa),
-        some(s.contact_ratio),
-        some(s.contact_load_ratio),
-        some(s.friction_coefficient),
-        s.n_body_1,
-        s.n_body_2,
-        s.n_counted_body_1,
-        s.n_counted_body_2,
-        s.i_ref,
-        s.i_mean,
-        s.cycle_factor,
-        s.stress_factor,
-        s.peak_factor,
-        s.traction_factor,
-        s.load_factor,
-        s.life_relative,
-        s.life_relative_low,
-        s.life_relative_high,
-        s.life_body.map(f64::from),
-        s.life_body_1,
-        s.life_body_2,
-        s.life_system,
-        s.life_global,
-        s.life_damage,
-        s.life_snapshot,
-        s.life_swept,
-        s.life_models_low,
-        s.life_models_high,
-        s.life_cycles,
-        s.survival_ratio,
-        s.sigma_eff_max_pa,
-        s.sigma_eff_max_depth_m,
-        s.sigma_eff_max_x_m,
-        s.cycles_end_depth_1_m,
-        s.cycles_end_depth_2_m,
-        s.pit_body_1.map(|pit| pit.depth_m),
-        s.pit_body_2.map(|pit| pit.depth_m),
-        s.period_s,
-        s.period_drift,
-        some(s.load_error),
-        some(s.mass_error),
-        count(s.steps),
-        count(s.steps_not_converged),
-        count(s.counters.newton_iterations),
-        count(s.counters.linear_iterations),
-        count(s.counters.ffts),
-    ]
+/// Without a step there are no means.
+fn got(record: &CaseRecord, number: fn(&Summary) -> f64) -> Option<f64> {
+    (record.summary.steps > 0).then(|| number(&record.summary))
+}
+
+/// Names of all those columns.
+fn columns() -> impl Iterator<Item = &'static str> {
+    let more = CATALOGUE.iter().filter(|quantity| quantity.by_itself);
+    let more = more.flat_map(|quantity| quantity.over).map(|(_, key)| *key);
+    COLUMNS.iter().map(|(name, _)| *name).chain(more)
+}
+
+/// A record's number in the column of that name.
+fn number(record: &CaseRecord, name: &str) -> Option<f64> {
+    match COLUMNS.iter().find(|(column, _)| *column == name) {
+        Some((_, of)) => of(record),
+        None => *record.summary.by_itself.get(name)?,
+    }
 }
 
 /// A sweep's rows, all there.
@@ -184,7 +143,7 @@ impl Rows {
         })
     }
 
-    /// The column of that name, an axis or one of [`COLUMNS`]; empty cells are NaN.
+    /// The column of that name, an axis or a number of the records; empty cells are NaN.
     pub fn column(&self, sweep: &Sweep, name: &str) -> Option<Vec<f64>> {
         if let Some(axis) = sweep.axes.iter().position(|axis| axis.key == name) {
             let numbers = sweep.axes[axis].numbers()?;
@@ -194,8 +153,8 @@ impl Rows {
         if let Some(values) = super::path::column(&sweep.path, name) {
             return Some(values);
         }
-        let column = COLUMNS.iter().position(|column| *column == name)?;
-        let cell = |record: &CaseRecord| numbers(record)[column].unwrap_or(f64::NAN);
+        let column = columns().find(|column| *column == name)?;
+        let cell = |record: &CaseRecord| number(record, column).unwrap_or(f64::NAN);
         Some(self.records.iter().map(cell).collect())
     }
 
@@ -209,7 +168,7 @@ impl Rows {
             .chain(super::path::columns(&sweep.path).map(str::to_owned))
             .chain(sweep.axes.iter().map(|axis| axis.key.clone()))
             .chain(["scene", "began", "end"].map(str::to_owned))
-            .chain(COLUMNS.map(|column| sweep.header(column).to_owned()));
+            .chain(columns().map(|column| sweep.header(column).to_owned()));
         let mut text = Text::begin(head);
         let mut row = Cells::default();
         for record in &self.records {
@@ -242,8 +201,8 @@ impl Rows {
             CaseEnd::NotConverged => "not_converged",
             CaseEnd::Stalled => "stalled",
         });
-        for value in numbers(record) {
-            row.optional(value);
+        for column in columns() {
+            row.optional(number(record, column));
         }
         Ok(())
     }

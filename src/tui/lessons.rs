@@ -4,7 +4,7 @@
 mod script;
 
 use crate::scene::{Override, Scene, SceneError};
-use crate::sim::{Frame, Knob};
+use crate::sim::{Frame, Knob, Quantity, named};
 use crate::tui::app::MapKind;
 use crate::tui::dial::Dial;
 pub use script::LESSONS;
@@ -98,19 +98,24 @@ impl Figure {
 
     /// Its value in a frame, where it is known.
     pub fn of(self, frame: &Frame) -> Option<f64> {
-        let metrics = &frame.metrics;
+        let known = |quantity: &Quantity| quantity.number(frame);
         match self {
-            Self::N1 => metrics.n_body_1,
-            Self::N2 => metrics.n_body_2,
-            Self::Counted1 => metrics.n_counted_body_1,
-            Self::Counted2 => metrics.n_counted_body_2,
-            Self::Lambda => metrics.lambda_ratio,
-            Self::ContactPercent => (frame.nx > 0).then_some(100.0 * metrics.contact_ratio),
-            Self::PeakPressure => Some(metrics.p_max_pa / frame.p_hertz_pa),
-            Self::PeakDepth => metrics.sigma_eff_max_depth_m.map(|z| z / frame.a_m),
+            Self::N1 => known(const { named("n_body_1") }),
+            Self::N2 => known(const { named("n_body_2") }),
+            Self::Counted1 => known(const { named("n_counted_body_1") }),
+            Self::Counted2 => known(const { named("n_counted_body_2") }),
+            Self::Lambda => known(const { named("lambda_ratio") }),
+            Self::ContactPercent if frame.nx == 0 => None,
+            Self::ContactPercent => {
+                known(const { named("contact_ratio") }).map(|part| 100.0 * part)
+            }
+            Self::PeakPressure => known(const { named("p_max_pa") }).map(|p| p / frame.p_hertz_pa),
+            Self::PeakDepth => {
+                known(const { named("sigma_eff_max_depth_m") }).map(|z| z / frame.a_m)
+            }
             Self::LeftPercent => ripple_left(frame).map(|part| 100.0 * part),
-            Self::Life => metrics.life.map(|life| life.life_relative),
-            Self::PaperLife => metrics.life.and_then(|life| life.detail.life_global),
+            Self::Life => known(const { named("life_relative") }),
+            Self::PaperLife => frame.metrics.life?.detail.life_global,
         }
     }
 }

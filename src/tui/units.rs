@@ -1,6 +1,9 @@
 //! Three systems of units for people; how a number is written is [`crate::math::number`].
 
-pub use crate::math::number::{bytes, nice_ceiling, seconds, sig, sig_or_dash, tick};
+use crate::scene::ContactKind;
+use crate::sim::{Dimension, Frame, Quantity};
+
+pub use crate::math::number::{Unit, bytes, nice_ceiling, seconds, sig, sig_or_dash, tick};
 
 /// A system of units for the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -14,27 +17,6 @@ pub enum Units {
     Shop,
 }
 
-/// A unit: its name, and how many of it make one SI unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unit {
-    /// Name, as printed.
-    pub name: &'static str,
-    /// Units per SI unit.
-    pub per_si: f64,
-}
-
-impl Unit {
-    /// `value` (SI) in this unit.
-    pub fn of(self, value: f64) -> f64 {
-        value * self.per_si
-    }
-
-    /// `value` (SI) with its unit, to `digits` significant figures.
-    pub fn show(self, value: f64, digits: i32) -> String {
-        format!("{} {}", sig(self.of(value), digits), self.name)
-    }
-}
-
 impl Units {
     /// The next system.
     #[must_use]
@@ -44,6 +26,31 @@ impl Units {
             Self::Mpa => Self::Shop,
             Self::Shop => Self::Gpa,
         }
+    }
+
+    /// Unit of what is measured.
+    pub fn unit(self, dimension: Dimension, kind: ContactKind) -> Unit {
+        match (dimension, kind) {
+            (Dimension::Pressure, _) => self.pressure(),
+            (Dimension::Film, _) => self.film(),
+            (Dimension::Height, _) => self.height(),
+            (Dimension::Length, _) => self.length(),
+            (Dimension::Speed, _) => self.speed(),
+            (Dimension::Load, ContactKind::Point) => self.force(),
+            (Dimension::Load, ContactKind::Line) => self.force_per_length(),
+            (Dimension::Plain | Dimension::Share | Dimension::Time | Dimension::Volume, _) => {
+                dimension.unit(kind)
+            }
+        }
+    }
+
+    /// A quantity of a frame with its unit; a dash while it is not known.
+    pub fn show(self, quantity: &Quantity, frame: &Frame, digits: i32) -> String {
+        let unit = self.unit(quantity.dimension, frame.kind);
+        let text = quantity
+            .number(frame)
+            .map_or_else(|| "–".to_owned(), |value| unit.show(value, digits));
+        text.trim_end().to_owned()
     }
 
     /// Pressure and stress.

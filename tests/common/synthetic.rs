@@ -241,7 +241,6 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
     let peak_factor = 0.2 + 0.6 * (1.0 - settling);
     let life_relative = cycle_factor * peak_factor * 0.9;
     Metrics {
-        yielded_m3: None,
         converged: true,
         residual: 4e-4 * (1.5 + wobble),
         newton_iterations: 3 + u32::from(wobble > 0.5),
@@ -269,6 +268,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         overlap_m: 0.0,
         asked: [1e-3, 1e-2],
         friction_coefficient: 0.052 + 0.002 * wobble,
+        traction_max_pa: 4.7e7,
         sigma_eff_max_pa: Some(sigma),
         sigma_eff_max_depth_m: Some(depth),
         sigma_eff_max_x_m: Some(x),
@@ -291,7 +291,6 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         n_body_2: Some(2.5),
         n_counted_body_1: (step > 60).then_some(4.0),
         n_counted_body_2: (step > 60).then_some(2.4),
-        repeat: None,
-        errors: None,
+        ..Metrics::default()
     }
 }

@@ -297,7 +297,6 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
     Metrics {
         converged: state.converged,
         residual: if state.converged { 3.1e-4 } else { 4.7e-2 },
-        yielded_m3: None,
         newton_iterations: 4,
         linear_iterations: 31,
         retries: if state.converged { 0 } else { 3 },
@@ -323,6 +322,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         overlap_m: 0.0,
         asked: [1e-3, 1e-2],
         friction_coefficient: 0.047,
+        traction_max_pa: 4.7e7,
         sigma_eff_max_pa: Some(1.12e9),
         sigma_eff_max_depth_m: Some(0.46 * frame.a_m),
         sigma_eff_max_x_m: Some(0.05 * frame.a_m),
@@ -349,8 +349,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         n_body_2: Some(n_2),
         n_counted_body_1: Some(n_1 - 0.2),
         n_counted_body_2: Some(n_2 + 0.1),
-        repeat: None,
-        errors: None,
+        ..Metrics::default()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Chosen steps as `.npz` files that numpy, Julia and MATLAB read, and as pictures, with the scene beside them.
 //!
 //! One file a step: `step_000128.npz` with arrays named as the frame's fields, units in the names, `[y, x]`
-//! with x the rolling direction, the slice `[depth, x]`. Pictures are `step_000128_pressure.png` and so on. Beside them `scene.toml`, which
+//! with x the rolling direction, the slice `[depth, x]`; every scalar that is known, named as in the table. Pictures are `step_000128_pressure.png` and so on. Beside them `scene.toml`, which
 //! repeats the run.
 
 mod drawing;
@@ -18,7 +18,7 @@ use self::png::Pictures;
 use super::{
     NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
 };
-use crate::sim::{Frame, Stage};
+use crate::sim::{CATALOGUE, Frame, Stage};
 
 /// What is written of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -155,16 +155,10 @@ fn is_a_step(name: &str) -> bool {
 /// All arrays of a frame; the bytes written.
 fn write_frame(file: File, frame: &Frame) -> std::io::Result<u64> {
     let mut npz = Npz::new(BufWriter::new(file));
-    npz.f64("step", &[], &[frame.step as f64])?;
-    for (name, value) in [
-        ("time_s", frame.time_s),
-        ("passages", frame.passages),
-        ("a_m", frame.a_m),
-        ("b_m", frame.b_m),
-        ("p_hertz_pa", frame.p_hertz_pa),
-        ("slide_roll", frame.metrics.slide_roll),
-    ] {
-        npz.f64(name, &[], &[value])?;
+    for quantity in CATALOGUE {
+        if let Some(value) = quantity.number(frame) {
+            npz.f64(quantity.name, &[], &[value])?;
+        }
     }
     let axis = |n: usize, first: f64, step: f64| -> Vec<f64> {
         (0..n).map(|k| first + step * k as f64).collect()

@@ -24,7 +24,7 @@ use super::kymograph;
 use super::maps;
 use super::moment::{STEP, check_clock};
 use super::plot::{Margin, PlotBox};
-use super::series::YIELDED;
+use super::series::{YIELDED, by_itself, entity};
 use super::slice;
 use super::stream::{APPLICATION, Stream};
 use super::text;
@@ -305,6 +305,9 @@ fn convergence_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
             ContactKind::Line => "Yielded for good, µm³ per metre",
         };
         all.push(views.series(title, &[YIELDED]));
+    }
+    for quantity in by_itself() {
+        all.push(views.series(&quantity.label(kind), &[&entity(quantity, kind)]));
     }
     Grid::new(all)
         .with_grid_columns(4)

@@ -10,7 +10,7 @@ use super::moment::Moment;
 use super::stream::Stream;
 use crate::observe::ObserveError;
 use crate::scene::ContactKind;
-use crate::sim::{CautionCode, Frame, LifeEstimate, LubricationRegime};
+use crate::sim::{CATALOGUE, CautionCode, Frame, LubricationRegime, Quantity, named};
 
 /// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
 const LEAST_ERROR: f64 = 1e-12;
@@ -18,252 +18,148 @@ const LEAST_ERROR: f64 = 1e-12;
 /// Yielded for good.
 pub(super) const YIELDED: &str = "series/yielded_um3";
 
-/// Series that share an entity: path, then name and colour of each.
-struct Group {
-    entity: &'static str,
-    lines: &'static [(&'static str, [u8; 3])],
-    /// Adds a value for each line, or none while they are not known.
-    values: fn(&Frame, &mut Vec<f64>),
+/// Colours of lines, each with its quantity.
+type Coloured = &'static [(&'static Quantity, [u8; 3])];
+
+/// Lines that share an entity; none of them has a value while one is not known.
+#[derive(Clone, Copy)]
+enum Curves {
+    /// Quantities in their units.
+    Linear(Coloured),
+    /// Logarithms of errors.
+    Errors(Coloured),
+    /// Logarithms of what is above 0.
+    Logarithms(Coloured),
+    /// One that the catalogue shows by itself.
+    ByItself(&'static Quantity),
+    /// What is made for the recording: names and colours, and what adds a value for each, or none.
+    Made(
+        &'static [(&'static str, [u8; 3])],
+        fn(&Frame, &mut Vec<f64>),
+    ),
 }
 
-static GROUPS: [Group; 27] = [
-    Group {
-        entity: "series/pressure_GPa",
-        lines: &[("p_max, GPa", ORANGE), ("p_Hertz, GPa", GREY)],
-        values: |frame, out| {
-            out.extend([frame.metrics.p_max_pa * 1e-9, frame.p_hertz_pa * 1e-9]);
-        },
-    },
-    Group {
-        entity: "series/film_um",
-        lines: &[
-            ("h_central, µm", SKY),
-            ("h_mean, µm", GREEN),
-            ("h_min, µm", BLUE),
-        ],
-        values: |frame, out| {
-            let m = &frame.metrics;
-            out.extend([m.h_central_m, m.h_mean_m, m.h_min_m].map(|h| h * 1e6));
-        },
-    },
-    Group {
-        entity: "series/contact_percent",
-        lines: &[("area in contact, %", SKY), ("load on contacts, %", ORANGE)],
-        values: |frame, out| {
-            let m = &frame.metrics;
-            out.extend([m.contact_ratio, m.contact_load_ratio].map(|part| part * 100.0));
-        },
-    },
-    Group {
-        entity: "series/friction",
-        lines: &[("friction coefficient", GREEN)],
-        values: |frame, out| out.push(frame.metrics.friction_coefficient),
-    },
-    Group {
-        entity: "series/motion",
-        lines: &[("S", OLIVE), ("S target", GREY), ("U, m/s", PURPLE)],
-        values: |frame, out| {
-            let m = &frame.metrics;
-            out.extend([m.slide_roll, m.slide_roll_target, m.entrainment_m_s]);
-        },
-    },
-    Group {
-        entity: "series/load_N",
-        lines: &[("load, N", SKY), ("load target, N", GREY)],
-        values: |frame, out| out.extend([frame.metrics.load_n, frame.metrics.load_target_n]),
-    },
-    Group {
-        entity: "series/load_N_per_m",
-        lines: &[("load, N/m", SKY), ("load target, N/m", GREY)],
-        values: |frame, out| out.extend([frame.metrics.load_n, frame.metrics.load_target_n]),
-    },
-    Group {
-        entity: "series/half_width_um",
-        lines: &[("a (along x), µm", GREEN), ("b (across), µm", GREY)],
-        values: |frame, out| out.extend([frame.a_m, frame.b_m].map(|width| width * 1e6)),
-    },
-    Group {
-        entity: "series/regime",
-        lines: &[("0 dry, 1 boundary, 2 mixed, 3 full film", SKY)],
-        values: |frame, out| out.push(regime(frame.metrics.regime)),
-    },
-    Group {
-        entity: "series/cautions",
-        lines: &[
-            ("not converged", VERMILION),
-            ("beyond yield", ORANGE),
-            ("no oil flows", GREY),
-            ("film below a molecule", BLUE),
-            ("mesh error of the film", GREEN),
-            ("a body stands", PURPLE),
-            ("models differ", OLIVE),
-            ("not settled", SKY),
-        ],
-        values: |frame, out| {
-            let from = out.len();
-            out.resize(from + 8, 0.0);
-            for line in frame
-                .cautions()
-                .iter()
-                .filter_map(|caution| line(caution.code))
-            {
-                out[from + line] = 1.0;
-            }
-        },
-    },
-    Group {
-        entity: YIELDED,
-        lines: &[
-            ("body 1 has yielded, µm³", SKY),
-            ("body 2 has yielded, µm³", ORANGE),
-        ],
-        values: |frame, out| {
-            // Nothing until something has flowed: most runs never do.
-            let flowed = frame.metrics.yielded_m3;
-            let flowed = flowed.filter(|both| both.iter().any(|&volume| volume > 0.0));
-            out.extend(flowed.into_iter().flatten().map(|volume| volume * 1e18));
-        },
-    },
-    Group {
-        entity: "convergence/log10_errors",
-        lines: &[
-            ("log10 residual", GREEN),
-            ("log10 load error", SKY),
-            ("log10 film error", PURPLE),
-            ("log10 mass error", ORANGE),
-        ],
-        values: |frame, out| {
-            let m = &frame.metrics;
-            let errors = [m.residual, m.load_error, m.film_error, m.mass_error];
-            out.extend(errors.map(|error| error.abs().max(LEAST_ERROR).log10()));
-        },
-    },
-    Group {
-        entity: "convergence/iterations",
-        lines: &[
-            ("Newton iterations", SKY),
-            ("linear iterations", ORANGE),
-            ("retries", VERMILION),
-            ("converged (1/0)", GREEN),
-        ],
-        values: |frame, out| {
-            let m = &frame.metrics;
-            out.extend([m.newton_iterations, m.linear_iterations, m.retries].map(f64::from));
-            out.push(f64::from(u8::from(m.converged)));
-        },
-    },
-    Group {
-        entity: "series/stress_GPa",
-        lines: &[("σ_eff max, GPa", PURPLE)],
-        values: |frame, out| out.extend(frame.metrics.sigma_eff_max_pa.map(|stress| stress * 1e-9)),
-    },
-    Group {
-        entity: "series/lambda_ratio",
-        lines: &[("λ ratio", SKY)],
-        values: |frame, out| out.extend(frame.metrics.lambda_ratio),
-    },
-    Group {
-        entity: "life/log10_relative",
-        lines: &[
-            ("log10 life, low", GREY),
-            ("log10 relative life", VERMILION),
-            ("log10 life, high", GREY),
-        ],
-        values: |frame, out| {
-            log_life(frame, out, |life| {
-                [
-                    life.life_relative_low,
-                    life.life_relative,
-                    life.life_relative_high,
-                ]
-            });
-        },
-    },
-    Group {
-        entity: "life/log10_factors",
-        lines: &[
-            ("log10 cycle factor", SKY),
-            ("log10 peak factor", ORANGE),
-            ("log10 traction factor", GREEN),
-        ],
-        values: |frame, out| {
-            log_life(frame, out, |life| {
-                [life.cycle_factor, life.peak_factor, life.traction_factor]
-            });
-        },
-    },
-    Group {
-        entity: "life/log10_factors/load",
-        lines: &[("log10 load factor", PURPLE)],
-        values: |frame, out| {
-            let factor = frame.metrics.life.as_ref().map(|life| life.load_factor);
-            out.extend(factor.filter(|&factor| factor > 0.0).map(f64::log10));
-        },
-    },
-    Group {
-        entity: "life/relative",
-        lines: &[("relative life", VERMILION)],
-        values: |frame, out| out.extend(frame.metrics.life.map(|life| life.life_relative)),
-    },
-    Group {
-        entity: "life/contacts_per_cycle/n_1_formula",
-        lines: &[("n body 1, formula", SKY)],
-        values: |frame, out| out.extend(frame.metrics.n_body_1),
-    },
-    Group {
-        entity: "life/contacts_per_cycle/n_1_counted",
-        lines: &[("n body 1, counted", BLUE)],
-        values: |frame, out| out.extend(frame.metrics.n_counted_body_1),
-    },
-    Group {
-        entity: "life/contacts_per_cycle/n_2_formula",
-        lines: &[("n body 2, formula", ORANGE)],
-        values: |frame, out| out.extend(frame.metrics.n_body_2),
-    },
-    Group {
-        entity: "life/contacts_per_cycle/n_2_counted",
-        lines: &[("n body 2, counted", VERMILION)],
-        values: |frame, out| out.extend(frame.metrics.n_counted_body_2),
-    },
-    Group {
-        entity: "material_point/stress_GPa",
-        lines: &[
-            ("pressure above the point, GPa", ORANGE),
-            ("effective stress, GPa", PURPLE),
-            ("τxz, GPa", SKY),
-        ],
-        values: |frame, out| {
-            if let Some(point) = &frame.material_point {
-                let stresses = [point.pressure_pa, point.effective_pa, point.tau_xz_pa];
-                out.extend(stresses.map(|stress| stress * 1e-9));
-            }
-        },
-    },
-    Group {
-        entity: "material_point/cycles/counted",
-        lines: &[("peaks so far in this crossing", VERMILION)],
-        values: |frame, out| out.extend(frame.material_point.map(|point| point.cycles_counted)),
-    },
-    Group {
-        entity: "material_point/cycles/formula",
-        lines: &[("expected on average, n", GREY)],
-        values: |frame, out| {
-            out.extend(frame.material_point.and_then(|point| match point.body {
-                1 => frame.metrics.n_body_1,
-                _ => frame.metrics.n_body_2,
-            }));
-        },
-    },
-    Group {
-        entity: "material_point/position_mm",
-        lines: &[("x, mm", GREEN), ("depth, mm", GREY)],
-        values: |frame, out| {
-            if let Some(point) = &frame.material_point {
-                out.extend([point.x_m, point.depth_m].map(|place| place * 1e3));
-            }
-        },
-    },
+use Curves::{Errors, Linear, Logarithms, Made};
+
+#[rustfmt::skip]
+static GROUPS: [(&str, Curves); 27] = [
+    ("series/pressure_GPa", Linear(&[(named("p_max_pa"), ORANGE), (named("p_hertz_pa"), GREY)])),
+    ("series/film_um", Linear(&[(named("h_central_m"), SKY), (named("h_mean_m"), GREEN), (named("h_min_m"), BLUE)])),
+    ("series/contact_percent", Linear(&[(named("contact_ratio"), SKY), (named("contact_load_ratio"), ORANGE)])),
+    ("series/friction", Linear(&[(named("friction_coefficient"), GREEN)])),
+    ("series/motion", Linear(&[(named("slide_roll"), OLIVE), (named("slide_roll_target"), GREY), (named("entrainment_m_s"), PURPLE)])),
+    ("series/load_N", Linear(&[(named("load_n"), SKY), (named("load_target_n"), GREY)])),
+    ("series/load_N_per_m", Linear(&[(named("load_n"), SKY), (named("load_target_n"), GREY)])),
+    ("series/half_width_um", Linear(&[(named("a_m"), GREEN), (named("b_m"), GREY)])),
+    ("series/regime", Made(&[("0 dry, 1 boundary, 2 mixed, 3 full film", SKY)], |frame, out| out.push(regime(frame.metrics.regime)))),
+    ("series/cautions", Made(&CAUTIONS, cautions)),
+    (YIELDED, Made(&[("body 1 has yielded, µm³", SKY), ("body 2 has yielded, µm³", ORANGE)], yielded)),
+    ("convergence/log10_errors", Errors(&[(named("residual"), GREEN), (named("load_error"), SKY), (named("film_error"), PURPLE), (named("mass_error"), ORANGE)])),
+    ("convergence/iterations", Linear(&[(named("newton_iterations"), SKY), (named("linear_iterations"), ORANGE), (named("retries"), VERMILION), (named("converged"), GREEN)])),
+    ("series/stress_GPa", Linear(&[(named("sigma_eff_max_pa"), PURPLE)])),
+    ("series/lambda_ratio", Linear(&[(named("lambda_ratio"), SKY)])),
+    ("life/log10_relative", Logarithms(&[(named("life_relative_low"), GREY), (named("life_relative"), VERMILION), (named("life_relative_high"), GREY)])),
+    ("life/log10_factors", Logarithms(&[(named("cycle_factor"), SKY), (named("peak_factor"), ORANGE), (named("traction_factor"), GREEN)])),
+    ("life/log10_factors/load", Logarithms(&[(named("load_factor"), PURPLE)])),
+    ("life/relative", Linear(&[(named("life_relative"), VERMILION)])),
+    ("life/contacts_per_cycle/n_1_formula", Linear(&[(named("n_body_1"), SKY)])),
+    ("life/contacts_per_cycle/n_1_counted", Linear(&[(named("n_counted_body_1"), BLUE)])),
+    ("life/contacts_per_cycle/n_2_formula", Linear(&[(named("n_body_2"), ORANGE)])),
+    ("life/contacts_per_cycle/n_2_counted", Linear(&[(named("n_counted_body_2"), VERMILION)])),
+    ("material_point/stress_GPa", Made(&[("pressure above the point, GPa", ORANGE), ("effective stress, GPa", PURPLE), ("τxz, GPa", SKY)], |frame, out| {
+        let point = frame.material_point.map(|point| [point.pressure_pa, point.effective_pa, point.tau_xz_pa]);
+        out.extend(point.into_iter().flatten().map(|stress| stress * 1e-9));
+    })),
+    ("material_point/cycles/counted", Linear(&[(named("point_cycles_counted"), VERMILION)])),
+    ("material_point/cycles/formula", Made(&[("expected on average, n", GREY)], |frame, out| {
+        let n = [frame.metrics.n_body_1, frame.metrics.n_body_2];
+        out.extend(frame.material_point.and_then(|point| n[usize::from(point.body != 1)]));
+    })),
+    ("material_point/position_mm", Made(&[("x, mm", GREEN), ("depth, mm", GREY)], |frame, out| {
+        let point = frame.material_point.map(|point| [point.x_m, point.depth_m]);
+        out.extend(point.into_iter().flatten().map(|place| place * 1e3));
+    })),
 ];
+
+/// Cautions that begin and end while a run goes on.
+const CAUTIONS: [(&str, [u8; 3]); 8] = [
+    ("not converged", VERMILION),
+    ("beyond yield", ORANGE),
+    ("no oil flows", GREY),
+    ("film below a molecule", BLUE),
+    ("mesh error of the film", GREEN),
+    ("a body stands", PURPLE),
+    ("models differ", OLIVE),
+    ("not settled", SKY),
+];
+
+fn cautions(frame: &Frame, out: &mut Vec<f64>) {
+    let mut holds = [0.0; CAUTIONS.len()];
+    let cautions = frame.cautions();
+    for line in cautions.iter().filter_map(|caution| line(caution.code)) {
+        holds[line] = 1.0;
+    }
+    out.extend(holds);
+}
+
+/// Nothing until something has flowed: most runs never do.
+fn yielded(frame: &Frame, out: &mut Vec<f64>) {
+    let flowed = frame.metrics.yielded_m3;
+    let flowed = flowed.filter(|both| both.iter().any(|&volume| volume > 0.0));
+    out.extend(flowed.into_iter().flatten().map(|volume| volume * 1e18));
+}
+
+impl Curves {
+    /// Names and colours of the lines.
+    fn lines(self, kind: ContactKind) -> Vec<(String, [u8; 3])> {
+        let named = |of: Coloured, before: &str| {
+            let line = |(quantity, colour): &(&Quantity, _)| {
+                (format!("{before}{}", quantity.label(kind)), *colour)
+            };
+            of.iter().map(line).collect()
+        };
+        match self {
+            Linear(of) => named(of, ""),
+            Errors(of) | Logarithms(of) => named(of, "log10 "),
+            Self::ByItself(quantity) => vec![(quantity.label(kind), SKY)],
+            Made(lines, _) => lines
+                .iter()
+                .map(|(name, colour)| ((*name).to_owned(), *colour))
+                .collect(),
+        }
+    }
+
+    /// Adds a value for each line, or none while they are not known.
+    fn add(self, frame: &Frame, out: &mut Vec<f64>) {
+        let shown = |quantity: &Quantity| {
+            let unit = quantity.dimension.unit(frame.kind);
+            quantity.number(frame).map(|value| unit.of(value))
+        };
+        let error = |quantity: &Quantity| {
+            let error = quantity.number(frame);
+            error.map(|error| error.abs().max(LEAST_ERROR).log10())
+        };
+        let logarithm = |quantity: &Quantity| {
+            let value = quantity.number(frame).filter(|&value| value > 0.0);
+            value.map(f64::log10)
+        };
+        match self {
+            Linear(of) => add_all(of, shown, out),
+            Errors(of) => add_all(of, error, out),
+            Logarithms(of) => add_all(of, logarithm, out),
+            Self::ByItself(quantity) => out.extend(shown(quantity)),
+            Made(_, add) => add(frame, out),
+        }
+    }
+}
+
+fn add_all(of: Coloured, value: impl Fn(&Quantity) -> Option<f64>, out: &mut Vec<f64>) {
+    let before = out.len();
+    out.extend(of.iter().map_while(|(quantity, _)| value(quantity)));
+    if out.len() < before + of.len() {
+        out.truncate(before);
+    }
+}
 
 /// From the regime in which oil does nothing to that in which it does all.
 fn regime(regime: LubricationRegime) -> f64 {
@@ -295,33 +191,37 @@ fn line(code: CautionCode) -> Option<usize> {
     }
 }
 
-/// The groups of a contact of that kind: a load is a force or a force per length.
-fn groups(kind: ContactKind) -> impl Iterator<Item = &'static Group> {
+/// The lines of a contact of that kind by their entities: a load is a force or a force per length.
+fn groups(kind: ContactKind) -> impl Iterator<Item = (String, Curves)> {
     let other = match kind {
         ContactKind::Point => "series/load_N_per_m",
         ContactKind::Line => "series/load_N",
     };
-    GROUPS.iter().filter(move |group| group.entity != other)
+    let groups = GROUPS.iter().filter(move |(entity, _)| *entity != other);
+    let groups = groups.map(|(entity, curves)| ((*entity).to_owned(), *curves));
+    groups.chain(
+        by_itself().map(move |quantity| (entity(quantity, kind), Curves::ByItself(quantity))),
+    )
 }
 
-/// Logarithms of parts of the life, where it has one.
-fn log_life(frame: &Frame, out: &mut Vec<f64>, parts: fn(&LifeEstimate) -> [f64; 3]) {
-    let parts = frame.metrics.life.as_ref().map(parts);
-    if let Some(parts) = parts.filter(|parts| parts.iter().all(|&part| part > 0.0)) {
-        out.extend(parts.map(f64::log10));
-    }
+/// What has a view of its own.
+pub(super) fn by_itself() -> impl Iterator<Item = &'static Quantity> {
+    CATALOGUE.iter().filter(|quantity| quantity.by_itself)
 }
 
-/// Names and colours, once for the whole recording.
-fn log_styles(stream: &Stream, kind: ContactKind) -> Result<(), ObserveError> {
-    for Group { entity, lines, .. } in groups(kind) {
-        let style = SeriesLines::new()
-            .with_names(lines.iter().map(|(name, _)| *name))
-            .with_colors(lines.iter().map(|(_, colour)| Color::from(*colour)))
-            .with_widths(lines.iter().map(|_| 1.8));
-        stream.log_static(*entity, &style)?;
-    }
-    Ok(())
+/// `series/traction_max_GPa` of `traction_max_pa`.
+pub(super) fn entity(quantity: &Quantity, kind: ContactKind) -> String {
+    let unit = match quantity.dimension.unit(kind).name {
+        "" => return format!("series/{}", quantity.name),
+        "%" => "percent".to_owned(),
+        "N/m" => "N_per_m".to_owned(),
+        unit => unit.replace('µ', "u").replace('³', "3").replace('/', "_"),
+    };
+    let si = ["_m_s", "_pa", "_m3", "_m", "_n", "_s"];
+    let stem = si
+        .iter()
+        .find_map(|suffix| quantity.name.strip_suffix(suffix));
+    format!("series/{}_{unit}", stem.unwrap_or(quantity.name))
 }
 
 /// A row of a group in the finished file and each of its values, bytes: times and names are compressed (19 to 25 were
@@ -334,26 +234,42 @@ const MOST_WAITING: usize = 1024;
 
 /// The series of a recording, with what waits to be sent.
 pub(super) struct Series {
-    columns: Vec<(&'static Group, Column)>,
+    columns: Vec<Column>,
     waiting: usize,
     /// What all of them so far will take of the finished file, bytes.
     weight: f64,
 }
 
-#[derive(Default)]
 struct Column {
+    entity: EntityPath,
+    curves: Curves,
+    lines: usize,
     moments: Vec<Moment>,
     values: Vec<f64>,
 }
 
 impl Series {
-    /// Logs names and colours and collects from there on.
+    /// Logs names and colours, once for the whole recording, and collects from there on.
     pub(super) fn new(stream: &Stream, kind: ContactKind) -> Result<Self, ObserveError> {
-        log_styles(stream, kind)?;
+        let mut columns = Vec::new();
+        for (entity, curves) in groups(kind) {
+            let lines = curves.lines(kind);
+            columns.push(Column {
+                entity: EntityPath::from(entity.as_str()),
+                curves,
+                lines: lines.len(),
+                moments: Vec::new(),
+                values: Vec::new(),
+            });
+            let colours = lines.iter().map(|(_, colour)| Color::from(*colour));
+            let style = SeriesLines::new()
+                .with_colors(colours)
+                .with_widths(lines.iter().map(|_| 1.8));
+            let style = style.with_names(lines.into_iter().map(|(name, _)| name));
+            stream.log_static(entity, &style)?;
+        }
         Ok(Self {
-            columns: groups(kind)
-                .map(|group| (group, Column::default()))
-                .collect(),
+            columns,
             waiting: 0,
             weight: 0.0,
         })
@@ -362,12 +278,12 @@ impl Series {
     /// Takes up a step's scalars.
     pub(super) fn follow(&mut self, frame: &Frame) {
         let now = Moment::new(frame.step, frame.time_s, frame.passages);
-        for (group, column) in &mut self.columns {
+        for column in &mut self.columns {
             let before = column.values.len();
-            (group.values)(frame, &mut column.values);
+            column.curves.add(frame, &mut column.values);
             if column.values.len() > before {
                 column.moments.push(now);
-                self.weight += ROW + VALUE * group.lines.len() as f64;
+                self.weight += ROW + VALUE * column.lines as f64;
             }
         }
         self.waiting += 1;
@@ -386,12 +302,12 @@ impl Series {
     /// Sends what waits.
     pub(super) fn send(&mut self, stream: &Stream) -> Result<(), ObserveError> {
         self.waiting = 0;
-        for (group, column) in &mut self.columns {
+        for column in &mut self.columns {
             if column.moments.is_empty() {
                 continue;
             }
-            let entity = EntityPath::from(group.entity);
-            stream.log_columns(entity, &column.moments, &column.values, group.lines.len())?;
+            let entity = column.entity.clone();
+            stream.log_columns(entity, &column.moments, &column.values, column.lines)?;
             column.moments.clear();
             column.values.clear();
         }

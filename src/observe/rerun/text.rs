@@ -7,6 +7,7 @@ use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
 
 use super::note::Note;
 use super::picture::{Beyond, Scale};
+use super::series::by_itself;
 use super::stream::Stream;
 use crate::math::number::{counted, seconds, sig, sig_or_dash};
 use crate::observe::scales::number;
@@ -246,6 +247,11 @@ fn push_table(text: &mut String, frame: &Frame) {
         let pair = |n: [Option<f64>; 2]| n.map(|n| sig_or_dash(n, 3)).join(", ");
         let counted = pair([m.n_counted_body_1, m.n_counted_body_2]);
         row("n of 1, 2", format!("{}; counted {counted}", pair(formula)));
+    }
+    for quantity in by_itself() {
+        if let Some(value) = quantity.number(frame) {
+            row(quantity.symbol, quantity.in_words(value, frame.kind));
+        }
     }
 }
 

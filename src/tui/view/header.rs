@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::physics::estimate::speed_ratios;
-use crate::sim::{LubricationRegime, Stage};
+use crate::sim::{LubricationRegime, Stage, named};
 use crate::tui::app::{App, Pace};
 use crate::tui::dial::Dial;
 use crate::tui::theme::Role;
@@ -112,7 +112,7 @@ fn numbers(app: &App, columns: u16) -> Line<'static> {
         return Line::default();
     };
     let metrics = &frame.metrics;
-    let pressure = app.units.pressure();
+    let p_hertz = app.units.show(const { named("p_hertz_pa") }, frame, 3);
     let n = match (metrics.n_body_1, metrics.n_body_2) {
         (Some(first), Some(second)) => sig(first.max(second), 3),
         _ => theme.pick("∞", "inf").to_owned(),
@@ -124,7 +124,7 @@ fn numbers(app: &App, columns: u16) -> Line<'static> {
     };
     let mut pairs = vec![
         ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
-        ("p_h", pressure.show(frame.p_hertz_pa, 3), Role::Strong),
+        ("p_h", p_hertz, Role::Strong),
         ("λ", lambda, Role::Strong),
         ("n", n, Role::Strong),
     ];

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use crate::sim::{Frame, LubricationRegime, Metrics, Rhythm, Stage};
+use crate::sim::{CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named};
 use crate::sweep::Along;
 use crate::tui::app::{App, ErrandKind, Trouble, Unconverged};
 use crate::tui::theme::Role;
@@ -117,28 +117,22 @@ fn quality(app: &App, frame: &Frame) -> Words {
     let lambda = metrics
         .lambda_ratio
         .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
+    let shown = |word: &str, quantity: &Quantity, digits: i32, role: Role| {
+        let value = app.units.show(quantity, frame, digits);
+        (format!("{word} {value}"), role)
+    };
     let mut words = vec![
         residual,
         (format!("{regime}{lambda}"), role),
-        (
-            format!("contact {} %", sig(100.0 * metrics.contact_ratio, 2)),
-            Role::Text,
-        ),
+        shown("contact", const { named("contact_ratio") }, 2, Role::Text),
         (format!("load err {}", tiny(metrics.load_error)), Role::Dim),
         (format!("mass err {}", tiny(metrics.mass_error)), Role::Dim),
-        (
-            format!("µ {}", sig(metrics.friction_coefficient, 2)),
-            Role::Text,
-        ),
-        (
-            format!("p max {}", app.units.pressure().show(metrics.p_max_pa, 3)),
-            Role::Pressure,
-        ),
-        (
-            format!("h min {}", app.units.film().show(metrics.h_min_m, 2)),
-            Role::Film,
-        ),
+        shown("µ", const { named("friction_coefficient") }, 2, Role::Text),
+        shown("p max", const { named("p_max_pa") }, 3, Role::Pressure),
+        shown("h min", const { named("h_min_m") }, 2, Role::Film),
     ];
+    let by_itself = CATALOGUE.iter().filter(|quantity| quantity.by_itself);
+    words.extend(by_itself.map(|quantity| shown(quantity.symbol, quantity, 2, Role::Text)));
     if let Some(errors) = metrics.errors {
         let share = sig(100.0 * errors.h_central, 2);
         words.push((format!("mesh ±{share} % of h"), Role::Dim));

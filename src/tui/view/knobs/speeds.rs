@@ -6,6 +6,7 @@ use ratatui::text::{Line, Span};
 
 use crate::physics::estimate::speed_ratios;
 use crate::scene::ContactKind;
+use crate::sim::{Quantity, named};
 use crate::tui::app::App;
 use crate::tui::choice::Choice;
 use crate::tui::theme::Role;
@@ -28,21 +29,29 @@ pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
             theme.pick("∞", "inf").to_owned()
         }
     };
-    let length = app.units.length();
+    let shown = |quantity: &Quantity, digits: i32| app.units.show(quantity, frame, digits);
     let mean = metrics.entrainment_m_s;
     let lines = [
         ("U₁ body 1", speed.show(mean * u1, 3), Role::Body1),
         ("U₂ body 2", speed.show(mean * u2, 3), Role::Body2),
         ("ζ₁ = |U₂−U₁|/U₁", specific(u1), Role::Body1),
         ("ζ₂ = |U₂−U₁|/U₂", specific(u2), Role::Body2),
-        ("a half-width x", length.show(frame.a_m, 3), Role::Text),
+        (
+            "a half-width x",
+            shown(const { named("a_m") }, 3),
+            Role::Text,
+        ),
         match frame.kind {
-            ContactKind::Point => ("b half-width y", length.show(frame.b_m, 3), Role::Text),
+            ContactKind::Point => (
+                "b half-width y",
+                shown(const { named("b_m") }, 3),
+                Role::Text,
+            ),
             ContactKind::Line => ("uniform along y", String::new(), Role::Dim),
         },
         (
             "µ friction",
-            sig(metrics.friction_coefficient, 2),
+            shown(const { named("friction_coefficient") }, 2),
             Role::Text,
         ),
     ];
