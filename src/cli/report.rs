@@ -1,6 +1,7 @@
 //! The summary for people: what came out, with units, and what to mistrust.
 
 mod complaints;
+mod motion;
 
 use std::fmt::Write as _;
 
@@ -98,6 +99,7 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
         load(scene, s.load_n)
     );
     line(text, "contact", &contact);
+    line(text, "motion", &motion::text(scene));
     let pressure = format!(
         "greatest {} GPa = {} times Hertz; mean of the steps' greatest {} GPa",
         sig(s.p_max_greatest_pa * 1e-9, 4),
@@ -148,8 +150,8 @@ fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
     }
     push_by_itself(text, scene, s);
     push_life(text, scene, s);
-    let errors = format!("load {:.1e}, mass {:.1e}", s.load_error, s.mass_error);
-    line(text, "errors", &errors);
+    let (load, mass) = (s.load_error, s.mass_error);
+    line(text, "errors", &format!("load {load:.1e}, mass {mass:.1e}"));
     for (k, caution) in s.cautions.iter().enumerate() {
         line(text, if k == 0 { "cautions" } else { "" }, &caution.text);
     }
@@ -253,8 +255,7 @@ fn push_life_beside(text: &mut String, s: &Summary) {
         line(text, "", &what);
     }
     if let (Some(global), Some(damage)) = (s.life_global, s.life_damage) {
-        let (global, damage) = (four(global), four(damage));
-        let what = format!("paper's count {global}, counted by damage {damage}");
+        let what = format!("paper's count {}, by damage {}", four(global), four(damage));
         line(text, "counts", &what);
     }
     if let (Some(one), Some(two)) = (s.life_body_1, s.life_body_2) {
@@ -286,8 +287,12 @@ fn push_life_beside(text: &mut String, s: &Summary) {
             line(text, "absolute life", &what);
         }
         _ => {
-            if let Some(basis) = &s.life_basis {
-                line(text, "", basis);
+            let why = s
+                .life_basis
+                .as_deref()
+                .and_then(|basis| basis.split_once(": "));
+            if let Some((_, why)) = why {
+                line(text, "absolute life", &format!("none: {why}"));
             }
         }
     }

@@ -358,7 +358,10 @@ pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
         leave("fatigue life", "the scene has no [life]");
     }
     if plan.record.is_none() {
-        leave("recording", "the scene has no [record]");
+        leave(
+            "recording",
+            "none is asked for (--no-record, or no [record])",
+        );
     }
     list
 }

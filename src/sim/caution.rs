@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! beyond_yield   p_max > H or σ_eff > Y of the body that carries less, as far as it is known        greatest of the last passage
-//! still_yielding  more than 1 % of all flow of surfaces in the last passage
+//! still_yielding  more than 0.1 % of all flow of surfaces in the last passage
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
 //! model_range    greatest over least life of the choices > 2

@@ -8,6 +8,7 @@ use std::time::Duration;
 use crate::common::tui_fixture::{
     self, State, app, buffer, frame, plain, play, running, scene, settled, setup_of, text, theme,
 };
+use asperity::scene::CycleBasis;
 use asperity::sim::{Frame, LubricationRegime, Metrics, Repeat, Rhythm, Stage};
 use asperity::tui::action::Action;
 use asperity::tui::app::{App, ErrandKind};
@@ -104,6 +105,86 @@ fn a_body_that_stands_is_named() {
         play(&mut app, 97..=98, &state);
         let shown = text(&app, 160, 48);
         assert!(shown.contains(&format!("body {body} stands")), "{shown}");
+    }
+}
+
+/// By damage the standing body's cycles count as far as they come (`life.md`); by the paper's count it has no life.
+#[test]
+fn what_a_standing_body_means_follows_the_count() {
+    let state = State {
+        slide_roll: 2.0,
+        slide_roll_target: 2.0,
+        ..State::default()
+    };
+    for (cycles, said, not_said) in [
+        (
+            CycleBasis::Damage,
+            "its cycles never end",
+            ["not in the life", "not counted"],
+        ),
+        (
+            CycleBasis::Global,
+            "its life is not counted",
+            ["never end", "never end"],
+        ),
+    ] {
+        let mut scene = scene();
+        scene.life = scene
+            .life
+            .map(|life| asperity::scene::Life { cycles, ..life });
+        let mut app = App::new(setup_of(scene));
+        play(&mut app, 97..=98, &state);
+        for (width, height) in [(160, 48), (80, 24)] {
+            let shown = text(&app, width, height);
+            assert!(shown.contains(said), "{cycles:?}: {shown}");
+            assert!(
+                not_said.iter().all(|word| !shown.contains(word)),
+                "{cycles:?}: {shown}"
+            );
+        }
+    }
+}
+
+/// A factor of 28 between the choices of count and integral is no small print.
+#[test]
+fn the_range_of_the_choices_is_on_the_screen() {
+    let mut app = running(plain());
+    take(&mut app, 97, |metrics| {
+        let life = metrics.life.as_mut().unwrap();
+        (life.detail.spread_low, life.detail.spread_high) = (0.025, 0.7);
+        life.detail.variants = 9;
+    });
+    let shown = text(&app, 160, 48);
+    assert!(shown.contains("choices 0.025–0.70"), "{shown}");
+}
+
+/// On a narrow screen what does not fit is left away whole: neither half a load nor two ends of a scale in one.
+#[test]
+fn no_number_is_cut_on_a_narrow_screen() {
+    let app = running(plain());
+    let shown = text(&app, 70, 60);
+    assert!(shown.contains("against 800 N"), "{shown}");
+    assert!(!shown.contains("the scene's 80"), "{shown}");
+    assert!(!shown.contains("1e1"), "{shown}");
+}
+
+/// A plan that is longer than the screen can be read to its end.
+#[test]
+fn a_long_plan_is_scrolled() {
+    let mut setup = setup_of(scene());
+    let lines = (1..=40).map(|n| format!("  stage {n}: {}", "because of this and that ".repeat(5)));
+    setup.plan_text = lines.collect::<Vec<_>>().join("\n");
+    for (width, height) in [(60, 20), (160, 48)] {
+        let mut app = App::new(setup.clone());
+        app.apply(Action::Plan);
+        let shown = text(&app, width, height);
+        assert!(
+            shown.contains("for more") && !shown.contains("stage 40:"),
+            "{shown}"
+        );
+        (0..200).for_each(|_| drop(app.apply(Action::ChooseNext)));
+        let shown = text(&app, width, height);
+        assert!(shown.contains("stage 40:"), "{shown}");
     }
 }
 

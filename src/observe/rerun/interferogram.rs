@@ -16,7 +16,7 @@ use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, Segmenta
 use super::colour::{GREY, WHITE};
 use super::geometry::Geometry;
 use super::picture::{Pixels, log_styled};
-use super::plot::{Labels, PlotBox, ticks_at};
+use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES, ticks_at};
 use super::stream::Stream;
 use super::waiting::ClassImage;
 use crate::observe::ObserveError;
@@ -218,9 +218,13 @@ impl Interferogram {
         let top = f64::from(TOP_M) * 1e6;
         for value in ticks(0.0, top, 5) {
             let y = plot.y[1] - h * value / top;
-            labels.add([left + 0.12 * w, y - 0.022 * h], &number(value), WHITE);
+            labels.add(
+                [left + 0.115 * w, y - HALF_LABEL * h],
+                &number(value),
+                WHITE,
+            );
         }
-        labels.add([left + 0.06 * w, plot.y[0] - 0.085 * h], "h, µm", WHITE);
+        labels.add([left + 0.05 * w, plot.y[0] - TITLES * h], "h, µm", WHITE);
         labels.log(stream, &format!("{INTERFEROGRAM}/legend/labels"))
     }
 }

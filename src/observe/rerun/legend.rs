@@ -5,7 +5,7 @@ use rerun::components::ImageFormat;
 
 use super::colour::WHITE;
 use super::picture::{Pixels, Scale, Sign, log_styled, range, styled};
-use super::plot::{Labels, PlotBox};
+use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES};
 use super::stream::{Holds, Stream};
 use crate::observe::ObserveError;
 use crate::observe::scales::{divisions, number};
@@ -85,9 +85,9 @@ impl Legend {
             } else {
                 number(value)
             };
-            labels.add([right + 0.13 * w, y - 0.022 * h], &text, WHITE);
+            labels.add([right + 0.155 * w, y - HALF_LABEL * h], &text, WHITE);
         }
-        labels.add([right + 0.06 * w, upper - 0.085 * h], &self.title, WHITE);
+        labels.add([right + 0.09 * w, upper - TITLES * h], &self.title, WHITE);
         labels.log_that(stream, &format!("{}/labels", self.entity), Holds::FromNow)
     }
 }

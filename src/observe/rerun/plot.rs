@@ -13,6 +13,12 @@ use crate::observe::scales::{MM, number};
 use crate::scene::ContactKind;
 use crate::sim::Frame;
 
+/// Upper edge of titles above a plot, as a share of its height: clear of the label of a tick at its top, which begins at
+/// [`HALF_LABEL`], also where a plot is only 170 points high and text takes 17.
+pub(super) const TITLES: f64 = 0.13;
+/// Half the height of a label: it stands so far above its tick.
+pub(super) const HALF_LABEL: f64 = 0.022;
+
 /// A tick: where, in units of the view, and its text.
 pub(super) type Tick = (f64, String);
 
@@ -49,11 +55,11 @@ impl PlotBox {
         let right = match right {
             Margin::Plain => 0.05,
             Margin::Ticks => 0.15,
-            Margin::Legend => 0.24,
+            Margin::Legend => 0.26,
         };
         [
             [self.x[0] - 0.14 * w, self.x[1] + right * w],
-            [self.y[0] - 0.11 * h, self.y[1] + 0.19 * h],
+            [self.y[0] - (TITLES + 0.025) * h, self.y[1] + 0.22 * h],
         ]
     }
 
@@ -108,18 +114,18 @@ impl PlotBox {
             labels.add([*x, bottom + 0.02 * h], text, WHITE);
         }
         for (y, text) in &self.left_ticks {
-            labels.add([left - 0.07 * w, y - 0.022 * h], text, left_colour);
+            labels.add([left - 0.07 * w, y - HALF_LABEL * h], text, left_colour);
         }
         for (y, text) in &self.right_ticks {
-            labels.add([right + 0.07 * w, y - 0.022 * h], text, right_colour);
+            labels.add([right + 0.07 * w, y - HALF_LABEL * h], text, right_colour);
         }
         labels.add(
-            [0.5 * (left + right), bottom + 0.1 * h],
+            [0.5 * (left + right), bottom + 0.125 * h],
             &self.x_title,
             WHITE,
         );
         for (share, title, colour) in &self.titles {
-            labels.add([left + share * w, top - 0.085 * h], title, *colour);
+            labels.add([left + share * w, top - TITLES * h], title, *colour);
         }
         labels.log_that(stream, &format!("{entity}/labels"), holds)
     }
@@ -230,7 +236,7 @@ impl Hertz {
         let strips = [-a, a].map(|x| vec![[x, top], [x, end]]);
         stream.log(entity, &edges(&strips))?;
         let mut label = Labels::default();
-        let at = [0.5 * (plot.x[0] + plot.x[1]), top - 0.085 * plot.height()];
+        let at = [0.5 * (plot.x[0] + plot.x[1]), top - TITLES * plot.height()];
         label.add(at, &format!("a = {} µm", sig(frame.a_m * 1e6, 4)), GREY);
         label.log_that(stream, &format!("{entity}/label"), Holds::FromNow)
     }

@@ -103,7 +103,11 @@ impl App {
     /// Moves what lies over the screen, up to its last line.
     fn scroll(&mut self, action: Action) {
         let last = match self.overlay {
-            Overlay::Plan => self.setup.plan_text.lines().count() + self.setup.left_out.len(),
+            // On narrow screens a line takes up to three rows.
+            Overlay::Plan => {
+                let all = self.setup.plan_text.lines().count() + self.setup.left_out.len();
+                3 * (all + self.cautions().len())
+            }
             Overlay::Help | Overlay::Scene | Overlay::None => KEYS.len(),
         };
         self.scroll = if action == Action::ChooseNext {

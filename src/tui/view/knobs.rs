@@ -6,6 +6,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
+use crate::scene::CycleBasis;
 use crate::sim::Knob;
 use crate::tui::action::Action;
 use crate::tui::app::App;
@@ -246,7 +247,9 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     let is_load = matches!(dial.knob, Knob::ForceN | Knob::ForceNPerM);
     let stands = standing(dial.target).filter(|_| dial.knob == Knob::SlideRoll);
     if let Some(body) = stands {
-        let more = if slot.width >= 28 {
+        let left_out = app.setup.scene.life.as_ref();
+        let left_out = left_out.is_some_and(|life| life.cycles != CycleBasis::Damage);
+        let more = if left_out && slot.width >= 28 {
             ": not in the life"
         } else {
             ""
@@ -286,7 +289,7 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// The body that stands at |S| = 2: it never crosses the contact, so it has no life in crossings.
+/// The body that stands at |S| = 2: it never crosses the contact, so none of its loading cycles ends.
 pub(super) fn standing(slide_roll: f64) -> Option<u8> {
     let body = if slide_roll > 0.0 { 1 } else { 2 };
     (slide_roll.abs() >= 2.0).then_some(body)

@@ -2,6 +2,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType, Borders, Clear, Paragraph, Widget, Wrap};
 
@@ -185,29 +186,72 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
         }
         lines.push(Line::default());
     }
-    lines.push(Line::styled("The model itself", theme.style(Role::Warn)));
-    lines.push(Line::raw(
-        "  no wear; isothermal, elastic, crack initiation only; no absolute life without a calibration point",
-    ));
-    lines.push(Line::default());
     lines.extend(
         app.setup
             .plan_text
             .lines()
             .map(|line| Line::raw(ascii_text(theme, line))),
     );
-    let tall = lines.len() as u16 + 6;
-    let inner = boxed(
-        app,
-        within,
-        (100, tall),
-        "plan (i closes)",
-        Role::Key,
-        buffer,
-    );
-    Paragraph::new(lines)
-        .wrap(Wrap { trim: false })
-        .render(inner, buffer);
+    let wide = PLAN_WIDE.min(within.width);
+    let columns = usize::from(wide.saturating_sub(4)).max(1);
+    let rows: Vec<Line> = lines
+        .iter()
+        .flat_map(|line| folded(line, columns))
+        .collect();
+    let tall = (rows.len() as u16 + 2).min(within.height);
+    let hidden = (rows.len() as u16).saturating_sub(tall.saturating_sub(2));
+    let title = if hidden > 0 {
+        theme.pick(
+            "plan (↑↓ for more, i closes)",
+            "plan (up, down for more, i closes)",
+        )
+    } else {
+        "plan (i closes)"
+    };
+    let inner = boxed(app, within, (wide, tall), title, Role::Key, buffer);
+    let shown = rows.iter().skip(usize::from(app.scroll.min(hidden)));
+    for (row, line) in (0..inner.height).zip(shown) {
+        put(inner, row, line, buffer);
+    }
+}
+
+/// Width of the plan, in columns.
+const PLAN_WIDE: u16 = 100;
+
+/// A line in rows of so many columns, broken between words; what goes on keeps the indentation, and two columns more.
+fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
+    if line.width() <= columns {
+        return vec![line.clone()];
+    }
+    let text: String = line
+        .spans
+        .iter()
+        .map(|span| span.content.as_ref())
+        .collect();
+    let indent = text.chars().take_while(|c| *c == ' ').count();
+    let styles: Vec<Style> = line
+        .spans
+        .iter()
+        .flat_map(|span| span.content.chars().map(|_| line.style.patch(span.style)))
+        .collect();
+    let letters: Vec<char> = text.chars().collect();
+    let (mut rows, mut from, mut before) = (Vec::new(), 0, 0);
+    while from < letters.len() {
+        let room = columns.saturating_sub(before).max(1);
+        let most = (from + room).min(letters.len());
+        let to = if most == letters.len() {
+            most
+        } else {
+            let space = (from + 1..=most).rev().find(|&k| letters[k] == ' ');
+            space.unwrap_or(most)
+        };
+        let mut spans = vec![Span::raw(" ".repeat(before))];
+        spans.extend((from..to).map(|k| Span::styled(letters[k].to_string(), styles[k])));
+        rows.push(Line::from(spans));
+        from = to + letters[to..].iter().take_while(|c| **c == ' ').count();
+        before = indent + 2;
+    }
+    rows
 }
 
 /// Another scene: what only a new run can change, and what its plan says.

@@ -4,6 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
+use crate::scene::CycleBasis;
 use crate::sim::{CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named};
 use crate::sweep::Along;
 use crate::tui::app::{App, ErrandKind, Trouble, Unconverged};
@@ -75,16 +76,18 @@ fn progress(app: &App, frame: &Frame) -> Words {
         (format!("passage {:.2}", frame.passages), Role::Text),
         (format!("step {}", frame.step), Role::Text),
     ];
+    if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
+        let means = match app.setup.scene.life.as_ref().map(|life| life.cycles) {
+            Some(CycleBasis::Damage) => ": its cycles never end",
+            Some(_) => ": its life is not counted",
+            None => "",
+        };
+        words.push((format!("body {body} stands{means}"), Role::Warn));
+    }
     if let Some(rate) = app.steps_per_s() {
         words.push((format!("{} steps/s", sig(rate, 2)), Role::Text));
     }
     words.push((format!("t {}", seconds(frame.time_s)), Role::Text));
-    if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
-        words.push((
-            format!("body {body} stands: its life is not counted"),
-            Role::Warn,
-        ));
-    }
     if let Some(repeat) = frame.metrics.repeat.filter(|repeat| repeat.repeats) {
         let what = match repeat.rhythm {
             Rhythm::Steady => "steady".to_owned(),

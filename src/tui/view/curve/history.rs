@@ -24,7 +24,11 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         ..area
     };
     let span = last.passages - first.passages;
-    let words = ascii_text(theme, &format!("{span:.1} passages of 4a"));
+    let words = match area.width {
+        27.. => format!("{span:.1} passages of 4a"),
+        _ => format!("{span:.1} passages"),
+    };
+    let words = ascii_text(theme, &words);
     let heading = Line::from(vec![
         Span::styled("history ", theme.style(Role::Title)),
         Span::styled(words, theme.style(Role::Dim)),

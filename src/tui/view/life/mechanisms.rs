@@ -47,13 +47,18 @@ fn against(app: &App, row: Rect, buffer: &mut Buffer) {
         Some(pinned) => ("pinned", pinned.load_n),
         None => ("the scene's", app.setup.load_n),
     };
-    let words = format!("  against {whose} {}", unit.show(load, 3));
-    let words = if words.chars().count() <= usize::from(row.width) {
-        words
-    } else {
-        format!("  of {whose} {}", unit.show(load, 3))
+    // A load that is cut is another load.
+    let load = unit.show(load, 3);
+    let forms = [
+        format!("  against {whose} {load}"),
+        format!("  of {whose} {load}"),
+        format!("  against {load}"),
+    ];
+    let fits = |words: &&String| words.chars().count() <= usize::from(row.width);
+    let Some(words) = forms.iter().find(fits) else {
+        return;
     };
-    let line = Line::styled(ascii_text(app.theme, &words), app.theme.style(Role::Dim));
+    let line = Line::styled(ascii_text(app.theme, words), app.theme.style(Role::Dim));
     put(row, 0, &line, buffer);
 }
 
@@ -87,6 +92,9 @@ fn track(row: Rect) -> Option<Rect> {
 pub(super) fn scale(theme: Theme, row: Rect, buffer: &mut Buffer) {
     let Some(track) = track(row) else { return };
     let [least, most] = DECADES.map(|decade| sig(10_f64.powf(decade), 1));
+    if usize::from(track.width) <= least.len() + most.len() {
+        return;
+    }
     let dim = theme.style(Role::Dim);
     put(track, 0, &Line::styled(least, dim), buffer);
     put_right(track, 0, &Line::styled(most, dim), buffer);

@@ -56,17 +56,29 @@ pub(super) fn model(app: &App, row: Rect, buffer: &mut Buffer) {
     let (Some(life), Some(stress)) = (&scene.life, &scene.stress) else {
         return;
     };
-    let mut text = format!("{}, {}", life.model.name(), stress.measure.name());
-    if let Some(detail) = app.life().map(|life| life.detail)
-        && detail.variants > 1
-    {
-        let (low, high) = (sig(detail.spread_low, 2), sig(detail.spread_high, 2));
-        let spread = format!("; models {low}–{high}");
-        if text.chars().count() + spread.chars().count() <= usize::from(row.width) {
-            text.push_str(&spread);
-        }
+    let (model, measure) = (life.model.name(), stress.measure.name());
+    let spread = app
+        .life()
+        .map(|life| life.detail)
+        .filter(|detail| detail.variants > 1)
+        .map(|detail| {
+            let (low, high) = (sig(detail.spread_low, 2), sig(detail.spread_high, 2));
+            format!("choices {low}–{high}")
+        });
+    // The range says more than the names, which the plan has too.
+    let mut forms = vec![format!("{model}, {measure}")];
+    if let Some(spread) = spread {
+        forms = vec![
+            format!("{model}, {measure}; {spread}"),
+            format!("{model}; {spread}"),
+            spread,
+        ];
     }
-    let line = Line::styled(ascii_text(theme, &text), theme.style(Role::Dim));
+    let fits = |text: &&String| text.chars().count() <= usize::from(row.width);
+    let Some(text) = forms.iter().find(fits).or(forms.last()) else {
+        return;
+    };
+    let line = Line::styled(ascii_text(theme, text), theme.style(Role::Dim));
     put(row, 0, &line, buffer);
 }
 

@@ -50,7 +50,7 @@ fn name(caution: &Caution) -> &'static str {
         CautionCode::MeshFilm => "coarse mesh",
         CautionCode::ShortDomain => "short domain",
         CautionCode::StandingBody => "a body stands",
-        CautionCode::ModelRange => "models differ",
+        CautionCode::ModelRange => "choices differ",
         CautionCode::AboveSmooth => "above smooth",
         CautionCode::NotSettled => "not settled",
         CautionCode::NoLife => "no life",
