@@ -132,7 +132,7 @@ fn what_a_standing_body_means_follows_the_count() {
         scene.life = scene
             .life
             .map(|life| asperity::scene::Life { cycles, ..life });
-        let mut app = App::new(setup_of(scene));
+        let mut app = App::new(setup_of(scene), vec![ErrandKind::Rebuild], plain());
         play(&mut app, 97..=98, &state);
         for (width, height) in [(160, 48), (80, 24)] {
             let shown = text(&app, width, height);
@@ -175,7 +175,7 @@ fn a_long_plan_is_scrolled() {
     let lines = (1..=40).map(|n| format!("  stage {n}: {}", "because of this and that ".repeat(5)));
     setup.plan_text = lines.collect::<Vec<_>>().join("\n");
     for (width, height) in [(60, 20), (160, 48)] {
-        let mut app = App::new(setup.clone());
+        let mut app = App::new(setup.clone(), vec![ErrandKind::Rebuild], plain());
         app.apply(Action::Plan);
         let shown = text(&app, width, height);
         assert!(
