@@ -163,6 +163,9 @@ pub struct Metrics {
     pub asked: [f64; 2],
     /// Friction force over load, positive.
     pub friction_coefficient: f64,
+    /// Greatest shear stress on the surfaces, of sheared oil and of touching spots, Pa.
+    #[serde(default)]
+    pub traction_max_pa: f64,
     /// What body 1 and 2 have yielded since the roughness came up, m³ (of a line m³ per metre of length); `None`: both
     /// are elastic.
     #[serde(default)]
@@ -263,6 +266,7 @@ pub const CATALOGUE: &[Quantity] = {
         frame(["point_cycles_counted", "peaks so far in this crossing"], Plain, "peaks of the pressure on it in this crossing", |f| f.material_point.map(|point| point.cycles_counted).into()),
         metric(["yielded_body_1_m3", "body 1 has yielded"], Volume, "what body 1 has yielded since the roughness came up", |m| m.yielded_m3.map(|both| both[0]).into()),
         metric(["yielded_body_2_m3", "body 2 has yielded"], Volume, "what body 2 has yielded since the roughness came up", |m| m.yielded_m3.map(|both| both[1]).into()),
+        metric(["traction_max_pa", "τ max"], Pressure, "greatest shear stress on the surfaces", |m| m.traction_max_pa.into()).over(&[(Mean, "traction_max_pa"), (Greatest, "traction_max_greatest_pa")]).by_itself(),
     ]
 };
 

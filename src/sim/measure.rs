@@ -27,6 +27,8 @@ pub(super) struct Measured {
     pub(super) contact_load_ratio: f64,
     /// ∬Q/∬P.
     pub(super) friction: f64,
+    /// Greatest |Q|.
+    pub(super) traction_max: f64,
 }
 
 impl Measured {
@@ -39,6 +41,7 @@ impl Measured {
         m.contact_ratio = self.contact_ratio;
         m.contact_load_ratio = self.contact_load_ratio;
         m.friction_coefficient = self.friction.abs();
+        m.traction_max_pa = door.pa_from_p(self.traction_max);
     }
 }
 
@@ -60,6 +63,7 @@ pub(super) struct Fields<'a> {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct RowSums {
     p_max: f64,
+    traction_max: f64,
     h_min: f64,
     load: f64,
     drag: f64,
@@ -104,12 +108,14 @@ pub(super) fn measure(fields: &Fields, traction: &mut [f64], rows: &mut [RowSums
         contact_ratio: total.contact / whole,
         contact_load_ratio: total.touching / load,
         friction: total.drag / load,
+        traction_max: total.traction_max,
     }
 }
 
 impl RowSums {
     fn add(&mut self, row: &Self, weight: f64) {
         self.p_max = self.p_max.max(row.p_max);
+        self.traction_max = self.traction_max.max(row.traction_max);
         self.h_min = self.h_min.min(row.h_min);
         self.load += weight * row.load;
         self.drag += weight * row.drag;
@@ -136,6 +142,7 @@ fn sum_row(
         sums.load += p[i];
         sums.drag += q[i];
         sums.p_max = sums.p_max.max(p[i]);
+        sums.traction_max = sums.traction_max.max(q[i].abs());
         if p[i] > 0.0 {
             sums.h_min = sums.h_min.min(h[i]);
         }

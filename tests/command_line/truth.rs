@@ -392,6 +392,10 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
             w.said("friction", "coefficient ", 1.0),
         ),
         mean("load_n", None),
+        mean(
+            "traction_max_pa",
+            w.said("τ max", "mean of the steps ", 1e-9),
+        ),
         row(
             "p_max_greatest_pa",
             &[
@@ -488,6 +492,11 @@ fn of_the_last_step(w: &Written, screen: &Screen, line: bool) -> Vec<Row> {
             "friction_coefficient",
             w.recorded("series/friction", 0, 1.0),
             screen.shown(status, " µ ", 1.0),
+        ),
+        three(
+            "traction_max_pa",
+            w.recorded("series/traction_max_GPa", 0, 1e-9),
+            screen.shown(status, "τ max ", 1e-9),
         ),
         three(
             "slide_roll",

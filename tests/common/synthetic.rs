@@ -268,6 +268,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
         overlap_m: 0.0,
         asked: [1e-3, 1e-2],
         friction_coefficient: 0.052 + 0.002 * wobble,
+        traction_max_pa: 4.7e7,
         sigma_eff_max_pa: Some(sigma),
         sigma_eff_max_depth_m: Some(depth),
         sigma_eff_max_x_m: Some(x),

@@ -322,6 +322,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
         overlap_m: 0.0,
         asked: [1e-3, 1e-2],
         friction_coefficient: 0.047,
+        traction_max_pa: 4.7e7,
         sigma_eff_max_pa: Some(1.12e9),
         sigma_eff_max_depth_m: Some(0.46 * frame.a_m),
         sigma_eff_max_x_m: Some(0.05 * frame.a_m),

@@ -160,4 +160,27 @@ fn a_dry_rough_scene_converges_and_slides_with_boundary_friction() {
     let summary = sim.summary();
     println!("dry: friction {:.4}", summary.friction_coefficient);
     assert!((summary.friction_coefficient - 0.10).abs() < 1e-9);
+    // Coulomb's law at the highest crest.
+    let most = summary.by_itself["traction_max_greatest_pa"].unwrap();
+    assert!((most / (0.10 * summary.p_max_greatest_pa) - 1.0).abs() < 1e-9);
+}
+
+/// The scalar is the greatest of the field; without sliding there is no shear stress.
+#[test]
+fn the_greatest_shear_stress_is_that_of_the_field() {
+    for s in ["0", "-0.5", "1"] {
+        let slide_roll = format!("motion.slide_roll={s}");
+        let sets = ["grid.nodes=65", "life=none", "stress=none", &slide_roll];
+        let mut sim = simulation("demonstration", &sets, 2);
+        run(&mut sim, 4, |frame| {
+            let field = frame.traction_pa.iter().map(|q| f64::from(q.abs()));
+            let greatest = field.fold(0.0, f64::max);
+            let scalar = frame.metrics.traction_max_pa;
+            assert!(
+                (scalar - greatest).abs() <= 1e-6 * greatest,
+                "{scalar} {greatest}"
+            );
+            assert_eq!(scalar > 0.0, s != "0", "{scalar}");
+        });
+    }
 }
