@@ -53,7 +53,6 @@ impl Cells {
         match reading {
             Reading::Unknown => self.optional(None),
             Reading::Number(value) => self.number(value),
-            Reading::Count(count) => self.text(count),
             Reading::Word(word) => self.text(word),
         }
     }

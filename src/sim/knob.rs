@@ -1,5 +1,7 @@
 //! The knobs that may be turned while a simulation runs.
 
+use super::{Quantity, named};
+
 /// A knob. Values are SI; a knob is a target that the drive walks towards, so that turning it is a
 /// physical ramp and not a jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -38,6 +40,17 @@ impl Knob {
             Self::Amplitude2M => "body_2.surface.amplitude_m",
             Self::EntrainmentMS => "motion.entrainment_m_s",
             Self::ForceNPerM => "load.force_n_per_m",
+        }
+    }
+
+    /// What it turns, as the catalogue has it.
+    pub fn quantity(self) -> &'static Quantity {
+        match self {
+            Self::SlideRoll => const { named("slide_roll") },
+            Self::ForceN | Self::ForceNPerM => const { named("load_n") },
+            Self::Amplitude1M => const { named("amplitude_1_m") },
+            Self::Amplitude2M => const { named("amplitude_2_m") },
+            Self::EntrainmentMS => const { named("entrainment_m_s") },
         }
     }
 

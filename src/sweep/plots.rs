@@ -99,71 +99,38 @@ type Upright<'a> = (&'a str, Scale);
 /// A curve's name, its column, what it is made of.
 type Drawn<'a> = (&'a str, &'a str, Mark);
 
-fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
+/// Pictures along the last axis, the first four of any sweep, all of a path: name, upright axis, curves.
+#[rustfmt::skip]
+const PICTURES: [(&str, Upright, &[Drawn]); 7] = {
     use Mark::{Computed, Formula};
     use Scale::{Linear, Log};
+    [
+        ("life", ("relative life", Log), &[("", "life_relative", Computed)]),
+        ("traction", ("friction coefficient", Linear), &[("", "friction_coefficient", Computed)]),
+        ("pressure", ("pressure, Pa", Linear), &[("greatest", "p_max_greatest_pa", Computed), ("mean of the steps' greatest", "p_max_pa", Computed), ("Hertz", "p_hertz_pa", Formula)]),
+        ("film", ("film, m", Log), &[("centre", "h_central_m", Computed), ("mean of the steps' least", "h_min_m", Computed), ("smooth, by regression", "h_regression_m", Formula)]),
+        ("mechanisms", ("factor of life", Log), &[("cycles", "cycle_factor", Computed), ("peaks", "peak_factor", Computed), ("traction", "traction_factor", Computed)]),
+        ("contacts", ("contacts a loading cycle n", Log), &[("body 1", "n_body_1", Computed), ("body 2", "n_body_2", Computed)]),
+        ("lambda", ("lambda", Linear), &[("", "lambda_ratio", Computed)]),
+    ]
+};
+
+fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
     let mut found = Vec::new();
     let Some(along) = along(sweep) else {
         return found;
     };
     let lines = lines(sweep);
-    let mut add = |name: &str, y: Upright, columns: &[Drawn]| {
-        let figure = figure(sweep, rows, &along, &lines, (y, columns));
+    let more = if sweep.path.is_empty() {
+        4
+    } else {
+        PICTURES.len()
+    };
+    for (name, y, columns) in &PICTURES[..more] {
+        let figure = figure(sweep, rows, &along, &lines, (*y, columns));
         if !figure.curves.is_empty() {
             found.push((format!("{name}_against_{}", along.short), figure));
         }
-    };
-    add(
-        "life",
-        ("relative life", Log),
-        &[("", "life_relative", Computed)],
-    );
-    add(
-        "traction",
-        ("friction coefficient", Linear),
-        &[("", "friction_coefficient", Computed)],
-    );
-    add(
-        "pressure",
-        ("pressure, Pa", Linear),
-        &[
-            ("greatest", "p_max_greatest_pa", Computed),
-            ("mean of the steps' greatest", "p_max_pa", Computed),
-            ("Hertz", "p_hertz_pa", Formula),
-        ],
-    );
-    add(
-        "film",
-        ("film, m", Log),
-        &[
-            ("centre", "h_central_m", Computed),
-            ("mean of the steps' least", "h_min_m", Computed),
-            ("smooth, by regression", "h_regression_m", Formula),
-        ],
-    );
-    if !sweep.path.is_empty() {
-        add(
-            "mechanisms",
-            ("factor of life", Log),
-            &[
-                ("cycles", "cycle_factor", Computed),
-                ("peaks", "peak_factor", Computed),
-                ("traction", "traction_factor", Computed),
-            ],
-        );
-        add(
-            "contacts",
-            ("contacts a loading cycle n", Log),
-            &[
-                ("body 1", "n_body_1", Computed),
-                ("body 2", "n_body_2", Computed),
-            ],
-        );
-        add(
-            "lambda",
-            ("lambda", Linear),
-            &[("", "lambda_ratio", Computed)],
-        );
     }
     found.extend(against_lambda(sweep, rows, &lines));
     found

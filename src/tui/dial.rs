@@ -4,7 +4,7 @@ use crate::plan::Plan;
 use crate::scene::keys::{self, Kind};
 use crate::scene::{ContactKind, Scene, Surface};
 use crate::sim::{Knob, Metrics};
-use crate::tui::units::{NO_UNIT, Unit, Units};
+use crate::tui::units::{Unit, Units};
 
 /// How a dial's range is divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,13 +114,11 @@ impl Dial {
 
     /// Unit of its values.
     pub fn unit(&self, units: Units) -> Unit {
-        match self.knob {
-            Knob::SlideRoll => NO_UNIT,
-            Knob::ForceN => units.force(),
-            Knob::ForceNPerM => units.force_per_length(),
-            Knob::Amplitude1M | Knob::Amplitude2M => units.height(),
-            Knob::EntrainmentMS => units.speed(),
-        }
+        let kind = match self.knob {
+            Knob::ForceNPerM => ContactKind::Line,
+            _ => ContactKind::Point,
+        };
+        units.unit(self.knob.quantity().dimension, kind)
     }
 
     fn span(&self) -> f64 {
@@ -132,17 +130,6 @@ impl Dial {
 
     fn clamped(&self, value: f64) -> f64 {
         value.clamp(self.min, self.max)
-    }
-}
-
-/// The value of a knob in a frame.
-pub fn knob_value(metrics: &Metrics, knob: Knob) -> f64 {
-    match knob {
-        Knob::SlideRoll => metrics.slide_roll,
-        Knob::ForceN | Knob::ForceNPerM => metrics.load_n,
-        Knob::Amplitude1M => metrics.amplitude_1_m,
-        Knob::Amplitude2M => metrics.amplitude_2_m,
-        Knob::EntrainmentMS => metrics.entrainment_m_s,
     }
 }
 

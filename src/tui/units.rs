@@ -112,9 +112,6 @@ impl Units {
     }
 }
 
-/// No unit.
-pub const NO_UNIT: Unit = unit("", 1.0);
-
 const fn unit(name: &'static str, per_si: f64) -> Unit {
     Unit { name, per_si }
 }

@@ -23,12 +23,12 @@ pub struct Quantity {
     /// Whether outputs show it by this line alone: a curve, a row, a word of its own. Others have their place in sentences and
     /// groups of curves.
     pub by_itself: bool,
-    from: Source,
+    source: Source,
 }
 
 /// Where it is read.
 #[derive(Debug, Clone, Copy)]
-enum Source {
+pub(super) enum Source {
     Frame(fn(&Frame) -> Reading),
     Metrics(fn(&Metrics) -> Reading),
     Life(fn(&LifeEstimate) -> Reading),
@@ -39,10 +39,8 @@ enum Source {
 pub enum Reading {
     /// Not known yet, or not in this scene.
     Unknown,
-    /// SI.
+    /// SI; 1 for yes and 0 for no.
     Number(f64),
-    /// A whole number; 1 for yes and 0 for no.
-    Count(u64),
     /// A word.
     Word(&'static str),
 }
@@ -129,7 +127,7 @@ impl Over {
 impl Quantity {
     /// Of a frame.
     pub fn read(&self, frame: &Frame) -> Reading {
-        match self.from {
+        match self.source {
             Source::Frame(of) => of(frame),
             Source::Metrics(_) | Source::Life(_) => self.read_metrics(&frame.metrics),
         }
@@ -137,7 +135,7 @@ impl Quantity {
 
     /// Of the scalars alone; what only a frame has is not known.
     pub fn read_metrics(&self, metrics: &Metrics) -> Reading {
-        match self.from {
+        match self.source {
             Source::Frame(_) => Reading::Unknown,
             Source::Metrics(of) => of(metrics),
             Source::Life(of) => metrics.life.as_ref().map_or(Reading::Unknown, of),
@@ -163,37 +161,11 @@ impl Quantity {
         }
     }
 
-    pub(super) const fn of_frame(
+    pub(super) const fn new(
         [name, symbol]: [&'static str; 2],
         dimension: Dimension,
         meaning: &'static str,
-        of: fn(&Frame) -> Reading,
-    ) -> Self {
-        Self::new([name, symbol], dimension, meaning, Source::Frame(of))
-    }
-
-    pub(super) const fn of_metrics(
-        [name, symbol]: [&'static str; 2],
-        dimension: Dimension,
-        meaning: &'static str,
-        of: fn(&Metrics) -> Reading,
-    ) -> Self {
-        Self::new([name, symbol], dimension, meaning, Source::Metrics(of))
-    }
-
-    pub(super) const fn of_life(
-        [name, symbol]: [&'static str; 2],
-        meaning: &'static str,
-        of: fn(&LifeEstimate) -> Reading,
-    ) -> Self {
-        Self::new([name, symbol], Dimension::Plain, meaning, Source::Life(of))
-    }
-
-    const fn new(
-        [name, symbol]: [&'static str; 2],
-        dimension: Dimension,
-        meaning: &'static str,
-        from: Source,
+        source: Source,
     ) -> Self {
         Self {
             name,
@@ -202,7 +174,7 @@ impl Quantity {
             meaning,
             over: &[],
             by_itself: false,
-            from,
+            source,
         }
     }
 
@@ -225,7 +197,6 @@ impl Reading {
     pub fn number(self) -> Option<f64> {
         match self {
             Self::Number(value) => Some(value),
-            Self::Count(count) => Some(count as f64),
             Self::Unknown | Self::Word(_) => None,
         }
     }
@@ -237,27 +208,9 @@ impl From<f64> for Reading {
     }
 }
 
-impl From<u64> for Reading {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
-}
-
-impl From<u32> for Reading {
-    fn from(count: u32) -> Self {
-        Self::Count(count.into())
-    }
-}
-
-impl From<bool> for Reading {
-    fn from(yes: bool) -> Self {
-        Self::Count(yes.into())
-    }
-}
-
-impl<T: Into<Self>> From<Option<T>> for Reading {
-    fn from(known: Option<T>) -> Self {
-        known.map_or(Self::Unknown, Into::into)
+impl From<Option<f64>> for Reading {
+    fn from(known: Option<f64>) -> Self {
+        known.map_or(Self::Unknown, Self::Number)
     }
 }
 
@@ -267,24 +220,14 @@ impl<T: Into<Self>> From<Option<T>> for Reading {
 /// When there is none: where it is compiled.
 pub const fn named(name: &str) -> &'static Quantity {
     let mut k = 0;
-    while k < CATALOGUE.len() {
-        if is_same(CATALOGUE[k].name, name) {
-            return &CATALOGUE[k];
-        }
+    while !is_same(CATALOGUE[k].name, name) {
         k += 1;
     }
-    panic!("no quantity has that name")
+    &CATALOGUE[k]
 }
 
 /// How many quantities are summed up over a passage.
-pub(in crate::sim) const SUMMED: usize = {
-    let (mut k, mut count) = (0, 0);
-    while k < CATALOGUE.len() {
-        count += !CATALOGUE[k].over.is_empty() as usize;
-        k += 1;
-    }
-    count
-};
+pub(in crate::sim) const SUMMED: usize = summed_before(CATALOGUE.len());
 
 /// Those quantities, in order.
 pub(in crate::sim) fn summed() -> impl Iterator<Item = &'static Quantity> {
@@ -292,25 +235,29 @@ pub(in crate::sim) fn summed() -> impl Iterator<Item = &'static Quantity> {
     all.filter(|quantity| !quantity.over.is_empty())
 }
 
+const fn summed_before(end: usize) -> usize {
+    let (mut k, mut count) = (0, 0);
+    while k < end {
+        count += !CATALOGUE[k].over.is_empty() as usize;
+        k += 1;
+    }
+    count
+}
+
 /// Place among [`summed`] of what gives the number of that name to a summary, and how.
 ///
 /// # Panics
 /// When nothing does: where it is compiled.
 pub(in crate::sim) const fn total(key: &str) -> (usize, Over) {
-    let (mut k, mut place) = (0, 0);
-    while k < CATALOGUE.len() {
-        let over = CATALOGUE[k].over;
-        let mut n = 0;
-        while n < over.len() {
-            if is_same(over[n].1, key) {
-                return (place, over[n].0);
-            }
-            n += 1;
-        }
-        place += !over.is_empty() as usize;
-        k += 1;
+    let (mut k, mut n) = (0, 0);
+    while n == CATALOGUE[k].over.len() || !is_same(CATALOGUE[k].over[n].1, key) {
+        (k, n) = if n < CATALOGUE[k].over.len() {
+            (k, n + 1)
+        } else {
+            (k + 1, 0)
+        };
     }
-    panic!("no quantity gives that number to a summary")
+    (summed_before(k), CATALOGUE[k].over[n].0)
 }
 
 const fn is_same(one: &str, two: &str) -> bool {

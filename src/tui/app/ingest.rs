@@ -8,7 +8,7 @@ use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
 use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges, Trouble};
-use crate::tui::dial::{Dial, knob_target, knob_value};
+use crate::tui::dial::{Dial, knob_target};
 use crate::tui::units::nice_ceiling;
 
 /// Memory that past frames may take, bytes.
@@ -77,7 +77,8 @@ impl App {
 
     fn take_knobs(&mut self, frame: &Frame) {
         for (dial, set_at) in self.dials.iter_mut().zip(&self.set_at) {
-            dial.now = knob_value(&frame.metrics, dial.knob);
+            let quantity = dial.knob.quantity();
+            dial.now = quantity.number(frame).unwrap_or(dial.now);
             let ours = set_at.is_some_and(|at| self.now < at + GRACE);
             match knob_target(&frame.metrics, dial.knob) {
                 // A scripted event moved it, or the run refused what was asked.
