@@ -156,6 +156,15 @@ def in_browser(arguments, url):
         browser.close()
 
 
+def written(file, seconds=30):
+    """Waits for the whole picture: the viewer writes it in its own time, and is ended after the last."""
+    until = time.monotonic() + seconds
+    while not (file.exists() and file.read_bytes()[-8:-4] == b"IEND"):
+        if time.monotonic() > until:
+            sys.exit(f"{file} was not written")
+        time.sleep(0.2)
+
+
 def main():
     arguments = parse_arguments()
     if rr.__version__ != VERSION:
@@ -170,6 +179,7 @@ def main():
             time.sleep(arguments.settle)
             file = arguments.folder / (re.sub(r"[^a-z0-9]+", "_", name.lower()) + ".png")
             save(file)
+            written(file)
             print(file, flush=True)
 
 

@@ -87,20 +87,17 @@ fn push_life_beside(text: &mut String, s: &Summary) {
         let what = format!("snapshot {snapshot}, swept {swept} (bound)");
         line(text, "integrals", &what);
     }
-    match (s.life_cycles, s.life_cycles_low, s.life_cycles_high) {
-        (Some(cycles), Some(low), Some(high)) => {
-            let what = format!("{cycles:.3e} loading cycles ({low:.2e} to {high:.2e})");
-            line(text, "absolute life", &what);
-        }
-        _ => {
-            let why = s
-                .life_basis
-                .as_deref()
-                .and_then(|basis| basis.split_once(": "));
-            if let Some((_, why)) = why {
-                line(text, "absolute life", &format!("none: {why}"));
-            }
-        }
+    if let (Some(cycles), Some(low), Some(high)) =
+        (s.life_cycles, s.life_cycles_low, s.life_cycles_high)
+    {
+        let what = format!("{cycles:.3e} loading cycles ({low:.2e} to {high:.2e})");
+        line(text, "absolute life", &what);
+    } else if let Some((_, why)) = s
+        .life_basis
+        .as_deref()
+        .and_then(|basis| basis.split_once(": "))
+    {
+        line(text, "absolute life", &format!("none: {why}"));
     }
     let depths = [s.cycles_end_depth_1_m, s.cycles_end_depth_2_m];
     for (body, (pit, depth)) in [s.pit_body_1, s.pit_body_2].iter().zip(depths).enumerate() {
