@@ -42,7 +42,9 @@ pub(super) fn absolute(prefix: &str, table: &mut Table, folder: &Path) {
         match value {
             Value::Table(inner) => absolute(&full, inner, folder),
             Value::Array(files) if is_map(&full) => {
-                files.iter_mut().for_each(|file| of_root(file, folder));
+                for file in files {
+                    of_root(file, folder);
+                }
             }
             file if is_map(&full) => of_root(file, folder),
             _ => {}

@@ -41,7 +41,17 @@ fn chunks(path: &Path) -> Vec<Chunk> {
         }
         _ => None,
     });
-    data.collect()
+    let mut data: Vec<Chunk> = data.collect();
+    // How many rows are sent at once, and so what comes first, is the clock's affair.
+    data.sort_by_cached_key(|chunk| {
+        let mut columns: Vec<String> = chunk
+            .components_identifiers()
+            .map(|column| column.to_string())
+            .collect();
+        columns.sort();
+        (chunk.entity_path().to_string(), columns, chunk.num_rows())
+    });
+    data
 }
 
 /// Where two recordings differ.

@@ -134,8 +134,7 @@ fn a_closed_recording_that_was_cut_is_no_killed_run() {
             // What follows the last word on the run repeats nothing.
             Ok(run) => {
                 assert!(same_run(&run, &whole), "{length} bytes");
-                let told = run.damage.unwrap();
-                assert!(told.contains(&format!("of {length} (")), "{told}");
+                assert!(run.damage.is_some(), "{length} bytes");
             }
             Err(error) => {
                 assert!(!error.reason.is_empty());

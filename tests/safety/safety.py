@@ -9,7 +9,7 @@ disk    a full disk (a small tmpfs where that may be mounted) and a folder that 
 live    a real viewer (without a screen) that is closed or freezes in mid-run: the run goes on and tells what was
         skipped
 memory  twenty thousand steps of 65 nodes, recorded and not: resident memory after the first tenth and at the end
-memory129  the same with the nodes of the presets (a quarter of an hour each)
+memory129  the same with the nodes of the presets (five to ten minutes each)
 cost    the default scene with and without a recording in turns; ratio of the steps per second
 table   recorded h_min and life against the CSV of the same run, to rounding
 footer  a run that is stopped and let go on a hundred times: the viewer's own tool finds nothing wrong with its file

@@ -120,10 +120,9 @@ impl Found {
             Ends::Early { at, reason } => Some(format!(
                 "it can be read up to byte {at} of {bytes} ({reason})"
             )),
-            Ends::WithTheFile if unreadable > 0 => {
-                Some(format!("{unreadable} of its messages cannot be read"))
-            }
-            Ends::WithTheFile => None,
+            _ if unreadable > 0 => Some(format!("{unreadable} of its messages cannot be read")),
+            Ends::WithTheFile => Some("its end is missing".to_owned()),
+            Ends::Closed => None,
         };
         let damage = unread
             .as_ref()
