@@ -71,10 +71,9 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
             path.display()
         ));
     }
-    if recorded.unreadable > 0 {
-        let n = recorded.unreadable;
+    if let Some(words) = &recorded.damage {
         tell(&format!(
-            "{}: damaged, {n} of its messages cannot be read; what is needed to repeat its run is intact",
+            "{}: damaged: {words}; what is needed to repeat its run is intact",
             path.display()
         ));
     }

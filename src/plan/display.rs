@@ -78,10 +78,15 @@ impl Plan {
             significant(u_2)
         )?;
         if let Some(film) = &self.film {
+            let m = film.groups.m;
             write!(
                 f,
-                "Film        M {:.0}, L {:.2}, αp_h {:.1}; smooth by formula: central {:.1} nm ",
-                film.groups.m,
+                "Film        M {}, L {:.2}, αp_h {:.1}; smooth by formula: central {:.1} nm ",
+                if m < 10.0 {
+                    significant(m)
+                } else {
+                    m.round().to_string()
+                },
                 film.groups.l,
                 film.groups.alpha_p_hertz,
                 film.central_m * 1e9
@@ -139,7 +144,7 @@ impl Plan {
                 "Grid        {n} x {n} nodes, x {} a to {} a, y ±{} b; dx {:.2} µm, dy {:.2} µm",
                 significant(domain.x_min_a),
                 significant(domain.x_max_a),
-                domain.y_half_b,
+                significant(domain.y_half_b),
                 self.dx_m * 1e6,
                 self.dy_m * 1e6,
                 n = domain.nodes

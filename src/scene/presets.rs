@@ -75,7 +75,7 @@ const MAPS: &[(&str, &str)] = &[(
 )];
 
 /// What the name of a height map that comes with the program begins with.
-pub(super) const BUILTIN: &str = "builtin:";
+pub(crate) const BUILTIN: &str = "builtin:";
 
 /// The text of a height map that comes with the program.
 pub(super) fn map(name: &str) -> Option<&'static str> {

@@ -160,7 +160,7 @@ impl Folder {
 
     /// A record; `None`: missing, cut short or changed.
     pub fn read_case(&self, index: usize) -> Option<CaseRecord> {
-        let text = std::fs::read_to_string(self.case_path(index)).ok()?;
+        let text = mark::text(&self.case_path(index))?;
         let (head, body) = text.split_once('\n')?;
         let body = body.strip_suffix('\n')?;
         let digest = format!("{:016x}", fnv(body.as_bytes()));

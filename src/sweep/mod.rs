@@ -18,6 +18,7 @@ mod cold;
 mod columns;
 mod error;
 mod folder;
+mod maps;
 mod path;
 mod path_keys;
 mod plots;

@@ -6,16 +6,15 @@ use toml::{Table, Value};
 
 use super::axis::{Axis, MOST_CASES, WARM_KEYS, shown};
 use super::error::SweepError;
+use super::maps;
 use super::path;
 use super::presets;
 use super::spec::{ChainKeys, Combine, Sweep, setting};
-use crate::files::{fnv, read_up_to};
+use crate::files::read_up_to;
 use crate::scene::{Scene, SceneError, keys};
 
 /// Longest sweep file, bytes: a list of a million values.
 const LONGEST_FILE: u64 = 32 << 20;
-/// Longest height map, bytes.
-const LONGEST_MAP: u64 = 64 << 20;
 /// Cases of a chain, where the file says nothing.
 const CHAIN: usize = 7;
 /// Longest chain.
@@ -79,10 +78,15 @@ const TOP: [&str; 9] = [
 ];
 
 fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError> {
-    let root = text.parse::<Table>().map_err(|error| SceneError::Syntax {
+    let mut root = text.parse::<Table>().map_err(|error| SceneError::Syntax {
         origin: name.to_owned(),
         reason: error.to_string(),
     })?;
+    for part in ["scene", "set", "vary"] {
+        if let Some(Value::Table(table)) = root.get_mut(part) {
+            maps::absolute("", table, folder);
+        }
+    }
     if let Some(key) = root.keys().find(|key| !TOP.contains(&key.as_str())) {
         return Err(SceneError::unknown_among(key, &TOP));
     }
@@ -128,8 +132,8 @@ fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError
         return Err(SceneError::value(key, "a value", "nothing: the key varies"));
     }
     sort(&mut axes);
-    let files = map_files(&set_text, &axes);
-    let maps = files.iter().map(|file| digest(file)).collect();
+    let files = maps::files(&set_text, &axes);
+    let maps = files.iter().map(|file| maps::digest(file)).collect();
     let mut inputs = files;
     inputs.extend(inputs_of(&root, folder));
     check_size(&axes, combine)?;
@@ -152,29 +156,6 @@ fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError
         maps,
         inputs,
     })
-}
-
-/// The height maps that a sweep names outside of its scene.
-fn map_files(set_text: &[String], axes: &[Axis]) -> Vec<PathBuf> {
-    let set_values = set_text.iter().filter_map(|text| text.split_once('='));
-    let set_files = set_values
-        .filter(|(key, _)| is_map(key))
-        .map(|(_, file)| file.trim_matches('"'));
-    let varied = axes.iter().filter(|axis| is_map(&axis.key));
-    let varied_files = varied.flat_map(|axis| axis.values.iter().filter_map(Value::as_str));
-    set_files.chain(varied_files).map(PathBuf::from).collect()
-}
-
-/// Whether a key names a height map.
-fn is_map(key: &str) -> bool {
-    key.ends_with(".surface.file")
-}
-
-/// A height map's path and the digest of what the file holds; one that cannot be read is refused where its case is
-/// planned.
-fn digest(file: &Path) -> String {
-    let bytes = read_up_to(file, LONGEST_MAP).unwrap_or_default();
-    format!("{} {:016x}", file.display(), fnv(&bytes))
 }
 
 /// The scene's file and its height maps.
@@ -202,13 +183,7 @@ fn read_base(root: &Table, folder: &Path) -> Result<(String, String), SceneError
             Scene::load(name)?
         }
         Some(Value::String(name)) => Scene::load(&folder.join(name).to_string_lossy())?,
-        Some(Value::Table(table)) => {
-            let mut table = table.clone();
-            for body in ["body_1", "body_2"] {
-                absolute_map(&mut table, body, folder);
-            }
-            Scene::from_toml_with(&table.to_string(), "scene", &[])?
-        }
+        Some(Value::Table(table)) => Scene::from_toml_with(&table.to_string(), "scene", &[])?,
         Some(other) => {
             return Err(SceneError::value(
                 "scene",
@@ -222,17 +197,6 @@ fn read_base(root: &Table, folder: &Path) -> Result<(String, String), SceneError
         reason: error.to_string(),
     })?;
     Ok((text, "scene".to_owned()))
-}
-
-/// A height map of an inline scene is sought beside the sweep file.
-fn absolute_map(scene: &mut Table, body: &str, folder: &Path) {
-    let surface = scene
-        .get_mut(body)
-        .and_then(|body| body.get_mut("surface"))
-        .and_then(Value::as_table_mut);
-    if let Some(Value::String(file)) = surface.and_then(|surface| surface.get_mut("file")) {
-        *file = folder.join(&*file).to_string_lossy().into_owned();
-    }
 }
 
 /// `[set]` and `[vary]` with their dotted keys put together: `motion.slide_roll` may stand as one quoted key
@@ -253,6 +217,8 @@ fn flat(root: &Table, name: &str) -> Result<Vec<(String, Value)>, SceneError> {
             _ => {}
         }
     }
+    // A table has no order, and a surface of another kind keeps nothing that was set before.
+    found.sort_by_key(|(key, _)| !key.ends_with(".surface.kind"));
     let mut names: Vec<_> = found.iter().map(|(key, _)| key.clone()).collect();
     names.sort();
     if let Some([twice, ..]) = names.windows(2).find(|pair| pair[0] == pair[1]) {

@@ -25,6 +25,8 @@ pub(crate) struct Ended {
     pub(crate) err: String,
     /// Most memory that it was seen to hold, MB.
     pub(crate) peak_mb: f64,
+    /// How long its end was waited for.
+    pub(crate) waited_s: f64,
 }
 
 impl Ended {
@@ -117,6 +119,7 @@ pub(crate) fn end(mut child: Child, words: &Path) -> Ended {
         out: text("out"),
         err: text("err"),
         peak_mb: peak,
+        waited_s: began.elapsed().as_secs_f64(),
     }
 }
 

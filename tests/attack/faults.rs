@@ -1,5 +1,6 @@
 //! Faults: whatever breaks off a run, what was there stays or is replaced by something whole.
 
+use std::cell::Cell;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -62,7 +63,10 @@ fn is_mine(path: &Path) -> bool {
 fn is_whole(path: &Path) -> bool {
     let text = || std::fs::read_to_string(path).unwrap_or_default();
     match path.extension().unwrap().to_string_lossy().as_ref() {
-        "rrd" => Recorded::read(path).is_ok_and(|run| run.broken_off.is_none()),
+        "rrd" => {
+            let run = Recorded::read(path);
+            run.is_ok_and(|run| run.broken_off.is_none() && run.damage.is_none())
+        }
         "csv" => text().lines().count() > 1 && text().ends_with('\n'),
         "json" => serde_json::from_str::<serde_json::Value>(&text()).is_ok(),
         _ => Checkpoint::read(path).is_ok(),
@@ -80,9 +84,19 @@ pub(super) fn lost(place: &Place, replaced: bool) -> Option<String> {
 
 pub(super) struct Faults {
     tally: Tally,
+    /// Longest that an end was waited for, s; most memory that was held, MB.
+    most: Cell<(f64, f64)>,
 }
 
 impl Faults {
+    /// What is wrong with how a process ended.
+    pub(super) fn met(&self, ended: &Ended, codes: &[i32]) -> Option<String> {
+        let (waited_s, peak_mb) = self.most.get();
+        let most = (waited_s.max(ended.waited_s), peak_mb.max(ended.peak_mb));
+        self.most.set(most);
+        ended.fault(codes)
+    }
+
     /// Takes up how a drill ended.
     pub(super) fn judge(&mut self, drill: &str, fault: Option<String>) {
         self.tally.count(drill);
@@ -103,11 +117,14 @@ impl Faults {
         let fault = if by_memory {
             None
         } else {
-            ended.fault(if codes.is_empty() {
-                &[0, 2, 3, 4]
-            } else {
-                codes
-            })
+            self.met(
+                &ended,
+                if codes.is_empty() {
+                    &[0, 2, 3, 4]
+                } else {
+                    codes
+                },
+            )
         };
         self.judge(drill, fault.or_else(|| lost(&place, false)));
     }
@@ -128,7 +145,7 @@ impl Faults {
         more.extend(force.then(|| "--force".to_owned()));
         let before = place.names();
         let ended = place.run(NONE, &refs(&args("0.1", &more)));
-        let fault = ended.fault(&[1, 4]);
+        let fault = self.met(&ended, &[1, 4]);
         let stub = (place.names() != before).then(|| format!("leaves {:?}", place.names()));
         let gone = OUTPUTS
             .iter()
@@ -177,7 +194,7 @@ impl Faults {
         let fault = if killed {
             ended.status.is_none().then(|| "lives on".to_owned())
         } else {
-            ended.fault(&[5])
+            self.met(&ended, &[5])
         };
         let all_mine = OUTPUTS
             .iter()
@@ -205,7 +222,7 @@ impl Faults {
             let words = tempfile::tempdir().unwrap();
             let second = args("0.1", &[option.to_owned(), "--force".to_owned()]);
             let ended = child::run(&place.folder(), words.path(), NONE, &refs(&second));
-            self.judge("two writers", ended.fault(&[4]));
+            self.judge("two writers", self.met(&ended, &[4]));
         }
         let sent = std::process::Command::new("kill")
             .args(["-TERM", &first.id().to_string()])
@@ -214,7 +231,7 @@ impl Faults {
         let ended = child::end(first, &place.words());
         self.judge(
             "two writers",
-            ended.fault(&[5]).or_else(|| lost(&place, true)),
+            self.met(&ended, &[5]).or_else(|| lost(&place, true)),
         );
     }
 
@@ -245,10 +262,10 @@ impl Faults {
         };
         let table = |folder: &str| std::fs::read(place.folder().join(folder).join("table.csv"));
         let whole = sweep("whole", &[], NONE);
-        self.judge("sweep", whole.fault(&[0, 2]));
+        self.judge("sweep", self.met(&whole, &[0, 2]));
         // Less than a case takes.
         let full = sweep("full", &[], "ulimit -f 1; trap '' XFSZ");
-        self.judge("sweep on a full disk", full.fault(&[4]));
+        self.judge("sweep on a full disk", self.met(&full, &[4]));
         let child = child::start(
             &place.folder(),
             &place.words(),
@@ -265,7 +282,7 @@ impl Faults {
         let words = tempfile::tempdir().unwrap();
         let second = ["sweep", "tiny.toml", "--out=killed", "--force"];
         let second = child::run(&place.folder(), words.path(), NONE, &second);
-        self.judge("two sweeps in one folder", second.fault(&[1, 4]));
+        self.judge("two sweeps in one folder", self.met(&second, &[1, 4]));
         let sent = std::process::Command::new("kill")
             .args(["-KILL", &child.id().to_string()])
             .status();
@@ -275,7 +292,7 @@ impl Faults {
             let again = sweep(folder, &["--resume"], NONE);
             let same = table(folder).ok() == table("whole").ok();
             let other = (!same).then(|| "another table".to_owned());
-            self.judge("sweep taken up again", again.fault(&[0, 2]).or(other));
+            self.judge("sweep taken up again", self.met(&again, &[0, 2]).or(other));
         }
         place.put("notes.txt", b"mine");
         std::fs::create_dir(place.folder().join("mine")).unwrap();
@@ -286,8 +303,38 @@ impl Faults {
             (kept.ok().as_deref() != Some(MINE)).then(|| "somebody's table is lost".to_owned());
         self.judge(
             "sweep into somebody's folder",
-            foreign.fault(&[1, 4]).or(gone),
+            self.met(&foreign, &[1, 4]).or(gone),
         );
+    }
+
+    /// Nobody waits for a pipe that has the name of one of a sweep's own files.
+    fn pipes_in_a_sweep(&mut self) {
+        const SWEEP: &str = include_str!("../cluster/tiny.toml");
+        let place = Place::new();
+        place.put("tiny.toml", SWEEP.replace("n = 16", "n = 2").as_bytes());
+        let resume = ["sweep", "tiny.toml", "--threads=1", "--resume", "--out=own"];
+        let whole = place.run(NONE, &resume);
+        self.judge("sweep", self.met(&whole, &[0, 2]));
+        for name in [
+            "sweep.digest",
+            "sweep.lock",
+            "sweep.toml",
+            "cases/0000001.json",
+        ] {
+            let path = place.folder().join("own").join(name);
+            let kept = std::fs::read(&path).unwrap();
+            std::fs::remove_file(&path).unwrap();
+            for args in [&["sweep", "collect", "own", "--out=all"], &resume[..]] {
+                drop(std::fs::remove_file(&path));
+                mkfifo(&path);
+                let ended = place.run(NONE, args);
+                let fault = self.met(&ended, &[0, 1, 2, 3, 4]);
+                let fault = fault.map(|fault| format!("{name}: {}: {fault}", args[1]));
+                self.judge("a pipe in a sweep's folder", fault);
+            }
+            std::fs::remove_file(&path).unwrap();
+            std::fs::write(&path, kept).unwrap();
+        }
     }
 
     /// An export whose steps do not fit, and one that is killed.
@@ -297,17 +344,15 @@ impl Faults {
         let full = place.run("ulimit -f 1; trap '' XFSZ", &refs(&args("0.1", &more)));
         let names = std::fs::read_dir(place.folder().join("fields")).map_or(0, Iterator::count);
         let half = (names > 0).then(|| format!("{names} files of a full disk"));
-        self.judge("export on a full disk", full.fault(&[4]).or(half));
+        self.judge("export on a full disk", self.met(&full, &[4]).or(half));
         let force = [&more[..], &["--force".to_owned()]].concat();
         let whole = place.run(NONE, &refs(&args("0.1", &force)));
-        self.judge("export", whole.fault(&[0, 2]));
+        self.judge("export", self.met(&whole, &[0, 2]));
     }
 }
 
-fn mkfifo(place: &Place) {
-    let made = std::process::Command::new("mkfifo")
-        .arg(place.folder().join("pipe"))
-        .status();
+fn mkfifo(path: &Path) {
+    let made = std::process::Command::new("mkfifo").arg(path).status();
     assert!(made.unwrap().success());
 }
 
@@ -315,6 +360,7 @@ fn mkfifo(place: &Place) {
 pub(crate) fn all() -> Vec<Tally> {
     let mut faults = Faults {
         tally: Tally::new("faults"),
+        most: Cell::default(),
     };
     for signal in ["-KILL", "-TERM", "-HUP", "-INT"] {
         faults.signalled(signal);
@@ -345,7 +391,9 @@ pub(crate) fn all() -> Vec<Tally> {
         faults.misplaced("a folder", option, ".", true, |_| {});
         faults.misplaced("read-only", option, "/proc/asperity.csv", true, |_| {});
         faults.misplaced("/dev/full", option, "/dev/full", true, |_| {});
-        faults.misplaced("a pipe that nobody reads", option, "pipe", true, mkfifo);
+        faults.misplaced("a pipe that nobody reads", option, "pipe", true, |place| {
+            mkfifo(&place.folder().join("pipe"));
+        });
         faults.misplaced("a link to nothing", option, "link", true, |place| {
             std::os::unix::fs::symlink("nothing", place.folder().join("link")).unwrap();
         });
@@ -357,7 +405,9 @@ pub(crate) fn all() -> Vec<Tally> {
     faults.unread();
     faults.exports();
     faults.sweeps();
+    faults.pipes_in_a_sweep();
     #[cfg(target_os = "linux")]
     faults.clock_jumps();
+    (faults.tally.slowest_s, faults.tally.peak_mb) = faults.most.get();
     vec![faults.tally]
 }

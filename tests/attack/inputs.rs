@@ -118,6 +118,20 @@ pub(crate) fn sealed_state(body: &str) -> Vec<u8> {
     format!("asperity state 1 {digest:016x}\n{body}").into_bytes()
 }
 
+/// A case of a sweep with another value somewhere in it, its digest right.
+fn hostile_case(random: &mut Random, bytes: &[u8]) -> Vec<u8> {
+    let text = String::from_utf8_lossy(bytes);
+    let (head, body) = text.split_once('\n').unwrap();
+    let magic = head.rsplit_once(' ').unwrap().0;
+    let mut value: serde_json::Value = serde_json::from_str(body).unwrap();
+    for _ in 0..=random.below(3) {
+        mutate::json(random, &mut value);
+    }
+    let body = value.to_string();
+    let digest = asperity::files::fnv(body.as_bytes());
+    format!("{magic} {digest:016x}\n{body}\n").into_bytes()
+}
+
 fn hostile_toml(random: &mut Random, seeds: &[String]) -> Vec<u8> {
     let seed = &seeds[random.below(seeds.len())];
     let other = &seeds[random.below(seeds.len())];
@@ -297,13 +311,22 @@ impl Arsenal {
 
     /// The folder of a finished sweep, one of its files damaged, missing or another one.
     fn put_folder(&self, random: &mut Random, place: &Place) {
-        let bad = random.below(self.folder.len());
+        let cases = || {
+            let names = self.folder.iter().enumerate();
+            names.filter(|(_, (name, _))| name.contains("/cases/"))
+        };
+        let bad = match cases().nth(random.below(2 * cases().count())) {
+            Some((case, _)) => case,
+            None => random.below(self.folder.len()),
+        };
         for (k, (name, bytes)) in self.folder.iter().enumerate() {
             let path = place.folder().join(name);
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
             let other = &self.folder[random.below(self.folder.len())].1;
+            let is_case = name.contains("/cases/");
             let written = match random.below(6) {
                 _ if k != bad => bytes.clone(),
+                _ if is_case && random.below(2) == 0 => hostile_case(random, bytes),
                 0 => continue,
                 1 => other.clone(),
                 2 => Vec::new(),

@@ -804,6 +804,12 @@ fn another_surface_under_the_same_name_is_another_sweep() {
         .unwrap_err()
         .to_string();
     assert!(refused.contains("have changed"), "{refused}");
+    // Whatever the order of the keys, and relative to the sweep's file.
+    let beside = [&set, &varied].map(|text| text.replace(&map.display().to_string(), "map.csv"));
+    for text in [&set, &varied, &beside[0], &beside[1]] {
+        let scene = read(text).scene(1).unwrap().to_toml();
+        assert!(scene.contains(&map.display().to_string()), "{scene}");
+    }
 }
 
 #[test]

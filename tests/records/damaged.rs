@@ -92,7 +92,7 @@ fn flipped(bytes: &[u8], bit: usize) -> Vec<u8> {
 /// What repeats the run, whatever else is broken.
 fn same_run(one: &Recorded, other: &Recorded) -> bool {
     let neutral = |run: &Recorded| Recorded {
-        unreadable: 0,
+        damage: None,
         ..run.clone()
     };
     neutral(one) == neutral(other)
@@ -103,7 +103,7 @@ fn a_bit_that_was_flipped_changes_nothing_or_is_told() {
     let attack = Attack::new();
     let (bytes, whole) = attack.recording(true);
     assert_eq!((whole.last_step, whole.turns.len()), (STEPS, 3));
-    assert_eq!((&whole.broken_off, whole.unreadable), (&None, 0));
+    assert_eq!((&whole.broken_off, &whole.damage), (&None, &None));
     // All bits of the beginning, then all over the file.
     let head = 0..8 * 200;
     let stride = (8 * bytes.len() / 2000).max(1) | 1;
@@ -132,7 +132,10 @@ fn a_closed_recording_that_was_cut_is_no_killed_run() {
     for length in (0..bytes.len()).step_by(397) {
         match attack.read(&bytes[..length]) {
             // What follows the last word on the run repeats nothing.
-            Ok(run) => assert!(same_run(&run, &whole), "{length} bytes"),
+            Ok(run) => {
+                assert!(same_run(&run, &whole), "{length} bytes");
+                assert!(run.damage.is_some(), "{length} bytes");
+            }
             Err(error) => {
                 assert!(!error.reason.is_empty());
                 refused += 1;
@@ -224,6 +227,7 @@ fn the_program_repeats_exactly_or_says_what_it_found() {
     let bits = (0..40).map(|k| flipped(&bytes, 8 * bytes.len() / 40 * k + 3));
     let cuts = (1..8).map(|k| cut(bytes.len() * k / 8));
     for damaged in bits.chain(cuts) {
+        let length = damaged.len();
         std::fs::write(place.join("bad.rrd"), damaged).unwrap();
         let again = asperity(place, &repeat);
         let told = String::from_utf8_lossy(&again.stderr);
@@ -234,6 +238,7 @@ fn the_program_repeats_exactly_or_says_what_it_found() {
             assert!(told.contains("bad.rrd"), "{told}");
         } else {
             assert_eq!(Some(code), done.status.code(), "{told}");
+            assert!(length == bytes.len() || told.contains("damaged"), "{told}");
             assert!(std::fs::read(place.join("again.csv")).unwrap() == table);
         }
     }

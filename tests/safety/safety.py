@@ -1,14 +1,15 @@
 """What becomes of a recording when things go wrong, with the release binary and the real reader.
 
     python3 -m venv venv && venv/bin/pip install rerun-sdk==0.36.3 numpy
-    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|live|memory|cost|table|footer ...]
+    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|live|memory|memory129|cost|table|footer ...]
 
 kill    twenty runs ended by SIGKILL at random moments: every file opens and holds all but the last second
 disk    a full disk (a small tmpfs where that may be mounted) and a folder that may not be written: a clear
         message, exit code 4, no panic, what was written before can be read
 live    a real viewer (without a screen) that is closed or freezes in mid-run: the run goes on and tells what was
         skipped
-memory  twenty thousand steps, recorded and not: resident memory after the first tenth and at the end
+memory  twenty thousand steps of 65 nodes, recorded and not: resident memory after the first tenth and at the end
+memory129  the same with the nodes of the presets (five to ten minutes each)
 cost    the default scene with and without a recording in turns; ratio of the steps per second
 table   recorded h_min and life against the CSV of the same run, to rounding
 footer  a run that is stopped and let go on a hundred times: the viewer's own tool finds nothing wrong with its file
@@ -110,10 +111,12 @@ def disk(program, folder):
     check(done.returncode == 4 and "panick" not in done.stderr, "unwritable: " + done.stderr.strip()[:160])
 
 
-def memory(program, folder):
+def memory(program, folder, nodes=65):
+    # A passage takes as many steps as the grid has cells.
+    length = ["--set", f"grid.nodes={nodes}", "--passages", str(-(-20_000 // (nodes - 1)))]
     for name, record in (("recorded", ["--set", "record.budget_mb=30", "--out", folder / "long.rrd"]), ("not recorded", ["--no-record"])):
         table = folder / f"{name}.csv"
-        command = [program, "run", *SMALL, *record, "--passages", "313", "--table", table]
+        command = [program, "run", *SMALL, *length, *record, "--table", table]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
         seen = []
         while process.poll() is None:
@@ -131,9 +134,13 @@ def memory(program, folder):
         early = next(rss for steps, rss in seen if steps >= 0.1 * total)
         growth = last / early - 1
         what = f"{early:.1f} MB after a tenth, {last:.1f} MB before the last of {total} steps: {100 * growth:+.1f} %"
-        check(abs(growth) < 0.03, f"memory, {name}: {what}")
+        check(abs(growth) < 0.03, f"memory, {nodes} nodes, {name}: {what}")
         bound = max(rss for steps, rss in seen if steps == total) - last
-        check(bound < 64, f"memory, {name}, at the end: {bound:+.1f} MB")
+        check(bound < 64, f"memory, {nodes} nodes, {name}, at the end: {bound:+.1f} MB")
+
+
+def memory129(program, folder):
+    memory(program, folder, 129)
 
 
 def live(program, folder):
@@ -226,8 +233,8 @@ def footer(program, folder):
 
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
-    parts = {"kill": kill, "disk": disk, "live": live, "memory": memory, "cost": cost, "table": table, "footer": footer}
-    for name in sys.argv[2:] or parts:
+    parts = {"kill": kill, "disk": disk, "live": live, "memory": memory, "memory129": memory129, "cost": cost, "table": table, "footer": footer}
+    for name in sys.argv[2:] or [name for name in parts if name != "memory129"]:
         with tempfile.TemporaryDirectory() as folder:
             parts[name](program, pathlib.Path(folder))
     sys.exit(1 if failures else 0)

@@ -28,6 +28,8 @@ const LZ4: u64 = 2;
 /// Where the messages end.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Ends {
+    /// As its recorder closed it, with the index that follows the last message.
+    Closed,
     /// With the file, after a whole message.
     WithTheFile,
     /// Before it.
@@ -55,7 +57,7 @@ pub(super) fn read(
     let mut message = Vec::new();
     while at < bytes {
         match next(&mut file, bytes - at, &mut message) {
-            Ok(None) => break,
+            Ok(None) => return Ok((Ends::Closed, unreadable)),
             Ok(Some(kind)) => {
                 at += MESSAGE_HEAD + message.len() as u64;
                 if kind == DATA && data_of(&message, &mut take).is_none() {
@@ -83,10 +85,10 @@ fn next(file: &mut impl Read, left: u64, message: &mut Vec<u8>) -> Result<Option
     if kind > LAST_KIND {
         return Err(format!("a message of unknown kind {kind}"));
     }
-    if kind == END {
+    let there = left - MESSAGE_HEAD;
+    if kind == END && length <= there {
         return Ok(None);
     }
-    let there = left - MESSAGE_HEAD;
     if length > there.min(LONGEST) {
         return Err(format!("a message of {length} bytes where {there} follow"));
     }
@@ -217,6 +219,10 @@ mod tests {
             assert_eq!(data.len(), 1);
             assert!(matches!(ends, Ends::Early { .. }), "{ends:?}");
         }
+        let end = |length| message(END, length, b"index");
+        let closed = |length| found(&file(&[good.clone(), end(length)])).1;
+        assert_eq!(closed(5), Ends::Closed);
+        assert!(matches!(closed(6), Ends::Early { .. }));
         // What cannot be that long, or is not, is not asked for.
         for length in [1_u64 << 62, 1 << 20, 5] {
             let forged = compressed(text, length);

@@ -36,8 +36,8 @@ pub struct Recorded {
     pub last_step: u64,
     /// Where and why the file breaks off, in words; `None`: its recorder closed it.
     pub broken_off: Option<String>,
-    /// Messages that cannot be read; nothing that repeats the run is in them.
-    pub unreadable: u64,
+    /// What of a closed file cannot be read, in words; nothing that repeats the run was in it.
+    pub damage: Option<String>,
 }
 
 /// A recording that cannot be repeated.
@@ -116,15 +116,17 @@ impl Found {
 
     /// The run, or why it cannot be repeated.
     fn judge(mut self, ends: &Ends, bytes: u64, unreadable: u64) -> Result<Recorded, String> {
-        let damage = match ends {
-            Ends::Early { at, reason } => {
-                format!("; it can be read up to byte {at} of {bytes} ({reason})")
-            }
-            Ends::WithTheFile if unreadable > 0 => {
-                format!("; {unreadable} of its messages cannot be read")
-            }
-            Ends::WithTheFile => String::new(),
+        let unread = match ends {
+            Ends::Early { at, reason } => Some(format!(
+                "it can be read up to byte {at} of {bytes} ({reason})"
+            )),
+            _ if unreadable > 0 => Some(format!("{unreadable} of its messages cannot be read")),
+            Ends::WithTheFile => Some("its end is missing".to_owned()),
+            Ends::Closed => None,
         };
+        let damage = unread
+            .as_ref()
+            .map_or_else(String::new, |words| format!("; {words}"));
         let Some((program, began, scene_toml)) = self.origin else {
             return Err(format!(
                 "holds nothing that repeats a run: not recorded by this version of asperity, or damaged{damage}"
@@ -156,7 +158,7 @@ impl Found {
             turns: by_hand.map(|turn| turn.2).collect(),
             last_step,
             broken_off: (!ended).then(|| format!("breaks off after step {last_step}{damage}")),
-            unreadable,
+            damage: unread.filter(|_| ended),
         })
     }
 }

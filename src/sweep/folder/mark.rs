@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::super::error::SweepError;
 use super::Existing;
-use crate::files::{BUILD, identity};
+use crate::files::{BUILD, identity, open_plain, read_up_to};
 
 /// Beginning of the mark: the format of the folder and its files.
 const FORMAT: &str = "asperity sweep 2 ";
@@ -28,6 +28,15 @@ const NAMES: [&str; 8] = [
     "path.csv",
 ];
 
+/// Longest text of a folder, bytes: a case has some kilobytes.
+const LONGEST: u64 = 1 << 20;
+
+/// What one of a folder's texts says; `None`: there is none, or what has its name is no text (a pipe, a device).
+pub(super) fn text(path: &Path) -> Option<String> {
+    let bytes = read_up_to(path, LONGEST).ok()?;
+    String::from_utf8(bytes).ok()
+}
+
 /// What the folder of a sweep is marked with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Mark {
@@ -46,7 +55,7 @@ impl Mark {
 
     /// The mark of a folder; `None`: no sweep has marked it.
     pub(super) fn read(root: &Path) -> Option<Self> {
-        let text = std::fs::read_to_string(root.join(MARK)).ok()?;
+        let text = text(&root.join(MARK))?;
         let (digest, build) = text.trim().strip_prefix(FORMAT)?.split_once(' ')?;
         Some(Self {
             digest: digest.to_owned(),
@@ -177,6 +186,10 @@ impl Company {
     /// Enters a folder: to begin in it nobody else may be there. Where the system knows no locks everybody is alone.
     pub(super) fn enter(root: &Path, existing: Existing) -> Result<Self, SweepError> {
         let path = root.join(LOCK);
+        if path.exists() {
+            // A pipe would wait for somebody.
+            open_plain(&path).map_err(|error| SweepError::folder(&path, error))?;
+        }
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
         let file = options
