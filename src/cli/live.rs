@@ -48,7 +48,7 @@ pub(crate) fn spawn() -> Result<SocketAddr, Failure> {
     command.args(["--port", &port.to_string(), "--bind", "127.0.0.1"]);
     command.args(["--memory-limit", VIEWER_MEMORY, "--hide-welcome-screen"]);
     leave_alone(&mut command);
-    let mut words = Words::new();
+    let mut words = ViewerOutput::new();
     if let Some(file) = words.as_ref().and_then(|words| words.file.try_clone().ok()) {
         command.stderr(file);
     }
@@ -61,12 +61,12 @@ pub(crate) fn spawn() -> Result<SocketAddr, Failure> {
 }
 
 /// What a viewer says, in a file: it outlives the run, and must never find its way out closed.
-struct Words {
+struct ViewerOutput {
     file: File,
     path: PathBuf,
 }
 
-impl Words {
+impl ViewerOutput {
     /// Nothing where there is no room for it: a viewer without words is better than none.
     fn new() -> Option<Self> {
         let name = format!("asperity-viewer-{}.log", std::process::id());
@@ -99,7 +99,7 @@ impl Words {
     }
 }
 
-impl Drop for Words {
+impl Drop for ViewerOutput {
     fn drop(&mut self) {
         // Where a file that is in use cannot be removed it is left to the system's own tidying.
         drop(std::fs::remove_file(&self.path));
@@ -127,12 +127,12 @@ fn leave_alone(_command: &mut Command) {}
 fn wait_for(
     child: &mut Child,
     address: SocketAddr,
-    words: Option<&mut Words>,
+    words: Option<&mut ViewerOutput>,
 ) -> Result<(), Failure> {
     let until = Instant::now() + START;
     while TcpStream::connect_timeout(&address, LOOK).is_err() {
         if let Ok(Some(status)) = child.try_wait() {
-            let said = words.map(Words::read).unwrap_or_default();
+            let said = words.map(ViewerOutput::read).unwrap_or_default();
             let said = if said.is_empty() {
                 said
             } else {

@@ -18,7 +18,7 @@ use super::failure::Failure;
 use super::scenes::print;
 
 /// What a study leaves: files by name, the report first.
-struct Report {
+struct StudyFiles {
     files: Vec<(String, String)>,
     passes: bool,
 }
@@ -58,7 +58,7 @@ fn refuse_what_is_not_read(args: &StudyArgs) -> Result<(), Failure> {
     Err(Failure::input(miette::miette!("{refused}")))
 }
 
-fn accurate(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+fn accurate(args: &StudyArgs, bar: &Bar) -> Result<StudyFiles, StudyError> {
     let result = accuracy(extent(args), args.threads(), &mut |name, n, all| {
         bar.tell(name, n, all);
     })?;
@@ -73,19 +73,19 @@ fn accurate(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
     ] {
         files.push((name.to_owned(), plot.map_err(StudyError::Plot)?));
     }
-    Ok(Report {
+    Ok(StudyFiles {
         files,
         passes: result.passes(),
     })
 }
 
-fn stable(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+fn stable(args: &StudyArgs, bar: &Bar) -> Result<StudyFiles, StudyError> {
     let only = args.only.as_deref();
     let result = stability(extent(args), only, args.threads(), &mut |name, n, all| {
         bar.tell(name, n, all);
     })?;
     let text = stability_text(&result);
-    Ok(Report {
+    Ok(StudyFiles {
         files: vec![
             ("stability.md".to_owned(), headed("Stability", args, &text)),
             ("stability.csv".to_owned(), stability_table(&result).csv()),
@@ -94,19 +94,19 @@ fn stable(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
     })
 }
 
-fn scales(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+fn scales(args: &StudyArgs, bar: &Bar) -> Result<StudyFiles, StudyError> {
     let only = args.only.as_deref();
     let rows = scaling(extent(args), only, &mut |name, n, all| {
         bar.tell(name, n, all);
     })?;
     let text = headed("Scaling", args, &scaling_text(&rows));
-    Ok(Report {
+    Ok(StudyFiles {
         files: vec![("scaling.md".to_owned(), text)],
         passes: rows.iter().all(|row| row.failed == 0),
     })
 }
 
-fn shows(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
+fn shows(args: &StudyArgs, bar: &Bar) -> Result<StudyFiles, StudyError> {
     let only = args.only.as_deref();
     let result = evidence(extent(args), only, args.threads(), &mut |name, n, all| {
         bar.tell(name, n, all);
@@ -121,7 +121,7 @@ fn shows(args: &StudyArgs, bar: &Bar) -> Result<Report, StudyError> {
         ),
     ];
     files.extend(experiments_plot(&result).map_err(StudyError::Plot)?);
-    Ok(Report {
+    Ok(StudyFiles {
         files,
         passes: result.passes(),
     })

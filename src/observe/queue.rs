@@ -49,7 +49,7 @@ enum Message {
 }
 
 #[derive(Default)]
-struct State {
+struct QueueState {
     waiting: VecDeque<Message>,
     /// The observer's thread has nothing more to do and takes no more.
     closed: bool,
@@ -65,22 +65,22 @@ struct State {
 }
 
 #[derive(Default)]
-struct Shared {
-    state: Mutex<State>,
+struct QueueShared {
+    state: Mutex<QueueState>,
     filled: Condvar,
     emptied: Condvar,
 }
 
-impl Shared {
+impl QueueShared {
     /// The state stays consistent between statements, so a panic elsewhere does not spoil it.
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, QueueState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 /// Runs an observer on its own thread behind a bounded queue.
 pub struct Queue {
-    shared: Arc<Shared>,
+    shared: Arc<QueueShared>,
     thread: Option<JoinHandle<()>>,
     name: String,
     capacity: usize,
@@ -100,7 +100,7 @@ impl Queue {
         when_full: WhenFull,
         mut observer: Box<dyn Observer>,
     ) -> Result<Self, ObserveError> {
-        let shared = Arc::new(Shared::default());
+        let shared = Arc::new(QueueShared::default());
         let capacity = capacity.max(1);
         let mut state = shared.lock();
         state.waiting.reserve(capacity + 1);
@@ -301,7 +301,7 @@ impl Drop for Queue {
 }
 
 /// The observer's thread: works off messages until it finishes, fails or panics.
-fn serve(shared: &Shared, observer: &mut dyn Observer, name: &str) {
+fn serve(shared: &QueueShared, observer: &mut dyn Observer, name: &str) {
     let mut patience = Some(IDLE);
     loop {
         let message = next(shared, &mut patience);
@@ -333,7 +333,7 @@ fn serve(shared: &Shared, observer: &mut dyn Observer, name: &str) {
 
 /// The next message, or `None` when none has come for so long. A pause is told once: then there is no patience
 /// to lose until the next message.
-fn next(shared: &Shared, patience: &mut Option<Duration>) -> Option<Message> {
+fn next(shared: &QueueShared, patience: &mut Option<Duration>) -> Option<Message> {
     let began = Instant::now();
     let mut state = shared.lock();
     loop {
@@ -363,7 +363,7 @@ fn next(shared: &Shared, patience: &mut Option<Duration>) -> Option<Message> {
 }
 
 fn deliver(
-    shared: &Shared,
+    shared: &QueueShared,
     observer: &mut dyn Observer,
     message: Message,
 ) -> Result<(), ObserveError> {

@@ -44,13 +44,13 @@ impl First {
 
 /// Knobs that ranges follow, each the greatest that was seen or is on its way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Turned {
+struct TurnedKnobs {
     load: f64,
     speed_m_s: f64,
     amplitude_m: [f64; 2],
 }
 
-impl Turned {
+impl TurnedKnobs {
     fn of(m: &Metrics) -> Self {
         Self {
             load: m.load_n.max(m.load_target_n),
@@ -73,7 +73,7 @@ impl Turned {
 #[derive(Debug, Clone)]
 pub(crate) struct Scope {
     first: First,
-    turned: Turned,
+    turned: TurnedKnobs,
     /// What can come by the script and by what was turned so far.
     pub(crate) to_come: ToCome,
     /// The ranges that hold now.
@@ -83,7 +83,7 @@ pub(crate) struct Scope {
 impl Scope {
     /// Of a run with that first frame.
     pub(crate) fn of(scene: Option<&Scene>, first: &Frame) -> Self {
-        let (first, turned) = (First::of(first), Turned::of(&first.metrics));
+        let (first, turned) = (First::of(first), TurnedKnobs::of(&first.metrics));
         let to_come = ToCome::of(scene, &first, turned);
         Self {
             ranges: Ranges::of(&first, &to_come),
@@ -95,7 +95,7 @@ impl Scope {
 
     /// Takes the knobs of a frame: whether the ranges have grown by them.
     pub(crate) fn grows(&mut self, scene: Option<&Scene>, m: &Metrics) -> bool {
-        let turned = self.turned.with(Turned::of(m));
+        let turned = self.turned.with(TurnedKnobs::of(m));
         if turned == self.turned {
             return false;
         }
@@ -131,7 +131,7 @@ pub(crate) struct ToCome {
 
 impl ToCome {
     /// From the scene's script, where the scene is known, the first frame and what was turned since.
-    fn of(scene: Option<&Scene>, first: &First, turned: Turned) -> Self {
+    fn of(scene: Option<&Scene>, first: &First, turned: TurnedKnobs) -> Self {
         let m = &first.metrics;
         let greatest = |knobs: &[Knob], now: f64| {
             let set = scene.into_iter().flat_map(|scene| &scene.events);

@@ -66,7 +66,7 @@ impl HertzShape {
 }
 
 /// The part that does not depend on the load.
-struct Shape {
+struct UnitLoadShape {
     /// Long over short half-width.
     kappa: f64,
     integrals: elliptic::Complete,
@@ -74,7 +74,7 @@ struct Shape {
     curvature_sum_per_m: f64,
 }
 
-impl Shape {
+impl UnitLoadShape {
     fn new(rx_m: f64, ry_m: f64) -> Self {
         let ratio = (rx_m / ry_m).max(ry_m / rx_m);
         let mismatch = |ln_kappa: f64| {
@@ -118,7 +118,7 @@ impl Hertz {
     ///
     /// All arguments must be positive; every field is NaN otherwise.
     pub fn from_force(rx_m: f64, ry_m: f64, e_prime_pa: f64, force_n: f64) -> Self {
-        let shape = Shape::new(rx_m, ry_m);
+        let shape = UnitLoadShape::new(rx_m, ry_m);
         // p_h from w = (2π/3) κ s² p_h, put into the size equation.
         let short_m = (6.0 * force_n * shape.integrals.e
             / (PI * shape.kappa * e_prime_pa * shape.curvature_sum_per_m))
@@ -130,7 +130,7 @@ impl Hertz {
     ///
     /// All arguments must be positive; every field is NaN otherwise.
     pub fn from_pressure(rx_m: f64, ry_m: f64, e_prime_pa: f64, p_max_pa: f64) -> (Self, f64) {
-        let shape = Shape::new(rx_m, ry_m);
+        let shape = UnitLoadShape::new(rx_m, ry_m);
         let short_m = 4.0 * p_max_pa * shape.integrals.e / (e_prime_pa * shape.curvature_sum_per_m);
         let hertz = Self {
             p_max_pa,

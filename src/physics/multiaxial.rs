@@ -25,9 +25,9 @@ const WALK: usize = 64;
 const PLANES: usize = 36;
 
 /// Deviator in an orthonormal basis: lengths are those of √(s:s).
-type Five = [f64; 5];
+type Deviator = [f64; 5];
 
-fn deviator(s: Stress6) -> Five {
+fn deviator(s: Stress6) -> Deviator {
     let m = s.mean();
     let root = std::f64::consts::SQRT_2;
     [
@@ -39,7 +39,7 @@ fn deviator(s: Stress6) -> Five {
     ]
 }
 
-fn from_deviator([a, b, c, d, e]: Five) -> Stress6 {
+fn from_deviator([a, b, c, d, e]: Deviator) -> Stress6 {
     let root = std::f64::consts::SQRT_2;
     let xx = a / 1.5_f64.sqrt();
     Stress6 {
@@ -52,12 +52,12 @@ fn from_deviator([a, b, c, d, e]: Five) -> Stress6 {
     }
 }
 
-fn distance_2(a: &Five, b: &Five) -> f64 {
+fn distance_2(a: &Deviator, b: &Deviator) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
 /// The state farthest from `centre`, the zero state among them.
-fn farthest(history: impl Iterator<Item = Stress6>, centre: &Five) -> Five {
+fn farthest(history: impl Iterator<Item = Stress6>, centre: &Deviator) -> Deviator {
     let (mut best, mut far) = ([0.0; 5], distance_2(&[0.0; 5], centre));
     for state in history {
         let s = deviator(state);
@@ -73,7 +73,7 @@ fn farthest(history: impl Iterator<Item = Stress6>, centre: &Five) -> Five {
 pub fn dang_van(history: impl Iterator<Item = Stress6> + Clone, alpha: f64) -> f64 {
     let a = farthest(history.clone(), &[0.0; 5]);
     let b = farthest(history.clone(), &a);
-    let mut centre: Five = [0, 1, 2, 3, 4].map(|i: usize| 0.5 * (a[i] + b[i]));
+    let mut centre: Deviator = [0, 1, 2, 3, 4].map(|i: usize| 0.5 * (a[i] + b[i]));
     for step in 0..WALK {
         let far = farthest(history.clone(), &centre);
         let part = 1.0 / (step as f64 + 3.0);

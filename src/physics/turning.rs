@@ -12,11 +12,11 @@ pub struct Turning {
     gate: f64,
     /// Extreme since the last reversal, and the direction that led to it.
     candidate: f64,
-    heading: Heading,
+    heading: Trend,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-enum Heading {
+enum Trend {
     /// No value yet.
     Empty,
     /// One level so far.
@@ -44,7 +44,7 @@ impl Turning {
         Self {
             gate: gate.max(0.0),
             candidate: 0.0,
-            heading: Heading::Empty,
+            heading: Trend::Empty,
         }
     }
 
@@ -55,7 +55,7 @@ impl Turning {
 
     /// Starts a new history.
     pub fn reset(&mut self) {
-        self.heading = Heading::Empty;
+        self.heading = Trend::Empty;
     }
 
     /// Next value.
@@ -63,42 +63,42 @@ impl Turning {
         let before = self.candidate;
         let comes_back = (value - before).abs() >= self.gate;
         match self.heading {
-            Heading::Empty => {
+            Trend::Empty => {
                 self.candidate = value;
-                self.heading = Heading::Level;
+                self.heading = Trend::Level;
                 return Turn::First;
             }
-            Heading::Level if comes_back && value != before => {
+            Trend::Level if comes_back && value != before => {
                 self.candidate = value;
                 self.heading = if value > before {
-                    Heading::Up
+                    Trend::Up
                 } else {
-                    Heading::Down
+                    Trend::Down
                 };
             }
-            Heading::Up if value >= before => self.candidate = value,
-            Heading::Down if value <= before => self.candidate = value,
-            Heading::Up if comes_back => {
-                (self.candidate, self.heading) = (value, Heading::Down);
+            Trend::Up if value >= before => self.candidate = value,
+            Trend::Down if value <= before => self.candidate = value,
+            Trend::Up if comes_back => {
+                (self.candidate, self.heading) = (value, Trend::Down);
                 return Turn::Peak(before);
             }
-            Heading::Down if comes_back => {
-                (self.candidate, self.heading) = (value, Heading::Up);
+            Trend::Down if comes_back => {
+                (self.candidate, self.heading) = (value, Trend::Up);
                 return Turn::Trough(before);
             }
-            Heading::Level | Heading::Up | Heading::Down => {}
+            Trend::Level | Trend::Up | Trend::Down => {}
         }
         Turn::None
     }
 
     /// Extreme since the last reversal; `None` while the history is level.
     pub fn extreme(&self) -> Option<f64> {
-        matches!(self.heading, Heading::Up | Heading::Down).then_some(self.candidate)
+        matches!(self.heading, Trend::Up | Trend::Down).then_some(self.candidate)
     }
 
     /// Whether `value`, the last one, is the greatest since the last trough.
     fn is_summit(&self, value: f64) -> bool {
-        self.heading == Heading::Up && self.candidate == value
+        self.heading == Trend::Up && self.candidate == value
     }
 }
 

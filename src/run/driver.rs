@@ -23,7 +23,7 @@ const FRAMES: usize = 6;
 
 /// Whether the loop steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Pace {
+enum LoopState {
     Running,
     Paused,
     /// Paused, after one more step.
@@ -55,7 +55,7 @@ pub(super) struct Driver {
     pool: FramePool,
     /// Of live runs: one period, once the passage repeats.
     gather: Option<Gather>,
-    pace: Pace,
+    pace: LoopState,
     applied: Vec<AppliedCommand>,
     unconverged: Vec<Unconverged>,
     n_unconverged: u64,
@@ -89,7 +89,7 @@ impl Driver {
             shared,
             pool: FramePool::new(FRAMES, &Frame::default()),
             gather: (ending == Ending::OnStop).then(Gather::default),
-            pace: Pace::Running,
+            pace: LoopState::Running,
             applied: Vec::new(),
             unconverged: Vec::new(),
             n_unconverged: 0,
@@ -220,8 +220,8 @@ impl Driver {
                 return End::Stalled(error);
             }
             self.made += 1;
-            if self.pace == Pace::OneStep {
-                self.pace = Pace::Paused;
+            if self.pace == LoopState::OneStep {
+                self.pace = LoopState::Paused;
             }
             self.judge_step(sim);
             self.hand_out(sim);
@@ -259,7 +259,7 @@ impl Driver {
     /// Takes all commands that wait; while paused, waits for them.
     fn obey<S: Stepper>(&mut self, sim: &mut S) -> Option<End> {
         loop {
-            let command = if self.pace == Pace::Paused {
+            let command = if self.pace == LoopState::Paused {
                 // All senders gone while paused: nobody can ever go on.
                 self.inbox.recv().unwrap_or(Command::Stop)
             } else {
@@ -275,15 +275,15 @@ impl Driver {
                 }
                 Command::Pause => {
                     self.pace = match self.pace {
-                        Pace::Running => Pace::Paused,
-                        Pace::Paused | Pace::OneStep => Pace::Running,
+                        LoopState::Running => LoopState::Paused,
+                        LoopState::Paused | LoopState::OneStep => LoopState::Running,
                     };
                     self.log(sim, command, SetBy::Hand);
                 }
                 Command::StepOnce => {
                     // Without a pause there is nothing to single-step; the next step comes anyway.
-                    if self.pace == Pace::Paused {
-                        self.pace = Pace::OneStep;
+                    if self.pace == LoopState::Paused {
+                        self.pace = LoopState::OneStep;
                         self.log(sim, command, SetBy::Hand);
                         return None;
                     }

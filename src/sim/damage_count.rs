@@ -33,14 +33,14 @@ const SLOW: f64 = 0.5;
 /// Both bodies under way.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct DamageCount {
-    bodies: [Body; 2],
+    bodies: [BodyCount; 2],
     /// Way of the faster body since the last restart, a.
     fastest: f64,
     is_known: bool,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
-struct Body {
+struct BodyCount {
     columns: Columns,
     way: f64,
     /// n by depth.
@@ -61,7 +61,7 @@ impl DamageCount {
         waves: [Option<f64>; 2],
     ) -> Self {
         let wanted = waves.iter().flatten().fold(LEAST_WAY, |a, b| a.max(*b));
-        let body = |own: Option<f64>| Body {
+        let body = |own: Option<f64>| BodyCount {
             columns: Columns::new((grid.x_min, grid.dx), grid.nx, depths, laws),
             way: 0.0,
             cycles: vec![1.0; depths],
@@ -120,7 +120,7 @@ impl DamageCount {
     /// does, and of those that creep none is waited for.
     pub(super) fn covers(&self, period: f64) -> f64 {
         let mean = 0.5 * (self.bodies[0].way + self.bodies[1].way);
-        let part = |body: &Body| {
+        let part = |body: &BodyCount| {
             let speed = body.way / mean.max(f64::MIN_POSITIVE);
             let wanted = period * speed * ((speed / SLOW).min(1.0)).powi(2);
             let creeps = speed < 0.5 * SLOW;

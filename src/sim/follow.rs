@@ -63,13 +63,13 @@ impl Simulation {
             .fold(0.0, f64::max);
         // How far the surfaces must be led depends on how long settling takes, and the other way round: two
         // rounds find a length that serves.
-        let mut plan = Settling::new(walk, dt);
+        let mut plan = SettlingSteps::new(walk, dt);
         let mut over = 0.0;
         for _ in 0..2 {
             let lead = self.lead_after(&plan, goal);
             let longest = lead.into_iter().map(f64::abs).fold(0.0, f64::max);
             over = (longest / LEAD).max(LEAD_WAY);
-            plan = Settling::new(walk.max(over), dt);
+            plan = SettlingSteps::new(walk.max(over), dt);
         }
         let lead = self.lead_after(&plan, goal);
         self.state.motion.lead(lead, over);
@@ -85,7 +85,7 @@ impl Simulation {
     }
 
     /// What both surfaces lack of their places after settling.
-    fn lead_after(&self, plan: &Settling, goal: [f64; 2]) -> [f64; 2] {
+    fn lead_after(&self, plan: &SettlingSteps, goal: [f64; 2]) -> [f64; 2] {
         let half = ways(
             &self.state.drive,
             self.state.motion.travelled,
@@ -129,13 +129,13 @@ impl Simulation {
 }
 
 /// Steps of settling.
-struct Settling {
+struct SettlingSteps {
     coarse: u64,
     fine: u64,
     dt: f64,
 }
 
-impl Settling {
+impl SettlingSteps {
     /// After a walk of so much.
     fn new(walk: f64, dt: f64) -> Self {
         Self {

@@ -33,13 +33,13 @@ const MOST_CRESTS: u32 = 4096;
 
 /// Fields of one step, single precision.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-struct Sample {
+struct OrbitStep {
     way: f64,
     pressure: Vec<f32>,
     film: Vec<f32>,
 }
 
-impl Sample {
+impl OrbitStep {
     fn of(len: usize) -> Self {
         Self {
             way: 0.0,
@@ -86,9 +86,9 @@ pub(super) struct Orbit {
     period: f64,
     /// Way from the reference to the comparison: a multiple of T.
     span: f64,
-    reference: Sample,
+    reference: OrbitStep,
     /// The last four steps, oldest first.
-    ring: [Sample; 4],
+    ring: [OrbitStep; 4],
     taken: u32,
     means: Means,
     before: Option<[f64; 4]>,
@@ -103,8 +103,8 @@ impl Orbit {
             rhythm: Rhythm::Steady,
             period: passage.min(1.0),
             span: 1.0,
-            reference: Sample::of(len),
-            ring: std::array::from_fn(|_| Sample::of(len)),
+            reference: OrbitStep::of(len),
+            ring: std::array::from_fn(|_| OrbitStep::of(len)),
             taken: 0,
             means: Means::default(),
             before: None,
@@ -200,7 +200,7 @@ impl Orbit {
 
     fn compare(&self, target: f64) -> f64 {
         let weights = lagrange(self.ring.each_ref().map(|s| s.way), target);
-        let at = |n: usize, of: fn(&Sample) -> &[f32]| -> f64 {
+        let at = |n: usize, of: fn(&OrbitStep) -> &[f32]| -> f64 {
             let terms = self.ring.iter().zip(weights);
             terms.map(|(s, w)| w * f64::from(of(s)[n])).sum()
         };

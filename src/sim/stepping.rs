@@ -67,11 +67,11 @@ pub(super) struct Attempted {
     /// Simulated time, s.
     pub(super) dt_s: f64,
     /// Why nothing was kept.
-    failure: Option<Failure>,
+    failure: Option<StepFailure>,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Failure {
+enum StepFailure {
     NotFinite,
     /// Where it is worst, and what was asked.
     Hopeless {
@@ -98,8 +98,8 @@ impl Attempted {
     /// The error, when nothing was kept.
     pub(super) fn fatal(&self, t_s: f64) -> Option<StepError> {
         Some(match self.failure? {
-            Failure::NotFinite => StepError::NotFinite { t_s },
-            Failure::Hopeless { x_m, y_m, asked } => StepError::Stalled {
+            StepFailure::NotFinite => StepError::NotFinite { t_s },
+            StepFailure::Hopeless { x_m, y_m, asked } => StepError::Stalled {
                 t_s,
                 unsolved: Unsolved {
                     residual: self.residual,
@@ -278,7 +278,7 @@ impl Mover<'_> {
         done.take(&report);
         if report.verdict == Verdict::NotFinite {
             done.keep(&report);
-            done.failure = Some(Failure::NotFinite);
+            done.failure = Some(StepFailure::NotFinite);
         } else if report.verdict != Verdict::Converged && report.film_error > HOPELESS {
             done.keep(&report);
             let (x_m, y_m) = self.place_of(report.worst_node);
@@ -289,7 +289,7 @@ impl Mover<'_> {
                 dry: flow == Flow::Dry,
                 ..Unsolved::default()
             };
-            done.failure = Some(Failure::Hopeless { x_m, y_m, asked });
+            done.failure = Some(StepFailure::Hopeless { x_m, y_m, asked });
         } else {
             self.commit(nodes, &report, done);
         }

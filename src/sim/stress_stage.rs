@@ -9,12 +9,12 @@ use crate::solve::stress::{
 };
 
 /// What computes: a volume below a point contact, a plane below a line.
-enum Engine {
+enum StressBackend {
     Volume(Box<StressEngine>),
     Line(Box<LineStress>),
 }
 
-impl Engine {
+impl StressBackend {
     fn spec(&self) -> &StressSpec {
         match self {
             Self::Volume(engine) => engine.spec(),
@@ -46,10 +46,10 @@ impl Engine {
 
 /// Engine, its single-precision inputs and the last slices.
 pub(super) struct StressStage {
-    engine: Engine,
+    engine: StressBackend,
     pressure: Vec<f32>,
     traction: Vec<f32>,
-    shear: Shear,
+    shear: TractionActs,
     /// The slice of the last step in body 1.
     pub(super) slice: SliceOut,
     /// What life looks at besides; `None` where no life is asked for.
@@ -58,7 +58,7 @@ pub(super) struct StressStage {
 
 /// Whether a traction acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Shear {
+enum TractionActs {
     None,
     AlongX,
 }
@@ -90,7 +90,7 @@ impl StressStage {
             spec.nu_2 = poisson[1];
             (spec.x_first, spec.measure) = (grid.x_min, measure);
             spec.purpose = purpose;
-            StressEngine::new(&spec).map(|engine| Engine::Volume(Box::new(engine)))
+            StressEngine::new(&spec).map(|engine| StressBackend::Volume(Box::new(engine)))
         };
         let engine = match grid.symmetry {
             Symmetry::MirrorY => volume(Rows::MirrorY)?,
@@ -98,7 +98,7 @@ impl StressStage {
             Symmetry::Line => {
                 let place = (grid.x_min, grid.dx);
                 let engine = LineStress::new(grid.nx, place, poisson, depths, measure);
-                Engine::Line(Box::new(engine))
+                StressBackend::Line(Box::new(engine))
             }
         };
         let slice = SliceOut::new(engine.spec());
@@ -106,7 +106,7 @@ impl StressStage {
             engine,
             pressure: vec![0.0; grid.len()],
             traction: vec![0.0; grid.len()],
-            shear: Shear::None,
+            shear: TractionActs::None,
             companions: (purpose == Purpose::Volumes).then(|| Companions {
                 mate: slice.clone(),
                 criterion: slice.clone(),
@@ -136,11 +136,11 @@ impl StressStage {
         narrow(p, &mut self.pressure);
         narrow(q, &mut self.traction);
         self.shear = if friction == 0.0 {
-            Shear::None
+            TractionActs::None
         } else {
-            Shear::AlongX
+            TractionActs::AlongX
         };
-        let traction = (self.shear == Shear::AlongX).then_some(&self.traction[..]);
+        let traction = (self.shear == TractionActs::AlongX).then_some(&self.traction[..]);
         self.engine.load(&self.pressure, traction);
         self.engine
             .slice_of(Loading::Full(BodyId::One), &mut self.slice);
@@ -169,12 +169,13 @@ impl StressStage {
         let spec = self.engine.spec();
         let alike = spec.nu == spec.nu_2;
         match (loading, self.shear) {
-            (Loading::Normal(BodyId::Two), _) | (Loading::Full(BodyId::Two), Shear::None)
+            (Loading::Normal(BodyId::Two), _)
+            | (Loading::Full(BodyId::Two), TractionActs::None)
                 if alike =>
             {
                 Some(Loading::Normal(BodyId::One))
             }
-            (Loading::Full(body), Shear::None) => Some(Loading::Normal(body)),
+            (Loading::Full(body), TractionActs::None) => Some(Loading::Normal(body)),
             _ => None,
         }
     }
@@ -182,16 +183,16 @@ impl StressStage {
     /// Stress of body 1 in a plane under the surface loaded last; `None` below a line, where y does not matter.
     pub(super) fn plane(&self, cut: Cut) -> Option<Plane> {
         match &self.engine {
-            Engine::Volume(engine) => Some(engine.plane(Loading::Full(BodyId::One), cut)),
-            Engine::Line(_) => None,
+            StressBackend::Volume(engine) => Some(engine.plane(Loading::Full(BodyId::One), cut)),
+            StressBackend::Line(_) => None,
         }
     }
 
     /// Volume pass under the surface loaded last, both bodies.
     pub(super) fn volume(&mut self, laws: &[StressLaw]) {
         match &mut self.engine {
-            Engine::Volume(engine) => engine.volume_under(laws, &BodyId::BOTH),
-            Engine::Line(engine) => engine.volume_under(laws, &BodyId::BOTH),
+            StressBackend::Volume(engine) => engine.volume_under(laws, &BodyId::BOTH),
+            StressBackend::Line(engine) => engine.volume_under(laws, &BodyId::BOTH),
         };
     }
 

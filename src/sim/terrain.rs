@@ -18,15 +18,15 @@ use crate::scene::Surface;
 
 /// One plane wave of a surface.
 #[derive(Debug, Clone, Copy)]
-struct Plane {
+struct PlaneWave {
     a: f64,
     b: f64,
 }
 
 /// One body's waves on the grid.
 #[derive(Debug, Clone)]
-struct Waves {
-    planes: [Plane; 2],
+struct GriddedWaves {
+    planes: [PlaneWave; 2],
     phase: f64,
     /// cos, sin over x and over y for each plane.
     along: [Vec<(f64, f64)>; 2],
@@ -35,7 +35,7 @@ struct Waves {
 
 /// One body's height map on the grid.
 #[derive(Debug, Clone)]
-struct Drawn {
+struct GriddedMap {
     map: Arc<HeightMap>,
     /// The map at the grid's rows, shape ny × pixels along x.
     rows: Vec<f32>,
@@ -50,8 +50,8 @@ struct Drawn {
 /// What a body carries.
 #[derive(Debug, Clone)]
 enum Relief {
-    Waves(Waves),
-    Map(Drawn),
+    Waves(GriddedWaves),
+    Map(GriddedMap),
 }
 
 /// Both surfaces.
@@ -134,7 +134,9 @@ impl Relief {
     fn new(grid: &Grid, surface: &Surface, a_m: f64, heading: Heading) -> Option<Self> {
         match surface {
             Surface::Smooth {} => None,
-            Surface::Sinusoid { .. } => Waves::new(grid, surface, a_m, heading).map(Self::Waves),
+            Surface::Sinusoid { .. } => {
+                GriddedWaves::new(grid, surface, a_m, heading).map(Self::Waves)
+            }
             Surface::HeightMap {
                 pixel_m,
                 start_x_m,
@@ -144,13 +146,13 @@ impl Relief {
                 let start = start_x_m.map(|x_m| heading.sign() * x_m / a_m);
                 // Columns that run the other way are a pixel of the opposite sign.
                 let pixels = [heading.sign() * pixel_m / a_m, pixel_m / a_m];
-                Self::Map(Drawn::new(grid, map, pixels, start))
+                Self::Map(GriddedMap::new(grid, map, pixels, start))
             }),
         }
     }
 }
 
-impl Drawn {
+impl GriddedMap {
     /// Of the map's length, rad/a; 0: it comes once.
     fn wavenumber(&self) -> f64 {
         match self.map.beyond() {
@@ -218,7 +220,7 @@ impl Drawn {
     }
 }
 
-impl Waves {
+impl GriddedWaves {
     fn new(grid: &Grid, surface: &Surface, a_m: f64, heading: Heading) -> Option<Self> {
         use std::f64::consts::TAU;
         let Surface::Sinusoid {
@@ -236,7 +238,7 @@ impl Waves {
         let exact = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
         let (sin, cos) = angle_deg.to_radians().sin_cos();
         let (sin, cos) = (exact(sin), exact(cos));
-        let plane = |sign: f64| Plane {
+        let plane = |sign: f64| PlaneWave {
             a: heading.sign() * (kx * cos - sign * ky * sin),
             b: kx * sin + sign * ky * cos,
         };

@@ -74,7 +74,7 @@ pub struct Dry {
 
 /// Sums over the contact set.
 #[derive(Default)]
-struct Sums {
+struct ContactSums {
     area: f64,
     gap: f64,
 }
@@ -266,9 +266,9 @@ impl Dry {
     fn level(&self, problem: &DryProblem, counts: impl Fn(usize, bool) -> bool) -> Option<f64> {
         let grid = problem.grid;
         let columns = self.columns(grid);
-        let mut sums = Sums::default();
+        let mut sums = ContactSums::default();
         for j in self.rows(grid) {
-            let mut row = Sums::default();
+            let mut row = ContactSums::default();
             for n in columns.clone().map(|i| j * grid.nx + i) {
                 if counts(n, self.in_contact[n]) {
                     row.area += 1.0;

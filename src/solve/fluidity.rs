@@ -34,14 +34,14 @@ use crate::physics::eyring;
 use crate::physics::fluid::{ShearedFlow, Viscosity};
 
 /// g of all nodes in one direction, its logarithm and the logarithm's derivatives by P and H.
-struct Values {
+struct Fluidities {
     g: Vec<f64>,
     ln_g: Vec<f64>,
     ln_g_p: Vec<f64>,
     ln_g_h: Vec<f64>,
 }
 
-impl Values {
+impl Fluidities {
     fn new(n: usize) -> Self {
         let zero = vec![0.0; n];
         Self {
@@ -53,13 +53,13 @@ impl Values {
     }
 
     /// The values in blocks of `block` nodes.
-    fn blocks(&mut self, block: usize) -> impl IndexedParallelIterator<Item = Rows<'_>> {
+    fn blocks(&mut self, block: usize) -> impl IndexedParallelIterator<Item = FluidityRun<'_>> {
         self.g
             .par_chunks_mut(block)
             .zip(self.ln_g.par_chunks_mut(block))
             .zip(self.ln_g_p.par_chunks_mut(block))
             .zip(self.ln_g_h.par_chunks_mut(block))
-            .map(|(((g, ln_g), ln_g_p), ln_g_h)| Rows {
+            .map(|(((g, ln_g), ln_g_p), ln_g_h)| FluidityRun {
                 g,
                 ln_g,
                 ln_g_p,
@@ -68,8 +68,8 @@ impl Values {
     }
 }
 
-/// A run of nodes of [`Values`].
-struct Rows<'a> {
+/// A run of nodes of [`Fluidities`].
+struct FluidityRun<'a> {
     g: &'a mut [f64],
     ln_g: &'a mut [f64],
     ln_g_p: &'a mut [f64],
@@ -88,9 +88,9 @@ pub(super) enum Way {
 /// Fluidities of the current iterate.
 pub(super) struct Fluidity {
     /// Along x; of oil that flows alike in both directions both.
-    along: Values,
+    along: Fluidities,
     /// Along y, where it differs; no room before it is asked for.
-    across: Option<Values>,
+    across: Option<Fluidities>,
     /// Whether `across` is meant.
     is_directed: bool,
     /// What the flow along the sliding needs where the pressure is steep; no room before it is asked for.
@@ -101,7 +101,7 @@ impl Fluidity {
     /// Room for `n` nodes.
     pub(super) fn new(n: usize) -> Self {
         Self {
-            along: Values::new(n),
+            along: Fluidities::new(n),
             across: None,
             is_directed: false,
             steep: Steep::default(),
@@ -125,7 +125,7 @@ impl Fluidity {
         let two = directed.is_some() && grid.symmetry != Symmetry::Line;
         // Made with the first evaluation, sliding or not: a knob that starts the sliding finds it.
         if two && self.across.is_none() {
-            self.across = Some(Values::new(grid.len()));
+            self.across = Some(Fluidities::new(grid.len()));
         }
         if directed.is_some() {
             self.steep.make_room(grid.len());
@@ -154,7 +154,7 @@ impl Fluidity {
         }
     }
 
-    fn of(&self, way: Way) -> &Values {
+    fn of(&self, way: Way) -> &Fluidities {
         match (way, &self.across) {
             (Way::Across, Some(across)) if self.is_directed => across,
             _ => &self.along,
@@ -168,7 +168,7 @@ impl Fluidity {
         q: &'a [f64],
         range: std::ops::Range<usize>,
     ) -> Nodes<'a> {
-        let Values { g, ln_g, .. } = self.of(way);
+        let Fluidities { g, ln_g, .. } = self.of(way);
         Nodes {
             q: &q[range.clone()],
             g: &g[range.clone()],
@@ -195,7 +195,7 @@ impl Fluidity {
         (q_p, q_h): (&'a [f64], &'a [f64]),
         range: std::ops::Range<usize>,
     ) -> Slopes<'a> {
-        let Values { ln_g_p, ln_g_h, .. } = self.of(way);
+        let Fluidities { ln_g_p, ln_g_h, .. } = self.of(way);
         Slopes {
             q_p: &q_p[range.clone()],
             q_h: &q_h[range.clone()],
@@ -223,7 +223,7 @@ fn viscosities(law: Viscosity, p: &[f64], ln_eta: &mut [f64], slope: &mut [f64])
 
 dispatched! {
 /// One fluidity for both directions: the secant of Eyring's law, or Newtonian.
-fn one_values(medium: &Medium, p: &[f64], h: &[f64], out: Rows) {
+fn one_values(medium: &Medium, p: &[f64], h: &[f64], out: FluidityRun) {
     let n = p.len();
     let (h, g, ln_g) = (&h[..n], &mut out.g[..n], &mut out.ln_g[..n]);
     let (ln_g_p, ln_g_h) = (&mut out.ln_g_p[..n], &mut out.ln_g_h[..n]);
@@ -278,7 +278,7 @@ fn shear(
 
 dispatched! {
 /// The fluidity along the sliding alone: of a line.
-fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: Rows, slid: Slid) {
+fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: FluidityRun, slid: Slid) {
     let n = p.len();
     let (h, g, ln_g) = (&h[..n], &mut out.g[..n], &mut out.ln_g[..n]);
     let (ln_g_p, ln_g_h) = (&mut out.ln_g_p[..n], &mut out.ln_g_h[..n]);
@@ -305,9 +305,9 @@ fn directed_values(
     limit: f64,
     p: &[f64],
     h: &[f64],
-    along: Rows,
+    along: FluidityRun,
     slid: Slid,
-    across: Rows,
+    across: FluidityRun,
 ) {
     let n = p.len();
     let (h, x, y) = (&h[..n], along, across);

@@ -74,7 +74,7 @@ impl Shares {
 
 /// One sample, or several merged.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Phase {
+struct MergedPhase {
     span: f64,
     shares: Shares,
 }
@@ -110,9 +110,9 @@ impl Window {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LifeMeter {
     window: Window,
-    phases: VecDeque<Phase>,
+    phases: VecDeque<MergedPhase>,
     /// Phases that are not in use.
-    spare: Vec<Phase>,
+    spare: Vec<MergedPhase>,
     capacity: usize,
     total: f64,
     samples: u32,
@@ -127,7 +127,7 @@ impl LifeMeter {
     /// Meter of `depths` depths over `window`, with memory for `capacity` samples (at least 16).
     pub fn new(depths: usize, window: Window, capacity: usize) -> Self {
         let capacity = capacity.max(16);
-        let empty = Phase {
+        let empty = MergedPhase {
             span: 0.0,
             shares: Shares::new(depths),
         };

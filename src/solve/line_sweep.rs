@@ -40,7 +40,7 @@ const NO_FACTOR: Factor = Factor {
 };
 
 /// Rows of one parity.
-struct Half {
+struct ParityRows {
     /// Rows.
     rows: usize,
     /// `[block][i]`
@@ -56,7 +56,7 @@ pub(super) struct LineSweep {
     nx: usize,
     /// Blocks of either half.
     blocks: usize,
-    halves: [Half; 2],
+    halves: [ParityRows; 2],
 }
 
 impl LineSweep {
@@ -66,7 +66,7 @@ impl LineSweep {
         // need one more.
         let rows = grid.interior_rows().end;
         let blocks = rows.div_ceil(2).div_ceil(LANES);
-        let half = |rows: usize| Half {
+        let half = |rows: usize| ParityRows {
             rows,
             factors: vec![NO_FACTOR; blocks * grid.nx],
             r: vec![ZERO; blocks * grid.nx],
@@ -169,7 +169,7 @@ fn deal(row: &[f32], lane: usize, out: &mut [Lane]) {
     }
 }
 
-impl Half {
+impl ParityRows {
     /// Fills the halo: the first block's rows below and the last block's rows above, one lane on. Row −1
     /// is row 0 of the odd half mirrored; where nothing is mirrored it belongs to the boundary, whose
     /// coefficients are zero.

@@ -54,7 +54,7 @@ use crate::physics::turning::{Peak, Peaks};
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
-struct Point {
+struct TrackedPoint {
     x: f64,
     crossing: Crossing,
     /// Place on the body, a: does not change during a crossing.
@@ -66,7 +66,7 @@ struct Point {
     effective: Vec<History>,
 }
 
-impl Point {
+impl TrackedPoint {
     /// Whether a point that was saved is of the same make as this one.
     fn fits(&self, saved: &Self) -> bool {
         let all = |own: &[History], saved: &[History]| {
@@ -105,7 +105,7 @@ pub struct Sample {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct MaterialTracker {
     spec: TrackerSpec,
-    points: Vec<Point>,
+    points: Vec<TrackedPoint>,
     crossings: u64,
     /// Damage of all ended crossings' shear by depth, each without its greatest cycle.
     ended: Vec<f64>,
@@ -128,7 +128,7 @@ impl MaterialTracker {
         let length = spec.x_last - spec.x_first;
         let count = spec.points.max(1);
         let below = |gate: f64, basis: DamageBasis| History::new(gate, basis, History::OPEN_BELOW);
-        let point = |i: usize| Point {
+        let point = |i: usize| TrackedPoint {
             x: spec.x_first + length * (GOLDEN * i as f64).fract(),
             crossing: Crossing::New,
             place: 0.0,
@@ -162,7 +162,7 @@ impl MaterialTracker {
     pub fn make_room(&mut self) {
         self.points
             .iter_mut()
-            .flat_map(Point::histories)
+            .flat_map(TrackedPoint::histories)
             .for_each(History::make_room);
         let room = self.spec.trace.max(1).saturating_sub(self.trace.len());
         self.trace.reserve_exact(room);

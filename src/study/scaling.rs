@@ -64,7 +64,7 @@ impl ScalingRow {
 }
 
 /// One case to run: its name, nodes, threads, steps and the keys that it sets.
-struct Case {
+struct ScalingCase {
     name: &'static str,
     nodes: usize,
     threads: usize,
@@ -72,7 +72,7 @@ struct Case {
     keys: &'static [&'static str],
 }
 
-impl Case {
+impl ScalingCase {
     fn title(&self) -> String {
         format!("{}² {}, {} threads", self.nodes, self.name, self.threads)
     }
@@ -95,7 +95,7 @@ const HALF_TOUCHES: &str = "U = 0.05 m/s, 56 % touch";
 /// Nodes of the largest grid.
 const LARGEST: usize = 513;
 
-fn cases(extent: Extent) -> Vec<Case> {
+fn cases(extent: Extent) -> Vec<ScalingCase> {
     let mut cases = Vec::new();
     let sizes: &[(usize, usize)] = match extent {
         Extent::Quick => &[(65, 32), (129, 32)],
@@ -103,7 +103,7 @@ fn cases(extent: Extent) -> Vec<Case> {
         Extent::Full => &[(65, 256), (129, 256), (257, 96), (LARGEST, 24)],
     };
     let mut push = |name, nodes, threads, steps, keys| {
-        cases.push(Case {
+        cases.push(ScalingCase {
             name,
             nodes,
             threads,
@@ -149,7 +149,7 @@ pub fn scaling(
     Ok(rows)
 }
 
-fn measure(case: &Case) -> Result<ScalingRow, String> {
+fn measure(case: &ScalingCase) -> Result<ScalingRow, String> {
     let bare = run(case, &["stress=none", "life=none"])?;
     let pair_s = bare.pair_s;
     let splits = case.keys == MIRRORED && case.threads == 1;
@@ -189,7 +189,7 @@ struct Timings {
     memory_bytes: u64,
 }
 
-fn run(case: &Case, more: &[&str]) -> Result<Timings, String> {
+fn run(case: &ScalingCase, more: &[&str]) -> Result<Timings, String> {
     let nodes = format!("grid.nodes={}", case.nodes);
     let common = ["record=none", "time.passages=4", &nodes];
     let overrides = common

@@ -128,14 +128,14 @@ impl Background {
         let done = Arc::new(AtomicUsize::new(0));
         let (sender, found) = channel();
         let (up, down) = values.into_iter().partition(|value| *value >= near);
-        let shared = Arc::new(Work {
+        let shared = Arc::new(SharedWork {
             along,
             scene,
             ground,
             sides: Mutex::new([up, down]),
         });
         for worker in 0..workers.max(1) {
-            let worker = Worker {
+            let worker = SweepWorker {
                 work: Arc::clone(&shared),
                 side: worker % 2,
                 stop: Arc::clone(&stop),
@@ -188,30 +188,30 @@ fn take_next(sides: &mut Sides, side: usize) -> Option<f64> {
 }
 
 /// What the workers share.
-struct Work {
+struct SharedWork {
     along: Along,
     scene: Scene,
     ground: Ground,
     sides: Mutex<Sides>,
 }
 
-struct Worker {
-    work: Arc<Work>,
+struct SweepWorker {
+    work: Arc<SharedWork>,
     side: usize,
     stop: Arc<AtomicBool>,
     done: Arc<AtomicUsize>,
     found: Sender<Found>,
 }
 
-struct Stop<'a>(&'a AtomicBool);
+struct StopFlag<'a>(&'a AtomicBool);
 
-impl Watch for Stop<'_> {
+impl Watch for StopFlag<'_> {
     fn step(&mut self, _done: f64) -> bool {
         !self.0.load(Ordering::Relaxed)
     }
 }
 
-impl Worker {
+impl SweepWorker {
     fn work(self) {
         let ground = &self.work.ground;
         let begin = || {
@@ -240,7 +240,7 @@ impl Worker {
 
     fn case(&self, before: Option<&(Scene, State)>, scene: &Scene, plan: &Plan) -> Ran {
         let until = case::Until::Settled(MOST);
-        let run = |before| case::after(before, 0, scene, plan, until, 1, &mut Stop(&self.stop));
+        let run = |before| case::after(before, 0, scene, plan, until, 1, &mut StopFlag(&self.stop));
         match run(before) {
             // A live run's grid need not be that of a scene with its knobs turned.
             Some((record, _)) if record.end == CaseEnd::Stalled && before.is_some() => run(None),

@@ -42,9 +42,9 @@ impl Against {
 }
 
 /// Goes on until told to stop.
-struct Until<'a>(&'a Progress);
+struct UntilStopped<'a>(&'a Progress);
 
-impl Watch for Until<'_> {
+impl Watch for UntilStopped<'_> {
     fn step(&mut self, _done: f64) -> bool {
         !self.0.stop.load(Ordering::Relaxed)
     }
@@ -91,7 +91,7 @@ pub fn against_cold(
                         return;
                     };
                     let cold = (None, case::Until::Passages);
-                    let ran = case::run(index, scene, plan, cold, 1, &mut Until(progress));
+                    let ran = case::run(index, scene, plan, cold, 1, &mut UntilStopped(progress));
                     let Some((record, _)) = ran else { return };
                     let all = done.lock();
                     let mut all = all.unwrap_or_else(std::sync::PoisonError::into_inner);

@@ -30,7 +30,9 @@ fn written(csv: &str) -> Result<Vec<u8>, ParquetError> {
         .records()
         .collect::<Result<_, _>>()
         .map_err(refused)?;
-    let columns: Vec<Column> = (0..names.len()).map(|k| Column::of(&rows, k)).collect();
+    let columns: Vec<TableColumn> = (0..names.len())
+        .map(|k| TableColumn::of(&rows, k))
+        .collect();
     let fields: Vec<String> = names
         .iter()
         .zip(&columns)
@@ -49,11 +51,11 @@ fn written(csv: &str) -> Result<Vec<u8>, ParquetError> {
             break;
         };
         match column {
-            Column::Numbers(values, levels) => {
+            TableColumn::Numbers(values, levels) => {
                 to.typed::<DoubleType>()
                     .write_batch(&values, Some(&levels), None)?;
             }
-            Column::Words(words) => {
+            TableColumn::Words(words) => {
                 to.typed::<ByteArrayType>()
                     .write_batch(&words, None, None)?;
             }
@@ -65,13 +67,13 @@ fn written(csv: &str) -> Result<Vec<u8>, ParquetError> {
 }
 
 /// One column.
-enum Column {
+enum TableColumn {
     /// Values that are there, and for every row whether it has one.
     Numbers(Vec<f64>, Vec<i16>),
     Words(Vec<ByteArray>),
 }
 
-impl Column {
+impl TableColumn {
     fn of(rows: &[csv::StringRecord], k: usize) -> Self {
         let cells = || rows.iter().map(|row| row.get(k).unwrap_or(""));
         let (mut values, mut levels) = (Vec::new(), Vec::new());

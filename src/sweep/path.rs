@@ -57,7 +57,7 @@ pub(super) struct Path {
 }
 
 /// A point under way: where it is, and what the scene gets.
-struct Stop {
+struct PathStop {
     values: Vec<(&'static str, f64)>,
     keys: Vec<(&'static str, f64)>,
 }
@@ -103,7 +103,7 @@ pub(super) fn read(kind: &str, table: &Table, scene: &Scene) -> Result<Path, Sce
 
 const RPM: f64 = PI / 30.0;
 
-fn gear(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
+fn gear(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
     keys.known(&[
         "teeth",
         "module_m",
@@ -138,7 +138,7 @@ fn gear(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
             let mesh = pair.at(&line, place);
             // S of the pitch point is 0, not what rounding leaves of it.
             let s = mesh.slide_roll();
-            Stop {
+            PathStop {
                 values: vec![
                     ("path_m", place - line.a),
                     ("rho_1_m", mesh.radii_m[0]),
@@ -225,7 +225,7 @@ fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
     })
 }
 
-fn race(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
+fn race(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
     keys.known(&[
         "ball_diameter_m",
         "pitch_diameter_m",
@@ -258,7 +258,7 @@ fn race(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
     Ok((0..n)
         .map(|k| {
             let angle = zone * (2.0 * k as f64 / (n - 1) as f64 - 1.0);
-            Stop {
+            PathStop {
                 values: vec![("path_deg", angle)],
                 keys: vec![
                     ("contact.rx_m", rx),
@@ -271,7 +271,7 @@ fn race(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
         .collect())
 }
 
-fn cam(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
+fn cam(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
     keys.known(&[
         "base_radius_m",
         "lift_m",
@@ -318,7 +318,7 @@ fn cam(keys: &Keys) -> Result<Vec<Stop>, SceneError> {
 
 /// The contact at `angle` (radians from the nose); refused where the cam does not touch or the surfaces move against
 /// each other.
-fn cam_stop(cam: &FlatFollower, angle: f64) -> Result<Stop, SceneError> {
+fn cam_stop(cam: &FlatFollower, angle: f64) -> Result<PathStop, SceneError> {
     let at = cam.at(angle);
     if at.radius_m <= 0.0 || at.load_n_per_m <= 0.0 {
         return Err(SceneError::value(
@@ -347,7 +347,7 @@ fn cam_stop(cam: &FlatFollower, angle: f64) -> Result<Stop, SceneError> {
             ),
         ));
     }
-    Ok(Stop {
+    Ok(PathStop {
         values: vec![
             ("path_deg", angle.to_degrees()),
             ("lift_m", at.lift_m),

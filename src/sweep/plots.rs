@@ -53,20 +53,20 @@ fn keep(
 }
 
 /// The axis along which curves run: column, label, scale.
-struct Along {
+struct CurveAxis {
     column: String,
     label: String,
     scale: Scale,
     short: String,
 }
 
-fn along(sweep: &Sweep) -> Option<Along> {
+fn along(sweep: &Sweep) -> Option<CurveAxis> {
     if let Some(column) = super::path::columns(&sweep.path).next() {
         let label = match column {
             "path_m" => "way along the line of action from A, m",
             _ => "angle, degrees",
         };
-        return Some(Along {
+        return Some(CurveAxis {
             column: column.to_owned(),
             label: label.to_owned(),
             scale: Scale::Linear,
@@ -75,7 +75,7 @@ fn along(sweep: &Sweep) -> Option<Along> {
     }
     let axis = sweep.axes.last()?;
     let numbers = axis.numbers().filter(|list| list.len() > 1)?;
-    Some(Along {
+    Some(CurveAxis {
         column: axis.key.clone(),
         label: axis.label(),
         scale: scale_of(&numbers),
@@ -97,11 +97,11 @@ fn scale_of(values: &[f64]) -> Scale {
 /// What the upright axis shows.
 type Upright<'a> = (&'a str, Scale);
 /// A curve's name, its column, what it is made of.
-type Drawn<'a> = (&'a str, &'a str, Mark);
+type PlottedCurve<'a> = (&'a str, &'a str, Mark);
 
 /// Pictures along the last axis, the first four of any sweep, all of a path: name, upright axis, curves.
 #[rustfmt::skip]
-const PICTURES: [(&str, Upright, &[Drawn]); 7] = {
+const PICTURES: [(&str, Upright, &[PlottedCurve]); 7] = {
     use Mark::{Computed, Formula};
     use Scale::{Linear, Log};
     [
@@ -164,9 +164,9 @@ fn lines(sweep: &Sweep) -> Vec<(String, Vec<usize>)> {
 fn figure(
     sweep: &Sweep,
     rows: &Rows,
-    along: &Along,
+    along: &CurveAxis,
     lines: &[(String, Vec<usize>)],
-    ((label, scale), columns): (Upright, &[Drawn]),
+    ((label, scale), columns): (Upright, &[PlottedCurve]),
 ) -> Figure {
     let mut curves = Vec::new();
     let xs = rows.column(sweep, &along.column).unwrap_or_default();
@@ -221,18 +221,18 @@ fn against_lambda(
         return Vec::new();
     }
     let xs = rows.column(sweep, "lambda_ratio").unwrap_or_default();
-    let lambda = Along {
+    let lambda = CurveAxis {
         column: "lambda_ratio".to_owned(),
         label: "lambda: smooth film by formula over composite roughness".to_owned(),
         scale: scale_of(&xs),
         short: String::new(),
     };
-    let friction: Drawn = ("", "friction_coefficient", Mark::Computed);
-    let lives: [Drawn; 2] = [
+    let friction: PlottedCurve = ("", "friction_coefficient", Mark::Computed);
+    let lives: [PlottedCurve; 2] = [
         ("by damage", "life_damage", Mark::Computed),
         ("the paper's count", "life_global", Mark::Computed),
     ];
-    let draw = |name: &str, y: Upright, columns: &[Drawn]| {
+    let draw = |name: &str, y: Upright, columns: &[PlottedCurve]| {
         let mut figure = figure(sweep, rows, &lambda, lines, (y, columns));
         for curve in &mut figure.curves {
             curve.points.retain(|(x, y)| x.is_finite() && y.is_finite());

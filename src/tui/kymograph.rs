@@ -14,7 +14,7 @@ pub(crate) const SHOWN: f64 = 0.5;
 const ROWS: usize = 512;
 
 #[derive(Debug, Clone)]
-struct Row {
+struct KymographRow {
     passages: f64,
     pressure: Vec<f32>,
     film: Vec<f32>,
@@ -23,7 +23,7 @@ struct Row {
 /// Rows of a run, the newest last.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Kymograph {
-    rows: VecDeque<Row>,
+    rows: VecDeque<KymographRow>,
 }
 
 /// Which field.
@@ -55,14 +55,14 @@ impl Kymograph {
         if self.rows.len() == ROWS {
             self.rows.pop_front();
         }
-        self.rows.push_back(Row {
+        self.rows.push_back(KymographRow {
             passages: frame.passages,
             pressure,
             film,
         });
     }
 
-    fn row(&self, passages: f64) -> Option<&Row> {
+    fn row(&self, passages: f64) -> Option<&KymographRow> {
         let after = self.rows.partition_point(|row| row.passages <= passages);
         self.rows.get(after.checked_sub(1)?)
     }

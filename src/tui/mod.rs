@@ -57,7 +57,7 @@ const LEAST_WAIT: Duration = Duration::from_millis(5);
 
 /// Whether the loop goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Flow {
+enum LoopControl {
     Go,
     Stop,
 }
@@ -149,7 +149,7 @@ impl Show<'_> {
                 match input.events.recv_timeout(wait) {
                     Ok(event) => {
                         self.app.tick(start.elapsed());
-                        if self.take_event(&event)? == Flow::Stop {
+                        if self.take_event(&event)? == LoopControl::Stop {
                             return Ok(());
                         }
                     }
@@ -213,7 +213,7 @@ impl Show<'_> {
         self.carry_out(effects).map(|_| ())
     }
 
-    fn take_event(&mut self, event: &Event) -> io::Result<Flow> {
+    fn take_event(&mut self, event: &Event) -> io::Result<LoopControl> {
         if let Event::Resize(..) = event {
             self.canvas.forget();
         }
@@ -230,11 +230,11 @@ impl Show<'_> {
                 let effects = self.app.apply(action);
                 self.carry_out(effects)
             }
-            None => Ok(Flow::Go),
+            None => Ok(LoopControl::Go),
         }
     }
 
-    fn carry_out(&mut self, effects: Vec<Effect>) -> io::Result<Flow> {
+    fn carry_out(&mut self, effects: Vec<Effect>) -> io::Result<LoopControl> {
         for effect in effects {
             match effect {
                 // A run that has ended hears nothing; its last frame can still be looked at.
@@ -255,10 +255,10 @@ impl Show<'_> {
                     self.canvas.forget();
                     self.stage.suspend()?;
                 }
-                Effect::Quit => return Ok(Flow::Stop),
+                Effect::Quit => return Ok(LoopControl::Stop),
             }
         }
-        Ok(Flow::Go)
+        Ok(LoopControl::Go)
     }
 
     /// Another scene: another run behind the same screen.

@@ -119,9 +119,10 @@ impl Drawing<'_> {
     }
 }
 
-type Drawn<'a> = Result<(), DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>>;
+type DrawingResult<'a> =
+    Result<(), DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>>;
 
-fn draw_map<'a>(area: &Area<'a>, map: &Map) -> Drawn<'a> {
+fn draw_map<'a>(area: &Area<'a>, map: &Map) -> DrawingResult<'a> {
     let mut chart = ChartBuilder::on(area)
         .margin_top(ABOVE)
         .margin_left(EDGE)
@@ -205,7 +206,7 @@ impl Map {
 }
 
 /// The colour bar with its unit.
-fn draw_bar<'a>(area: &Area<'a>, map: &Map, tall: u32) -> Drawn<'a> {
+fn draw_bar<'a>(area: &Area<'a>, map: &Map, tall: u32) -> DrawingResult<'a> {
     let (left, wide) = (18, 24);
     let (top, bottom) = (ABOVE as i32, (ABOVE + tall) as i32);
     let (low, span) = (map.low(), map.top - map.low());
@@ -233,7 +234,7 @@ fn draw_bar<'a>(area: &Area<'a>, map: &Map, tall: u32) -> Drawn<'a> {
     area.draw(&Text::new(map.bar.clone(), (left - 8, top - 28), title))
 }
 
-fn draw_figure<'a>(area: &Area<'a>, figure: &Figure) -> Drawn<'a> {
+fn draw_figure<'a>(area: &Area<'a>, figure: &Figure) -> DrawingResult<'a> {
     let x = figure.x[0]..figure.x[1];
     let mut chart = ChartBuilder::on(area)
         .margin_top(ABOVE)

@@ -88,7 +88,7 @@ struct Strand {
 }
 
 /// What makes rows alike.
-type Kind = (StoreId, EntityPath, Vec<ComponentIdentifier>);
+type RowKind = (StoreId, EntityPath, Vec<ComponentIdentifier>);
 
 struct Binder {
     encoder: Encoder<BufWriter<File>>,
@@ -96,7 +96,7 @@ struct Binder {
     store: Option<StoreId>,
     /// In the order of their first rows, so that files are made alike.
     strands: Vec<Strand>,
-    places: HashMap<Kind, usize>,
+    places: HashMap<RowKind, usize>,
     /// How far the recording goes, as it was told last.
     reach: Option<LogMsg>,
 }

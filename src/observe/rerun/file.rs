@@ -22,9 +22,9 @@ use crate::observe::placed::Placed;
 
 /// A recording's file, shared by the library's thread, which writes, and the recorder, which asks.
 #[derive(Clone)]
-pub(super) struct RecordingFile(Arc<Mutex<State>>);
+pub(super) struct RecordingFile(Arc<Mutex<FileState>>);
 
-struct State {
+struct FileState {
     /// `None` once the file is closed or has failed.
     encoder: Option<Encoder<File>>,
     /// The same file, for its length.
@@ -38,7 +38,7 @@ struct State {
     placed: Placed,
 }
 
-impl State {
+impl FileState {
     fn write(&mut self, message: &LogMsg) {
         let Some(encoder) = &mut self.encoder else {
             return;
@@ -103,7 +103,7 @@ impl RecordingFile {
             .map_err(|error| error.to_string())?;
         // An index of 5.6 kB a message, kept in memory until the end: it is made when the file is bound.
         encoder.do_not_emit_footer();
-        let mut state = State {
+        let mut state = FileState {
             encoder: Some(encoder),
             file: for_length,
             bytes: 0,
@@ -116,7 +116,7 @@ impl RecordingFile {
     }
 
     /// The state stays whole between statements, so a panic elsewhere does not spoil it.
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, FileState> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

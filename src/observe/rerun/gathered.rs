@@ -26,7 +26,7 @@ pub(super) struct Added {
 
 /// Values, and where each row ends.
 #[derive(Debug)]
-struct Column<T> {
+struct GatheredColumn<T> {
     values: Vec<T>,
     ends: Vec<usize>,
     /// What was taken last: its memory is used again once nobody else holds it. New memory costs as much as
@@ -34,7 +34,7 @@ struct Column<T> {
     taken: Option<Buffer>,
 }
 
-impl<T> Default for Column<T> {
+impl<T> Default for GatheredColumn<T> {
     fn default() -> Self {
         Self {
             values: Vec::new(),
@@ -44,7 +44,7 @@ impl<T> Default for Column<T> {
     }
 }
 
-impl<T: ArrowNativeType> Column<T> {
+impl<T: ArrowNativeType> GatheredColumn<T> {
     /// The values to add a row to; `end_row` afterwards.
     fn values(&mut self) -> &mut Vec<T> {
         if let Some(mut values) = self.taken.take().and_then(|taken| taken.into_vec().ok()) {
@@ -68,12 +68,12 @@ impl<T: ArrowNativeType> Column<T> {
 
 /// What is gathered for one entity.
 #[derive(Debug)]
-struct Rows {
+struct GatheredRows {
     entity: EntityPath,
     moments: Vec<Moment>,
 }
 
-impl Rows {
+impl GatheredRows {
     fn of(entity: EntityPath) -> Self {
         Self {
             entity,
@@ -108,9 +108,9 @@ pub(super) fn chunk_of(
 /// Pictures of one entity: pixels of one or two bytes.
 #[derive(Debug)]
 pub(super) struct Images<T> {
-    rows: Rows,
+    rows: GatheredRows,
     buffer: ComponentDescriptor,
-    pixels: Column<T>,
+    pixels: GatheredColumn<T>,
     density: Density,
 }
 
@@ -118,9 +118,9 @@ impl<T: ArrowNativeType> Images<T> {
     /// Of an entity, in that component.
     pub(super) fn new(entity: EntityPath, buffer: ComponentDescriptor) -> Self {
         Self {
-            rows: Rows::of(entity),
+            rows: GatheredRows::of(entity),
             buffer,
-            pixels: Column::default(),
+            pixels: GatheredColumn::default(),
             density: Density::default(),
         }
     }
@@ -161,10 +161,10 @@ impl<T: ArrowNativeType> Images<T> {
 /// Updates of a mesh: colours, and positions where they change too.
 #[derive(Debug)]
 pub(super) struct Sheets {
-    rows: Rows,
+    rows: GatheredRows,
     /// x, y and z of each vertex; none for a mesh that stays where it is.
-    positions: Column<f32>,
-    colours: Column<u32>,
+    positions: GatheredColumn<f32>,
+    colours: GatheredColumn<u32>,
     densities: [Density; 2],
 }
 
@@ -172,9 +172,9 @@ impl Sheets {
     /// Of an entity.
     pub(super) fn new(entity: EntityPath) -> Self {
         Self {
-            rows: Rows::of(entity),
-            positions: Column::default(),
-            colours: Column::default(),
+            rows: GatheredRows::of(entity),
+            positions: GatheredColumn::default(),
+            colours: GatheredColumn::default(),
             densities: Default::default(),
         }
     }
@@ -227,7 +227,7 @@ impl Sheets {
 /// Curves of one entity in a plot.
 #[derive(Debug)]
 pub(super) struct Strips {
-    rows: Rows,
+    rows: GatheredRows,
     pen: Pen,
     /// Curves up to the end of each row.
     ends: Vec<usize>,
@@ -238,7 +238,7 @@ pub(super) struct Strips {
 #[derive(Debug)]
 pub(super) struct Pen {
     /// x and y of each point; a row for each curve.
-    points: Column<f32>,
+    points: GatheredColumn<f32>,
 }
 
 impl Pen {
@@ -268,9 +268,9 @@ impl Strips {
     /// Of an entity.
     pub(super) fn new(entity: EntityPath) -> Self {
         Self {
-            rows: Rows::of(entity),
+            rows: GatheredRows::of(entity),
             pen: Pen {
-                points: Column::default(),
+                points: GatheredColumn::default(),
             },
             ends: Vec::new(),
             density: Density::default(),

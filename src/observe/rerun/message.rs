@@ -112,9 +112,9 @@ fn data_of(message: &[u8], take: &mut impl FnMut(&[u8])) -> Option<()> {
     while !rest.is_empty() {
         let (field, after) = field(rest)?;
         match field {
-            Field::Number(2, value) => compression = value,
-            Field::Number(3, value) => length = value,
-            Field::Bytes(5, bytes) => payload = bytes,
+            WireField::Number(2, value) => compression = value,
+            WireField::Number(3, value) => length = value,
+            WireField::Bytes(5, bytes) => payload = bytes,
             _ => {}
         }
         rest = after;
@@ -132,25 +132,25 @@ fn data_of(message: &[u8], take: &mut impl FnMut(&[u8])) -> Option<()> {
 }
 
 /// A field of a protobuf message.
-enum Field<'a> {
+enum WireField<'a> {
     Number(u64, u64),
     Bytes(u64, &'a [u8]),
     Other,
 }
 
 /// The first field, and what follows it.
-fn field(bytes: &[u8]) -> Option<(Field<'_>, &[u8])> {
+fn field(bytes: &[u8]) -> Option<(WireField<'_>, &[u8])> {
     let (tag, rest) = varint(bytes)?;
     let number = tag >> 3;
     match tag & 7 {
-        0 => varint(rest).map(|(value, rest)| (Field::Number(number, value), rest)),
-        1 => Some((Field::Other, rest.get(8..)?)),
+        0 => varint(rest).map(|(value, rest)| (WireField::Number(number, value), rest)),
+        1 => Some((WireField::Other, rest.get(8..)?)),
         2 => {
             let (length, rest) = varint(rest)?;
             let (bytes, rest) = rest.split_at_checked(usize::try_from(length).ok()?)?;
-            Some((Field::Bytes(number, bytes), rest))
+            Some((WireField::Bytes(number, bytes), rest))
         }
-        5 => Some((Field::Other, rest.get(4..)?)),
+        5 => Some((WireField::Other, rest.get(4..)?)),
         _ => None,
     }
 }

@@ -27,9 +27,9 @@ fn entity(name: &str) -> EntityPath {
 
 /// Values under names; those that are not known are left out.
 #[derive(Default)]
-struct Values(AnyValues);
+struct NamedValues(AnyValues);
 
-impl Values {
+impl NamedValues {
     fn array(self, name: &'static str, array: ArrayRef) -> Self {
         Self(self.0.with_component_from_data(name, array))
     }
@@ -66,7 +66,7 @@ pub(super) fn log_scene(stream: &Stream, context: &RunContext) -> Result<(), Obs
         ContactKind::Point => "load_N",
         ContactKind::Line => "load_N_per_m",
     };
-    let values = Values::default()
+    let values = NamedValues::default()
         .text("title", title)
         .text("program", &context.program)
         .number("S", slide_roll)
@@ -98,7 +98,7 @@ impl Last {
 pub(super) fn log_result(stream: &Stream, last: &Last, clipped: u64) -> Result<(), ObserveError> {
     let m = &last.metrics;
     let life = m.life.as_ref();
-    let values = Values::default()
+    let values = NamedValues::default()
         .number("steps", last.step as f64)
         .number("S", m.slide_roll)
         .number("p_Hertz_GPa", last.p_hertz_pa * 1e-9)
@@ -123,7 +123,7 @@ pub(super) fn log_result(stream: &Stream, last: &Last, clipped: u64) -> Result<(
 /// When the file is no recording, or there is no room for the new one beside it; it is then as it was.
 pub fn note_summary(path: &Path, summary: &Summary) -> Result<(), ObserveError> {
     let s = summary;
-    let values = Values::default()
+    let values = NamedValues::default()
         .text("scene", &s.scene)
         .number("steps", s.steps as f64)
         .number("p_Hertz_GPa", s.p_hertz_pa * 1e-9)

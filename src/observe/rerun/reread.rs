@@ -64,7 +64,7 @@ impl Recorded {
         let unread = |error: std::io::Error| refused(format!("cannot be read: {error}"));
         let file = crate::files::open_plain(path).map_err(unread)?;
         let bytes = file.metadata().map_err(unread)?.len();
-        let mut found = Found::default();
+        let mut found = FileContents::default();
         let file = std::io::BufReader::new(file);
         let (ends, unreadable) = message::read(file, bytes, |data| {
             Note::all_in(data, |note| found.take_up(note));
@@ -76,7 +76,7 @@ impl Recorded {
 
 /// What is in the file.
 #[derive(Default)]
-struct Found {
+struct FileContents {
     origin: Option<(String, Began, String)>,
     /// By the number turned before it.
     turns: Vec<(u64, SetBy, RecordedTurn)>,
@@ -84,7 +84,7 @@ struct Found {
     reach: Option<(u64, u64, bool)>,
 }
 
-impl Found {
+impl FileContents {
     fn take_up(&mut self, note: Note) {
         match note {
             Note::Origin {

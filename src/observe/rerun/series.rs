@@ -23,7 +23,7 @@ type Coloured = &'static [(&'static Quantity, [u8; 3])];
 
 /// Lines that share an entity; none of them has a value while one is not known.
 #[derive(Clone, Copy)]
-enum Curves {
+enum CurveGroup {
     /// Quantities in their units.
     Linear(Coloured),
     /// Logarithms of errors.
@@ -39,10 +39,10 @@ enum Curves {
     ),
 }
 
-use Curves::{Errors, Linear, Logarithms, Made};
+use CurveGroup::{Errors, Linear, Logarithms, Made};
 
 #[rustfmt::skip]
-static GROUPS: [(&str, Curves); 27] = [
+static GROUPS: [(&str, CurveGroup); 27] = [
     ("series/pressure_GPa", Linear(&[(named("p_max_pa"), ORANGE), (named("p_hertz_pa"), GREY)])),
     ("series/film_um", Linear(&[(named("h_central_m"), SKY), (named("h_mean_m"), GREEN), (named("h_min_m"), BLUE)])),
     ("series/contact_percent", Linear(&[(named("contact_ratio"), SKY), (named("contact_load_ratio"), ORANGE)])),
@@ -109,7 +109,7 @@ fn yielded(frame: &Frame, out: &mut Vec<f64>) {
     out.extend(flowed.into_iter().flatten().map(|volume| volume * 1e18));
 }
 
-impl Curves {
+impl CurveGroup {
     /// Names and colours of the lines.
     fn lines(self, kind: ContactKind) -> Vec<(String, [u8; 3])> {
         let named = |of: Coloured, before: &str| {
@@ -192,7 +192,7 @@ fn line(code: CautionCode) -> Option<usize> {
 }
 
 /// The lines of a contact of that kind by their entities: a load is a force or a force per length.
-fn groups(kind: ContactKind) -> impl Iterator<Item = (String, Curves)> {
+fn groups(kind: ContactKind) -> impl Iterator<Item = (String, CurveGroup)> {
     let other = match kind {
         ContactKind::Point => "series/load_N_per_m",
         ContactKind::Line => "series/load_N",
@@ -200,7 +200,7 @@ fn groups(kind: ContactKind) -> impl Iterator<Item = (String, Curves)> {
     let groups = GROUPS.iter().filter(move |(entity, _)| *entity != other);
     let groups = groups.map(|(entity, curves)| ((*entity).to_owned(), *curves));
     groups.chain(
-        by_itself().map(move |quantity| (entity(quantity, kind), Curves::ByItself(quantity))),
+        by_itself().map(move |quantity| (entity(quantity, kind), CurveGroup::ByItself(quantity))),
     )
 }
 
@@ -234,15 +234,15 @@ const MOST_WAITING: usize = 1024;
 
 /// The series of a recording, with what waits to be sent.
 pub(super) struct Series {
-    columns: Vec<Column>,
+    columns: Vec<SeriesColumn>,
     waiting: usize,
     /// What all of them so far will take of the finished file, bytes.
     weight: f64,
 }
 
-struct Column {
+struct SeriesColumn {
     entity: EntityPath,
-    curves: Curves,
+    curves: CurveGroup,
     lines: usize,
     moments: Vec<Moment>,
     values: Vec<f64>,
@@ -254,7 +254,7 @@ impl Series {
         let mut columns = Vec::new();
         for (entity, curves) in groups(kind) {
             let lines = curves.lines(kind);
-            columns.push(Column {
+            columns.push(SeriesColumn {
                 entity: EntityPath::from(entity.as_str()),
                 curves,
                 lines: lines.len(),

@@ -54,7 +54,7 @@ pub(super) struct Space {
     levels: Levels,
     speeds: Option<[f64; 3]>,
     hung: hung::Hung,
-    sheets: Sheets,
+    sheets: SpaceSheets,
     pressure: Tints,
     stress: Tints,
     /// Scratch: heights and shades of a sheet.
@@ -63,13 +63,13 @@ pub(super) struct Space {
 }
 
 /// What changes with every picture.
-struct Sheets {
+struct SpaceSheets {
     film: Sheet,
     bodies: [Sheet; 2],
     slice: Sheet,
 }
 
-impl Sheets {
+impl SpaceSheets {
     fn new(stream: &Stream) -> Self {
         let sheet = |name: &str| stream.sheet(format!("{SPACE}/{name}"));
         Self {
@@ -132,7 +132,7 @@ impl Space {
             levels,
             speeds: None,
             hung: hung::Hung::new(stream),
-            sheets: Sheets::new(stream),
+            sheets: SpaceSheets::new(stream),
             pressure: Tints::new(pressure_colour),
             stress: Tints::of(Ramp::Magma),
             heights: Vec::new(),

@@ -32,8 +32,8 @@ pub(super) struct Trace {
     effective: Vec<[f32; 2]>,
     before: Vec<[f32; 2]>,
     /// Whether `before` has been logged.
-    shown: Shown,
-    peaks: Peaks,
+    shown: ShownCurve,
+    peaks: CrossingPeaks,
     curves: TraceCurves,
 }
 
@@ -61,14 +61,14 @@ impl TraceCurves {
 
 /// The peaks of this crossing that have passed.
 #[derive(Debug, Default)]
-struct Peaks {
+struct CrossingPeaks {
     at: Vec<[f32; 2]>,
     numbers: Vec<u32>,
     /// How many are in the recording as they are.
     logged: Option<usize>,
 }
 
-impl Peaks {
+impl CrossingPeaks {
     fn clear(&mut self) {
         self.at.clear();
         self.numbers.clear();
@@ -90,7 +90,7 @@ impl Peaks {
 
 /// What is known of a curve that stays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Shown {
+enum ShownCurve {
     NotYet,
     AsItIs,
 }
@@ -137,8 +137,8 @@ impl Trace {
             pressure: Vec::new(),
             effective: Vec::new(),
             before: Vec::new(),
-            shown: Shown::NotYet,
-            peaks: Peaks::default(),
+            shown: ShownCurve::NotYet,
+            peaks: CrossingPeaks::default(),
             curves: TraceCurves::new(stream)?,
         };
         this.reach(stream, pressure_top_pa)?;
@@ -157,7 +157,7 @@ impl Trace {
         for [_, y] in curves.into_iter().flatten().chain(&mut self.peaks.at) {
             *y *= share;
         }
-        (self.shown, self.peaks.logged) = (Shown::NotYet, None);
+        (self.shown, self.peaks.logged) = (ShownCurve::NotYet, None);
         let (top, lower) = (pressure_top_pa * GPA.1, self.plot.y[0]);
         self.plot.left_ticks = ticks_at(&divisions(top), |p| lower * p / top);
         let axes = format!("{TRACE}/axes");
@@ -177,7 +177,7 @@ impl Trace {
         let jumped = (point.x_m - self.last_x_m).abs() > frame.a_m;
         if point.body != self.body || jumped {
             self.before = std::mem::take(&mut self.pressure);
-            self.shown = Shown::NotYet;
+            self.shown = ShownCurve::NotYet;
             self.effective.clear();
             self.peaks.clear();
         }
@@ -218,9 +218,9 @@ impl Trace {
         let Some(point) = &frame.material_point else {
             return Ok(());
         };
-        if self.shown == Shown::NotYet {
+        if self.shown == ShownCurve::NotYet {
             stream.log_curves(self.curves.before, |pen| pen.draw(&self.before))?;
-            self.shown = Shown::AsItIs;
+            self.shown = ShownCurve::AsItIs;
         }
         stream.log_curves(self.curves.pressure, |pen| pen.draw(&self.pressure))?;
         stream.log_curves(self.curves.effective, |pen| pen.draw(&self.effective))?;

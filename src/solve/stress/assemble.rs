@@ -35,14 +35,14 @@ pub(super) enum Part {
 }
 
 /// One lane's complex number.
-type Z = (f32, f32);
+type ComplexLane = (f32, f32);
 
 /// d1, d2, xy, xz, yz of one lane.
-type Five = [Z; 5];
+type DeviatorLane = [ComplexLane; 5];
 
 /// 2ν and 1 − 2ν.
 #[derive(Clone, Copy)]
-struct Elastic {
+struct PoissonTerms {
     two_nu: f32,
     one_less_two_nu: f32,
 }
@@ -57,7 +57,7 @@ struct Mode {
 }
 
 #[inline(always)]
-fn normal(m: Mode, s: Elastic, (re, im): Z) -> Five {
+fn normal(m: Mode, s: PoissonTerms, (re, im): ComplexLane) -> DeviatorLane {
     let Mode { e, kz, nx, ny } = m;
     let a = (s.one_less_two_nu - kz) * e;
     let e_kz = e * kz;
@@ -75,17 +75,17 @@ fn normal(m: Mode, s: Elastic, (re, im): Z) -> Five {
 
 /// Times i.
 #[inline(always)]
-fn turned(factor: f32, (re, im): Z) -> Z {
+fn turned(factor: f32, (re, im): ComplexLane) -> ComplexLane {
     (-factor * im, factor * re)
 }
 
 #[inline(always)]
-fn plus(a: Z, b: Z) -> Z {
+fn plus(a: ComplexLane, b: ComplexLane) -> ComplexLane {
     (a.0 + b.0, a.1 + b.1)
 }
 
 #[inline(always)]
-fn along_x(m: Mode, s: Elastic, x: Z) -> Five {
+fn along_x(m: Mode, s: PoissonTerms, x: ComplexLane) -> DeviatorLane {
     let Mode { e, kz, nx, ny } = m;
     let b = s.two_nu + kz;
     let (e_x, e_y) = (e * nx, e * ny);
@@ -100,7 +100,7 @@ fn along_x(m: Mode, s: Elastic, x: Z) -> Five {
 }
 
 #[inline(always)]
-fn along_both(m: Mode, s: Elastic, x: Z, y: Z) -> Five {
+fn along_both(m: Mode, s: PoissonTerms, x: ComplexLane, y: ComplexLane) -> DeviatorLane {
     let Mode { e, kz, nx, ny } = m;
     let b = s.two_nu + kz;
     let (e_x, e_y) = (e * nx, e * ny);
@@ -117,7 +117,7 @@ fn along_both(m: Mode, s: Elastic, x: Z, y: Z) -> Five {
 
 /// A windowed mode under pressure; `ny` is the sign of ky.
 #[inline(always)]
-fn low_normal(row: &LowRow, l: usize, ny: f32, p: Z) -> Five {
+fn low_normal(row: &LowRow, l: usize, ny: f32, p: ComplexLane) -> DeviatorLane {
     let t = |i: usize| row.p[i].0[l];
     let xy = ny * t(3);
     [
@@ -131,7 +131,7 @@ fn low_normal(row: &LowRow, l: usize, ny: f32, p: Z) -> Five {
 
 /// Same under traction along x.
 #[inline(always)]
-fn low_along_x(row: &LowRow, l: usize, ny: f32, x: Z) -> Five {
+fn low_along_x(row: &LowRow, l: usize, ny: f32, x: ComplexLane) -> DeviatorLane {
     let t = |i: usize| row.x[i].0[l];
     let yz = ny * t(5);
     [
@@ -145,7 +145,7 @@ fn low_along_x(row: &LowRow, l: usize, ny: f32, x: Z) -> Five {
 
 /// Same under traction along x and y.
 #[inline(always)]
-fn low_along_both(row: &LowRow, l: usize, ny: f32, x: Z, y: Z) -> Five {
+fn low_along_both(row: &LowRow, l: usize, ny: f32, x: ComplexLane, y: ComplexLane) -> DeviatorLane {
     let t = |i: usize| row.y[i].0[l];
     let [d1, d2, xy, xz, yz] = low_along_x(row, l, ny, x);
     let fxz = ny * t(4);
@@ -160,7 +160,7 @@ fn low_along_both(row: &LowRow, l: usize, ny: f32, x: Z, y: Z) -> Five {
 
 /// What a mirror surface transforms: even and odd parts packed, at ky and at −ky.
 #[inline(always)]
-fn folded([d1, d2, xy, xz, yz]: Five) -> Five {
+fn folded([d1, d2, xy, xz, yz]: DeviatorLane) -> DeviatorLane {
     [
         (d1.0 + xy.0, d1.1 + xy.1),
         (d2.0 + yz.0, d2.1 + yz.1),
@@ -172,7 +172,7 @@ fn folded([d1, d2, xy, xz, yz]: Five) -> Five {
 
 /// What a general surface transforms.
 #[inline(always)]
-fn plain(five: Five) -> Five {
+fn plain(five: DeviatorLane) -> DeviatorLane {
     five
 }
 
@@ -204,7 +204,7 @@ macro_rules! in_lanes {
 
 /// Every lane of a row of modes.
 #[derive(Clone, Copy)]
-struct Row<'a> {
+struct ModeRow<'a> {
     e: &'a V,
     k: &'a V,
     nx: &'a V,
@@ -217,7 +217,7 @@ struct Row<'a> {
     sign: f32,
 }
 
-impl Row<'_> {
+impl ModeRow<'_> {
     #[inline(always)]
     fn mode(&self, l: usize) -> Mode {
         Mode {
@@ -229,17 +229,17 @@ impl Row<'_> {
     }
 
     #[inline(always)]
-    fn p(&self, l: usize) -> Z {
+    fn p(&self, l: usize) -> ComplexLane {
         (self.p.0.0[l], self.p.1.0[l])
     }
 
     #[inline(always)]
-    fn x(&self, l: usize) -> Z {
+    fn x(&self, l: usize) -> ComplexLane {
         (self.x.0.0[l], self.x.1.0[l])
     }
 
     #[inline(always)]
-    fn y(&self, l: usize) -> Z {
+    fn y(&self, l: usize) -> ComplexLane {
         (self.y.0.0[l], self.y.1.0[l])
     }
 }
@@ -251,9 +251,9 @@ fn row_of<'a>(
     half: &'a Half,
     (block, y): (usize, usize),
     sign: f32,
-) -> Row<'a> {
+) -> ModeRow<'a> {
     let i = block * waves.modes_y + y;
-    Row {
+    ModeRow {
         e: &layer.e[block * layer.rows + y],
         k: &waves.k[i],
         nx: &waves.nx[i],
@@ -280,7 +280,7 @@ pub(super) fn block_inputs(
     part: Part,
     out: &mut [Lanes],
 ) {
-    let elastic = Elastic {
+    let elastic = PoissonTerms {
         two_nu: (2.0 * nu) as f32,
         one_less_two_nu: (1.0 - 2.0 * nu) as f32,
     };
@@ -331,7 +331,7 @@ fn mirror_inputs(
     block: usize,
     waves: &Waves,
     half: &Half,
-    elastic: Elastic,
+    elastic: PoissonTerms,
     part: Part,
     out: &mut [Lanes],
 ) {
@@ -357,7 +357,7 @@ fn general_inputs(
     waves: &Waves,
     half: &Half,
     sign: f32,
-    elastic: Elastic,
+    elastic: PoissonTerms,
     part: Part,
     out: &mut [Lanes],
 ) {

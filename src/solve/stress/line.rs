@@ -41,7 +41,7 @@ use crate::scene::StressMeasure;
 const NEGLIGIBLE: f32 = 1e-6;
 
 /// Symbols of one depth: pressure and traction to each component.
-struct Layer {
+struct LineLayer {
     /// xx, zz, xz; by pressure and by traction, one number a mode. Real where the kernel is even; the
     /// imaginary part where it is odd.
     symbols: [[Vec<f32>; 2]; 3],
@@ -50,12 +50,12 @@ struct Layer {
 /// The engine of a line: tables, spectra of the surface loaded last, scratch.
 pub struct LineStress {
     spec: StressSpec,
-    layers: Vec<Layer>,
+    layers: Vec<LineLayer>,
     forward: Arc<dyn RealToComplex<f32>>,
     inverse: Arc<dyn ComplexToReal<f32>>,
     /// Spectra of p and q.
     spectra: [Vec<Complex<f32>>; 2],
-    loaded: Loaded,
+    loaded: LoadedLine,
     real: Vec<f32>,
     product: Vec<Complex<f32>>,
     scratch: Vec<Complex<f32>>,
@@ -66,7 +66,7 @@ pub struct LineStress {
 
 /// What was loaded last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Loaded {
+enum LoadedLine {
     Pressure,
     PressureAndTraction,
 }
@@ -97,10 +97,10 @@ impl LineStress {
             layers: spec
                 .depths
                 .iter()
-                .map(|&z| Layer::new(length, dx, z))
+                .map(|&z| LineLayer::new(length, dx, z))
                 .collect(),
             spectra: [vec![zero; modes], vec![zero; modes]],
-            loaded: Loaded::Pressure,
+            loaded: LoadedLine::Pressure,
             real: vec![0.0; length],
             product: vec![zero; modes],
             scratch: vec![zero; scratch],
@@ -120,10 +120,10 @@ impl LineStress {
     /// Takes a surface: pressure and, where there is any, traction.
     pub fn load(&mut self, pressure: &[f32], traction: Option<&[f32]>) {
         self.transform(0, pressure);
-        self.loaded = Loaded::Pressure;
+        self.loaded = LoadedLine::Pressure;
         if let Some(traction) = traction {
             self.transform(1, traction);
-            self.loaded = Loaded::PressureAndTraction;
+            self.loaded = LoadedLine::PressureAndTraction;
         }
     }
 
@@ -177,7 +177,7 @@ impl LineStress {
         let alike = self.spec.materials() == 1;
         for loading in Loading::ALL {
             let same = match (loading, self.loaded) {
-                (Loading::Full(body), Loaded::Pressure) => Some(Loading::Normal(body)),
+                (Loading::Full(body), LoadedLine::Pressure) => Some(Loading::Normal(body)),
                 (Loading::Normal(BodyId::Two), _) if alike => Some(Loading::Normal(BodyId::One)),
                 _ if bodies.contains(&loading.body()) => None,
                 _ => Some(Loading::Normal(BodyId::One)),
@@ -253,7 +253,7 @@ impl LineStress {
                 let v = if even_by_pressure { p } else { turned(p) };
                 *o = v * a;
             }
-            if self.loaded == Loaded::PressureAndTraction && sign != 0.0 {
+            if self.loaded == LoadedLine::PressureAndTraction && sign != 0.0 {
                 for ((o, &q), &b) in self.product.iter_mut().zip(q).zip(by_q) {
                     let v = if even_by_pressure { turned(q) } else { q };
                     *o += v * (sign * b);
@@ -270,7 +270,7 @@ impl LineStress {
     }
 }
 
-impl Layer {
+impl LineLayer {
     fn new(length: usize, dx: f64, z: f64) -> Self {
         let strip = |f: fn(f64, f64) -> f64| {
             move |i: usize, _: usize| {

@@ -44,7 +44,7 @@ pub(super) enum Sheared {
 
 /// How a field goes on across the mirror y = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Parity {
+enum MirrorParity {
     Even,
     Odd,
 }
@@ -115,7 +115,7 @@ impl StressEngine {
     /// # Panics
     /// When a field has not `nx · ny` values.
     pub fn load(&mut self, p: &[f32], qx: Option<&[f32]>) {
-        self.transform((p, Parity::Even), qx);
+        self.transform((p, MirrorParity::Even), qx);
         self.spectrum.sheared = match qx {
             Some(_) => Sheared::X,
             None => Sheared::No,
@@ -132,7 +132,7 @@ impl StressEngine {
     /// When a field has not `nx · ny` values.
     pub fn load_both_ways(&mut self, p: &[f32], qx: &[f32], qy: &[f32]) {
         self.load(p, Some(qx));
-        self.transform((qy, Parity::Odd), None);
+        self.transform((qy, MirrorParity::Odd), None);
         self.spectrum.sheared = Sheared::Xy;
         let scale = 1.0 / (self.waves.n_x as f64 * self.waves.n_y as f64);
         self.along_x(|z, _, waves, ky_block, half| {
@@ -141,7 +141,7 @@ impl StressEngine {
     }
 
     /// The pass along y of `re + i im`.
-    fn transform(&mut self, (re, parity): (&[f32], Parity), im: Option<&[f32]>) {
+    fn transform(&mut self, (re, parity): (&[f32], MirrorParity), im: Option<&[f32]>) {
         let nodes = self.spec.nx * self.spec.ny;
         for field in std::iter::once(re).chain(im) {
             assert_eq!(field.len(), nodes, "a field has nx · ny values");
@@ -155,7 +155,7 @@ impl StressEngine {
             let [input, other] = &mut work.along_y;
             read_rows(spec, block, re, parity, &mut input.re);
             match im {
-                Some(im) => read_rows(spec, block, im, Parity::Even, &mut input.im),
+                Some(im) => read_rows(spec, block, im, MirrorParity::Even, &mut input.im),
                 None => input.im.fill(V::ZERO),
             }
             self.plans[work.fft_y].forward(input, other);
@@ -196,7 +196,7 @@ impl StressEngine {
 }
 
 /// Sixteen columns of the surface, the axis at index 0 and y < 0 at the end of the period.
-fn read_rows(spec: &StressSpec, block: usize, field: &[f32], parity: Parity, out: &mut [V]) {
+fn read_rows(spec: &StressSpec, block: usize, field: &[f32], parity: MirrorParity, out: &mut [V]) {
     let n = out.len();
     let columns = block * LANES..spec.nx.min((block + 1) * LANES);
     let row = |j: usize| V::from_part(&field[j * spec.nx..][columns.clone()]);
@@ -206,12 +206,12 @@ fn read_rows(spec: &StressSpec, block: usize, field: &[f32], parity: Parity, out
             for j in 0..spec.ny {
                 let here = row(j);
                 out[(n - j) % n] = match parity {
-                    Parity::Even => here,
-                    Parity::Odd => -here,
+                    MirrorParity::Even => here,
+                    MirrorParity::Odd => -here,
                 };
                 out[j] = here;
             }
-            if parity == Parity::Odd {
+            if parity == MirrorParity::Odd {
                 out[0] = V::ZERO;
             }
         }

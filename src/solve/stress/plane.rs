@@ -22,7 +22,7 @@ use super::spec::Loading;
 use super::window::LOW;
 use crate::physics::invariants::Stress6;
 
-type Z = Complex<f32>;
+type ComplexMode = Complex<f32>;
 
 /// Which plane. Lengths in a.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,9 +96,9 @@ impl StressEngine {
         let mut plane = Plane::new(spec.nx, self.layers.len(), (spec.x_first, spec.dx));
         let fft = FftPlanner::new().plan_fft_inverse(waves.n_x);
         for (row, layer) in self.layers.iter().enumerate() {
-            let mut lines = [0; 6].map(|_| vec![Z::default(); waves.n_x]);
+            let mut lines = [0; 6].map(|_| vec![ComplexMode::default(); waves.n_x]);
             self.each_mode(layer, loading, |kx, ky, six| {
-                let turn = Z::from_polar(1.0, (self.wave_y(ky) * y0) as f32);
+                let turn = ComplexMode::from_polar(1.0, (self.wave_y(ky) * y0) as f32);
                 for (line, c) in lines.iter_mut().zip(six) {
                     line[kx] += c * turn * twice(kx);
                 }
@@ -121,9 +121,9 @@ impl StressEngine {
         let fft = FftPlanner::new().plan_fft_inverse(waves.n_y);
         let step = std::f64::consts::TAU / waves.period_x * (x0 - spec.x_first);
         for (row, layer) in self.layers.iter().enumerate() {
-            let mut lines = [0; 6].map(|_| vec![Z::default(); waves.n_y]);
+            let mut lines = [0; 6].map(|_| vec![ComplexMode::default(); waves.n_y]);
             self.each_mode(layer, loading, |kx, ky, six| {
-                let turn = Z::from_polar(1.0, (step * kx as f64) as f32);
+                let turn = ComplexMode::from_polar(1.0, (step * kx as f64) as f32);
                 for (line, c) in lines.iter_mut().zip(six) {
                     line[ky.rem_euclid(waves.n_y as isize) as usize] += c * turn * twice(kx);
                 }
@@ -156,7 +156,7 @@ impl StressEngine {
         let mut planner = FftPlanner::new();
         let (along_x, along_y) = (planner.plan_fft_inverse(n_x), planner.plan_fft_inverse(n_y));
         // One column per kx, as long as the period along y.
-        let mut fields = [0; 6].map(|_| vec![Z::default(); waves.modes_x * n_y]);
+        let mut fields = [0; 6].map(|_| vec![ComplexMode::default(); waves.modes_x * n_y]);
         self.each_mode(layer, loading, |kx, ky, six| {
             let at = kx * n_y + ky.rem_euclid(n_y as isize) as usize;
             for (field, c) in fields.iter_mut().zip(six) {
@@ -165,10 +165,10 @@ impl StressEngine {
         });
         for (field, to) in fields.iter_mut().zip(&mut plane.components) {
             along_y.process(field);
-            let mut line = vec![Z::default(); n_x];
+            let mut line = vec![ComplexMode::default(); n_x];
             for (j, row) in to.chunks_exact_mut(spec.nx).enumerate() {
                 let y = (j + n_y - ny / 2) % n_y;
-                line.fill(Z::default());
+                line.fill(ComplexMode::default());
                 for (kx, c) in line.iter_mut().enumerate().take(waves.modes_x) {
                     *c = field[kx * n_y + y];
                 }
@@ -191,7 +191,7 @@ impl StressEngine {
         &self,
         layer: &Layer,
         loading: Loading,
-        mut sink: impl FnMut(usize, isize, [Z; 6]),
+        mut sink: impl FnMut(usize, isize, [ComplexMode; 6]),
     ) {
         let kept = layer.n_x / 2;
         for ky in 0..layer.rows {
@@ -205,7 +205,14 @@ impl StressEngine {
     }
 
     /// Components of one mode at `sign · ky`.
-    fn mode(&self, layer: &Layer, loading: Loading, kx: usize, ky: usize, sign: f32) -> [Z; 6] {
+    fn mode(
+        &self,
+        layer: &Layer,
+        loading: Loading,
+        kx: usize,
+        ky: usize,
+        sign: f32,
+    ) -> [ComplexMode; 6] {
         let lanes = super::lanes::LANES;
         let (block, l) = (kx / lanes, kx % lanes);
         let i = block * self.waves.modes_y + ky;
@@ -223,22 +230,22 @@ impl StressEngine {
         let e = layer.e[block * layer.rows + ky].0[l];
         let kz = self.waves.k[i].0[l] * layer.z as f32;
         let (nx, ny) = (self.waves.nx[i].0[l], sign * self.waves.ny[i].0[l]);
-        let q = Z::i() * (x * nx + y * ny);
+        let q = ComplexMode::i() * (x * nx + y * ny);
         let d = p - q;
         let a = p * (1.0 - nu2) + q * nu2 - d * kz;
         [
-            Z::i() * x * (2.0 * nx) - d * nu2 - a * (nx * nx),
-            Z::i() * y * (2.0 * ny) - d * nu2 - a * (ny * ny),
+            ComplexMode::i() * x * (2.0 * nx) - d * nu2 - a * (nx * nx),
+            ComplexMode::i() * y * (2.0 * ny) - d * nu2 - a * (ny * ny),
             -(p + d * kz),
-            Z::i() * (x * ny + y * nx) - a * (nx * ny),
-            -x + Z::i() * d * (nx * kz),
-            -y + Z::i() * d * (ny * kz),
+            ComplexMode::i() * (x * ny + y * nx) - a * (nx * ny),
+            -x + ComplexMode::i() * d * (nx * kz),
+            -y + ComplexMode::i() * d * (ny * kz),
         ]
         .map(|c| c * e)
     }
 
     /// p̂, q̂x, q̂y on the body at one mode.
-    fn loads(&self, loading: Loading, i: usize, l: usize, sign: f32) -> [Z; 3] {
+    fn loads(&self, loading: Loading, i: usize, l: usize, sign: f32) -> [ComplexMode; 3] {
         let minus = if sign < 0.0 {
             self.spectrum.minus.as_ref()
         } else {
@@ -246,12 +253,12 @@ impl StressEngine {
         };
         let mirrored = sign < 0.0 && minus.is_none();
         let half: &Half = minus.unwrap_or(&self.spectrum.plus);
-        let at = |lanes: &super::fft::Lanes| Z::new(lanes.re[i].0[l], lanes.im[i].0[l]);
+        let at = |lanes: &super::fft::Lanes| ComplexMode::new(lanes.re[i].0[l], lanes.im[i].0[l]);
         let factor = loading.traction_sign();
         let p = at(&half.p);
         match self.spectrum.sheared {
-            Sheared::No => [p, Z::default(), Z::default()],
-            Sheared::X => [p, at(&half.x) * factor, Z::default()],
+            Sheared::No => [p, ComplexMode::default(), ComplexMode::default()],
+            Sheared::X => [p, at(&half.x) * factor, ComplexMode::default()],
             Sheared::Xy => {
                 let odd = if mirrored { -factor } else { factor };
                 [p, at(&half.x) * factor, at(&half.y) * odd]
@@ -271,19 +278,19 @@ fn low(
     material: usize,
     (kx, ky): (usize, usize),
     sign: f32,
-    [p, x, y]: [Z; 3],
-) -> [Z; 6] {
+    [p, x, y]: [ComplexMode; 3],
+) -> [ComplexMode; 6] {
     let row = &layer.low[material][ky];
     let [t, u, w] = [&row.p, &row.x, &row.y].map(|six| six.map(|v| v.0[kx]));
-    let even = |c: usize| p * t[c] + Z::i() * (x * u[c] + y * (sign * w[c]));
+    let even = |c: usize| p * t[c] + ComplexMode::i() * (x * u[c] + y * (sign * w[c]));
     let (d1, d2, zz) = (even(0), even(1), even(2));
     let yy = d2 + zz;
     [
         d1 + yy,
         yy,
         zz,
-        p * (sign * t[3]) + Z::i() * (x * (sign * u[3]) + y * w[3]),
-        Z::i() * p * t[4] + x * u[4] + y * (sign * w[4]),
-        Z::i() * p * (sign * t[5]) + x * (sign * u[5]) + y * w[5],
+        p * (sign * t[3]) + ComplexMode::i() * (x * (sign * u[3]) + y * w[3]),
+        ComplexMode::i() * p * t[4] + x * u[4] + y * (sign * w[4]),
+        ComplexMode::i() * p * (sign * t[5]) + x * (sign * u[5]) + y * w[5],
     ]
 }

@@ -61,7 +61,7 @@ impl SliceScratch {
 
 /// What the columns are formed for.
 #[derive(Clone, Copy)]
-struct Case {
+struct SliceCase {
     loading: Loading,
     material: usize,
     nu: f64,
@@ -86,7 +86,7 @@ impl StressEngine {
     /// When `out` was made for another specification.
     pub fn slice_of(&mut self, loading: Loading, out: &mut SliceOut) {
         let (spec, waves, work) = (&self.spec, &self.waves, &mut self.slice);
-        let case = Case {
+        let case = SliceCase {
             loading,
             material: spec.material(loading.body()),
             nu: spec.poisson(loading.body()),
@@ -147,7 +147,7 @@ impl StressEngine {
 
 dispatched! {
 /// Columns of the surface loaded, with −ky folded onto ky.
-fn form_columns(waves: &Waves, spectrum: &Spectrum, case: Case, columns: &mut [C]) {
+fn form_columns(waves: &Waves, spectrum: &Spectrum, case: SliceCase, columns: &mut [C]) {
     let nu = case.nu;
     let (two_nu, one_less) = (V::splat((2.0 * nu) as f32), V::splat((1.0 - 2.0 * nu) as f32));
     for block in 0..waves.blocks {
@@ -190,7 +190,7 @@ struct Folded {
 
 /// Spectrum at ky plus `sign` times that at −ky; ky = 0 counts once.
 #[inline(always)]
-fn folded(spectrum: &Spectrum, case: Case, i: usize, y: usize, sign: V) -> Folded {
+fn folded(spectrum: &Spectrum, case: SliceCase, i: usize, y: usize, sign: V) -> Folded {
     let factor = V::splat(case.loading.traction_sign());
     let c = |lanes: &Lanes| C {
         re: lanes.re[i],
@@ -234,7 +234,7 @@ fn sum_depth(
     block: usize,
     waves: &Waves,
     spectrum: &Spectrum,
-    case: Case,
+    case: SliceCase,
     columns: &[C],
 ) -> Six {
     let first = if block == 0 { LOW } else { 0 };
@@ -324,7 +324,7 @@ fn four_sums(e: &[V], columns: &[C], which: [usize; 4]) -> [C; 4] {
 
 /// The windowed modes of block 0.
 #[inline(always)]
-fn add_low(layer: &Layer, spectrum: &Spectrum, case: Case, columns: &[C], six: &mut Six) {
+fn add_low(layer: &Layer, spectrum: &Spectrum, case: SliceCase, columns: &[C], six: &mut Six) {
     let [xx, yy, zz, xz, xy, yz] = six;
     for (y, row) in layer.low[case.material].iter().enumerate() {
         let LowRow { p: t, x: u, y: w } = row;

@@ -113,7 +113,7 @@ impl Worker {
 }
 
 /// What every layer's sum needs.
-struct Job<'a> {
+struct LayerInput<'a> {
     spec: &'a StressSpec,
     waves: &'a Waves,
     layers: &'a [Layer],
@@ -141,7 +141,7 @@ impl StressEngine {
         assert!((1..=MAX_LAWS).contains(&laws.len()), "one or two laws");
         assert!(!self.workers.is_empty(), "made for volumes");
         let (wanted, count) = self.wanted(bodies);
-        let job = Job {
+        let job = LayerInput {
             spec: &self.spec,
             waves: &self.waves,
             layers: &self.layers,
@@ -213,10 +213,10 @@ fn stands_for(loading: Loading, wanted: &[Loading]) -> Loading {
     }
 }
 
-impl Job<'_> {
+impl LayerInput<'_> {
     fn layer(&self, worker: &mut Worker, k: usize) -> LayerResult {
         let layer = &self.layers[k];
-        let mut running = [[RowSums::default(); MAX_LAWS]; 4];
+        let mut running = [[RunningSum::default(); MAX_LAWS]; 4];
         for material in 0..self.spec.materials() {
             let mine = |loading: &Loading| self.spec.material(loading.body()) == material;
             if !self.wanted.iter().any(mine) {
@@ -298,7 +298,7 @@ impl Job<'_> {
         k: usize,
         row_block: usize,
         loading: Loading,
-        sums: &mut [RowSums; MAX_LAWS],
+        sums: &mut [RunningSum; MAX_LAWS],
     ) {
         let layer = &self.layers[k];
         let mut weights = V::ZERO;
@@ -331,14 +331,14 @@ impl Job<'_> {
 
 /// Running sum over blocks of rows, relative to the greatest square so far.
 #[derive(Debug, Clone, Copy, Default)]
-struct RowSums {
+struct RunningSum {
     top: f32,
     sum: f64,
     /// Point of this layer's grid and row where the greatest is.
     at: (usize, usize),
 }
 
-impl RowSums {
+impl RunningSum {
     fn add(&mut self, half_exponent: f32, row_block: usize, top: f32, squares: &[V], weights: V) {
         if top <= 0.0 {
             return;
@@ -360,7 +360,7 @@ impl RowSums {
         }
     }
 
-    fn finish(&self, job: &Job, layer: &Layer, exponent: f64) -> LayerSum {
+    fn finish(&self, job: &LayerInput, layer: &Layer, exponent: f64) -> LayerSum {
         let ln = if self.top > 0.0 {
             (layer.weight * layer.area * self.sum).ln() + 0.5 * exponent * f64::from(self.top).ln()
         } else {

@@ -33,11 +33,11 @@ const KINDS: usize = 14;
 /// The spectrum is the number itself for even-even harmonics (1, nx²) and `nx ny`, and i times it for
 /// the odd ones (`i nx`, `i ny`, `i nx² ny`, `i nx ny²`).
 pub(super) struct LowModes {
-    sums: Vec<Table>,
+    sums: Vec<ModeTable>,
 }
 
 /// Numbers of the modes, `[ky][kx]`.
-type Table = [f64; LOW * LOW];
+type ModeTable = [f64; LOW * LOW];
 
 impl LowModes {
     /// Harmonics of mode (mx, my), in the order of the component tables.
@@ -60,7 +60,7 @@ impl LowModes {
 }
 
 /// A quadrature point of the quarter plane and its waves.
-struct Point {
+struct QuadraturePoint {
     x: f64,
     y: f64,
     /// Quarter-plane weight times four times the window.
@@ -86,7 +86,7 @@ pub(super) fn low_modes((lx, ly): (f64, f64), edge: f64, depths: &[f64]) -> Vec<
 }
 
 /// Quadrature points that resolve a kernel of depth `z` at the source.
-fn quadrature((lx, ly): (f64, f64), edge: f64, z: f64) -> Vec<Point> {
+fn quadrature((lx, ly): (f64, f64), edge: f64, z: f64) -> Vec<QuadraturePoint> {
     let (nodes, weights) = gauss_legendre(8);
     let aspect = (lx / ly).max(ly / lx);
     let mut points = Vec::new();
@@ -130,8 +130,8 @@ fn angles_at(rho: f64, aspect: f64) -> usize {
     ((waves + 16.0 + squeeze) / 4.0).ceil() as usize
 }
 
-fn point(u: f64, v: f64, lx: f64, ly: f64, weight: f64) -> Point {
-    let mut p = Point {
+fn point(u: f64, v: f64, lx: f64, ly: f64, weight: f64) -> QuadraturePoint {
+    let mut p = QuadraturePoint {
         x: u * lx,
         y: v * ly,
         weight,
@@ -175,7 +175,7 @@ fn erfc(x: f64) -> f64 {
 
 dispatched! {
 /// Adds every point's kernel times its waves.
-fn accumulate(points: &[Point], z: f64, sums: &mut [Table]) {
+fn accumulate(points: &[QuadraturePoint], z: f64, sums: &mut [ModeTable]) {
     let mut waves = [[0.0; LOW * LOW]; 4];
     for p in points {
         let r = p.x.hypot(p.y);
@@ -202,7 +202,7 @@ fn accumulate(points: &[Point], z: f64, sums: &mut [Table]) {
 }
 
 #[inline(always)]
-fn products(out: &mut Table, along_x: &[f64; LOW], along_y: &[f64; LOW]) {
+fn products(out: &mut ModeTable, along_x: &[f64; LOW], along_y: &[f64; LOW]) {
     for (row, wave_y) in out.chunks_exact_mut(LOW).zip(along_y) {
         for l in 0..LOW {
             row[l] = wave_y * along_x[l];
@@ -211,7 +211,7 @@ fn products(out: &mut Table, along_x: &[f64; LOW], along_y: &[f64; LOW]) {
 }
 
 #[inline(always)]
-fn add(sum: &mut Table, kernel: f64, waves: &Table) {
+fn add(sum: &mut ModeTable, kernel: f64, waves: &ModeTable) {
     for i in 0..LOW * LOW {
         sum[i] = waves[i].mul_add(kernel, sum[i]);
     }

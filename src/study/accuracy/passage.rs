@@ -78,14 +78,14 @@ impl Setting {
 }
 
 /// A finished run.
-struct Ran {
+struct FinishedRun {
     summary: Summary,
     seconds: f64,
     runs: u32,
     bytes: u64,
 }
 
-fn run(sets: &[String], domain: Option<&Plan>, threads: usize) -> Result<Ran, String> {
+fn run(sets: &[String], domain: Option<&Plan>, threads: usize) -> Result<FinishedRun, String> {
     let overrides = sets
         .iter()
         .map(|text| text.parse::<Override>())
@@ -108,7 +108,7 @@ fn run(sets: &[String], domain: Option<&Plan>, threads: usize) -> Result<Ran, St
         }
         Ok::<_, String>(sim.summary())
     });
-    Ok(Ran {
+    Ok(FinishedRun {
         summary: summary?,
         seconds: time.seconds,
         runs: time.runs,
@@ -121,7 +121,7 @@ fn row(
     quantity: &'static str,
     varied: Varied,
     setting: Setting,
-    ran: &Ran,
+    ran: &FinishedRun,
     threads: usize,
 ) -> AccuracyRow {
     AccuracyRow {

@@ -23,7 +23,7 @@ const DOMAIN: (f64, f64, f64) = (-4.5, 1.5, 3.0);
 const TIGHT: f64 = 1e-4;
 
 /// Central and least film in Moes units, and the work.
-struct Film {
+struct SmoothFilm {
     central: f64,
     least: f64,
     newton: u64,
@@ -31,7 +31,7 @@ struct Film {
 
 /// Film over nodes against the table, over the tolerance against the tightest.
 pub(super) fn smooth(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<AccuracyRow>, String> {
-    let row = |film: &Film, time: Timed, quantity, value: f64, error| AccuracyRow {
+    let row = |film: &SmoothFilm, time: Timed, quantity, value: f64, error| AccuracyRow {
         part: Part::SmoothFilm,
         quantity,
         varied: Varied::Nodes,
@@ -81,7 +81,7 @@ pub(super) fn smooth(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<Accuracy
     Ok(rows)
 }
 
-fn solve(nodes: usize, tolerance: f64) -> Result<Film, String> {
+fn solve(nodes: usize, tolerance: f64) -> Result<SmoothFilm, String> {
     let lambda = (128.0 * PI.powi(3) / (3.0 * M.powi(4))).cbrt();
     let alpha_p = L / PI * (1.5 * M).cbrt();
     let medium = Medium {
@@ -132,7 +132,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Film, String> {
         x * x + y * y < 1.1
     });
     let least = inside.map(|n| film[n]).fold(f64::INFINITY, f64::min);
-    Ok(Film {
+    Ok(SmoothFilm {
         central: unit * film[centre],
         least: unit * least,
         newton,

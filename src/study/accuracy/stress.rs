@@ -19,25 +19,25 @@ const FROM_DEPTH: f64 = 0.25;
 
 /// What an engine is made for.
 #[derive(Debug, Clone, Copy)]
-struct Setting {
+struct EngineSetting {
     n: usize,
     depths: usize,
     decay: f64,
 }
 
-const USUAL: Setting = Setting {
+const USUAL: EngineSetting = EngineSetting {
     n: 128,
     depths: 32,
     decay: StressSpec::DECAY,
 };
 
-struct Loaded {
+struct LoadedCase {
     engine: StressEngine,
     p: Vec<f32>,
     q: Vec<f32>,
 }
 
-fn loaded(setting: Setting) -> Result<Loaded, String> {
+fn loaded(setting: EngineSetting) -> Result<LoadedCase, String> {
     let d = 2.0 * HALF / setting.n as f64;
     let shape = (setting.n + 1, setting.n / 2 + 1);
     let mut spec = StressSpec::new(
@@ -57,13 +57,13 @@ fn loaded(setting: Setting) -> Result<Loaded, String> {
         .collect();
     let q = p.iter().map(|p| p * FRICTION as f32).collect();
     let engine = StressEngine::new(&spec).map_err(|error| error.to_string())?;
-    Ok(Loaded { engine, p, q })
+    Ok(LoadedCase { engine, p, q })
 }
 
 fn row(
     (part, quantity): (Part, &'static str),
     (varied, value): (Varied, f64),
-    setting: Setting,
+    setting: EngineSetting,
     engine: &StressEngine,
     (error, time): (f64, Timed),
 ) -> AccuracyRow {
@@ -98,8 +98,8 @@ fn row(
 }
 
 /// Worst error of any component in the plane y = 0 from a quarter of a half-width down.
-fn slice(setting: Setting, varied: (Varied, f64)) -> Result<AccuracyRow, String> {
-    let Loaded { mut engine, p, q } = loaded(setting)?;
+fn slice(setting: EngineSetting, varied: (Varied, f64)) -> Result<AccuracyRow, String> {
+    let LoadedCase { mut engine, p, q } = loaded(setting)?;
     let mut out = SliceOut::new(engine.spec());
     let ((), time) = timed(|| {
         engine.load(&p, Some(&q));
@@ -126,8 +126,8 @@ fn slice(setting: Setting, varied: (Varied, f64)) -> Result<AccuracyRow, String>
 }
 
 /// The greatest von Mises stress and the life integral, from one volume.
-fn volume(setting: Setting, varied: (Varied, f64)) -> Result<[AccuracyRow; 2], String> {
-    let Loaded { mut engine, p, .. } = loaded(setting)?;
+fn volume(setting: EngineSetting, varied: (Varied, f64)) -> Result<[AccuracyRow; 2], String> {
+    let LoadedCase { mut engine, p, .. } = loaded(setting)?;
     let (out, time) = timed(|| {
         engine.load(&p, None);
         engine.volume(EXPONENT)
@@ -164,13 +164,19 @@ pub(super) fn stress(
 ) -> Result<Vec<AccuracyRow>, String> {
     let mut settings = Vec::new();
     for &n in sizes {
-        settings.push((Setting { n, ..USUAL }, (Varied::Nodes, (n + 1) as f64)));
+        settings.push((
+            EngineSetting { n, ..USUAL },
+            (Varied::Nodes, (n + 1) as f64),
+        ));
     }
     for &depths in depths {
-        settings.push((Setting { depths, ..USUAL }, (Varied::Depths, depths as f64)));
+        settings.push((
+            EngineSetting { depths, ..USUAL },
+            (Varied::Depths, depths as f64),
+        ));
     }
     for &decay in decays {
-        settings.push((Setting { decay, ..USUAL }, (Varied::Decay, decay)));
+        settings.push((EngineSetting { decay, ..USUAL }, (Varied::Decay, decay)));
     }
     let (mut slices, mut peaks, mut integrals) = (Vec::new(), Vec::new(), Vec::new());
     for (setting, varied) in settings {

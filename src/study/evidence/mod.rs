@@ -92,18 +92,18 @@ impl Evidence {
 }
 
 /// What one worker does.
-enum Job<'a> {
+enum EvidenceJob<'a> {
     Case(&'a Case, usize, usize),
     Point(&'a Experiment, &'a Point, CycleBasis, usize),
 }
 
 /// What came of it.
-enum Done {
+enum EvidenceResult {
     Case(Result<Values, String>),
     Point(Result<Damage, String>),
 }
 
-impl Job<'_> {
+impl EvidenceJob<'_> {
     fn name(&self) -> String {
         match self {
             Self::Case(case, nodes, _) => format!("{}, {nodes} nodes", case.name),
@@ -113,10 +113,14 @@ impl Job<'_> {
         }
     }
 
-    fn work(&self) -> Done {
+    fn work(&self) -> EvidenceResult {
         match *self {
-            Self::Case(case, nodes, finest) => Done::Case(measure::measure(case, nodes, finest)),
-            Self::Point(_, point, basis, nodes) => Done::Point(tried::damage(point, basis, nodes)),
+            Self::Case(case, nodes, finest) => {
+                EvidenceResult::Case(measure::measure(case, nodes, finest))
+            }
+            Self::Point(_, point, basis, nodes) => {
+                EvidenceResult::Point(tried::damage(point, basis, nodes))
+            }
         }
     }
 }
@@ -157,22 +161,28 @@ pub fn evidence(
     let experiments: Vec<&Experiment> = set.experiments.iter().filter(is_in).collect();
     refuse_nothing(only, cases.is_empty() && experiments.is_empty())?;
     let nodes = nodes_of_experiments(extent);
-    let mut jobs: Vec<Job> = Vec::new();
+    let mut jobs: Vec<EvidenceJob> = Vec::new();
     for (case, [coarse, fine]) in &cases {
-        jobs.extend([*coarse, *fine].map(|nodes| Job::Case(case, nodes, *fine)));
+        jobs.extend([*coarse, *fine].map(|nodes| EvidenceJob::Case(case, nodes, *fine)));
     }
     for &experiment in &experiments {
         for point in &experiment.point {
             let all = CycleBasis::ALL.into_iter();
-            jobs.extend(all.map(|basis| Job::Point(experiment, point, basis, nodes)));
+            jobs.extend(all.map(|basis| EvidenceJob::Point(experiment, point, basis, nodes)));
         }
     }
-    let done = share_out(&jobs, workers, Job::name, Job::work, progress);
+    let done = share_out(
+        &jobs,
+        workers,
+        EvidenceJob::name,
+        EvidenceJob::work,
+        progress,
+    );
     let (mut values, mut damages) = (Vec::new(), Vec::new());
     for done in done {
         match done {
-            Done::Case(found) => values.push(found),
-            Done::Point(found) => damages.push(found),
+            EvidenceResult::Case(found) => values.push(found),
+            EvidenceResult::Point(found) => damages.push(found),
         }
     }
     let pairs = cases.iter().zip(values.chunks_exact(2));

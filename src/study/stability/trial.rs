@@ -119,7 +119,7 @@ pub(super) fn run(ready: &Ready) -> Trial {
     let sim = Simulation::new(&ready.scene, ready.plan.clone(), 1);
     match sim {
         Ok(mut sim) => {
-            let mut watch = Watch::default();
+            let mut watch = TrialWatch::default();
             let end = drive(&mut sim, ready, &mut trial, &mut watch);
             trial.steps = sim.passage_steps();
             trial.stats = *sim.stats();
@@ -160,7 +160,7 @@ impl Overlap {
 
 /// What is seen on the way.
 #[derive(Debug, Default)]
-struct Watch {
+struct TrialWatch {
     frame: Frame,
     unconverged: u64,
     negative: u64,
@@ -177,7 +177,7 @@ fn drive(
     sim: &mut Simulation,
     ready: &Ready,
     trial: &mut Trial,
-    watch: &mut Watch,
+    watch: &mut TrialWatch,
 ) -> Result<(), Ending> {
     let wanted = steps_wanted(ready);
     let jump_at = (JUMP_AT * wanted as f64) as u64;
@@ -224,7 +224,7 @@ fn steps_wanted(ready: &Ready) -> u64 {
     }
 }
 
-impl Watch {
+impl TrialWatch {
     fn see(&mut self, sim: &Simulation, ready: &Ready, trial: &mut Trial) {
         sim.fill(&mut self.frame);
         let (frame, metrics) = (&self.frame, sim.metrics());

@@ -21,7 +21,7 @@ const AXIS: u16 = 5;
 type Place = (f64, f64, Option<[f64; 2]>);
 
 /// A curve with its axes; places in the units of the axes.
-struct Figure {
+struct CurveFigure {
     name: &'static str,
     /// What a formula says; empty: there is none.
     formula: Vec<(f64, f64)>,
@@ -61,7 +61,7 @@ fn pen(app: &App, role: Role, letter: char) -> Pen {
     Pen::new(app.theme, role, letter)
 }
 
-fn draw(app: &App, figure: &Figure, area: Rect, buffer: &mut Buffer) {
+fn draw(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     heading(app, figure, area, buffer);
     let plot = Rect {
@@ -92,7 +92,7 @@ fn draw(app: &App, figure: &Figure, area: Rect, buffer: &mut Buffer) {
 /// A mark on a place, where that is in the plot.
 fn spot(
     app: &App,
-    figure: &Figure,
+    figure: &CurveFigure,
     plot: Rect,
     (x, y): (f64, f64),
     (symbol, role): (&'static str, Role),
@@ -114,7 +114,7 @@ fn spot(
 }
 
 /// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.
-fn heading(app: &App, figure: &Figure, area: Rect, buffer: &mut Buffer) {
+fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let legend = |words: [&'static str; 2]| {
         let mut spans = vec![
@@ -144,7 +144,7 @@ fn heading(app: &App, figure: &Figure, area: Rect, buffer: &mut Buffer) {
     put_right(area, u16::from(!has_room), &line, buffer);
 }
 
-fn axes(app: &App, figure: &Figure, area: Rect, plot: Rect, buffer: &mut Buffer) {
+fn axes(app: &App, figure: &CurveFigure, area: Rect, plot: Rect, buffer: &mut Buffer) {
     let dim = app.theme.style(Role::Dim);
     let word = |text: &str| Line::styled(ascii_text(app.theme, text), dim);
     let left = Rect {

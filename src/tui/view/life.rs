@@ -33,7 +33,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     } else {
         inner
     };
-    let mut rows = Rows {
+    let mut rows = RowAllotment {
         area: inner,
         next: 0,
     };
@@ -67,7 +67,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 }
 
 /// A scene that asks for no life: it is not waited for.
-fn without_life(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+fn without_life(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let dim = app.theme.style(Role::Dim);
     let words = ["no life in this scene", "(no [life] table)"];
     for text in words {
@@ -80,12 +80,12 @@ fn without_life(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
 }
 
 /// Rows handed out from above.
-struct Rows {
+struct RowAllotment {
     area: Rect,
     next: u16,
 }
 
-impl Rows {
+impl RowAllotment {
     fn take(&mut self, rows: u16) -> Rect {
         let rest = self.rest();
         self.next += rows;

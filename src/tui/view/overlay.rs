@@ -59,7 +59,7 @@ pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
     let most = within.height.saturating_sub(2);
     let mut lines = help_lines(app);
     if lines.len() > usize::from(columns * most) {
-        lines.retain(|(heading, _)| *heading != Heading::Yes);
+        lines.retain(|(heading, _)| *heading != HelpHeading::Yes);
     }
     let rows = (lines.len() as u16).div_ceil(columns).min(most);
     let hidden = (lines.len() as u16).saturating_sub(columns * rows);
@@ -96,23 +96,23 @@ pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
 
 /// Whether a line of the help screen only names what follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Heading {
+enum HelpHeading {
     Yes,
     No,
 }
 
-fn help_lines(app: &App) -> Vec<(Heading, Line<'static>)> {
+fn help_lines(app: &App) -> Vec<(HelpHeading, Line<'static>)> {
     let theme = app.theme;
     let heading = |name: &'static str| {
         let line = Line::styled(name, theme.style(Role::Title));
-        (Heading::Yes, line)
+        (HelpHeading::Yes, line)
     };
     let row = |keys: &str, help: &str, role: Role| {
         let line = Line::from(vec![
             Span::styled(format!("{:>7} ", ascii_keys(app, keys)), theme.style(role)),
             Span::raw(ascii_text(theme, help)),
         ]);
-        (Heading::No, line)
+        (HelpHeading::No, line)
     };
     let mut lines = Vec::new();
     for group in Group::ALL {

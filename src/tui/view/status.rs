@@ -14,7 +14,7 @@ use crate::tui::view::{Areas, Density, ascii_text, knobs, overlay, put, put_righ
 use crate::tui::wiring::RecorderActivity;
 
 /// Words and their roles, in the order in which they are dropped from the right.
-type Words = Vec<(String, Role)>;
+type StatusWords = Vec<(String, Role)>;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let area = areas.status;
@@ -40,7 +40,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     }
 }
 
-fn write(app: &App, area: Rect, row: u16, words: &Words, buffer: &mut Buffer) {
+fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buffer) {
     let theme = app.theme;
     let mut spans = vec![Span::raw(" ")];
     let mut used = 1;
@@ -57,7 +57,7 @@ fn write(app: &App, area: Rect, row: u16, words: &Words, buffer: &mut Buffer) {
     put(area, row, &Line::from(spans), buffer);
 }
 
-fn progress(app: &App, frame: &Frame) -> Words {
+fn progress(app: &App, frame: &Frame) -> StatusWords {
     if frame.stage == Stage::StartUp {
         let share = (100.0 * frame.start_up).floor();
         return vec![
@@ -109,7 +109,7 @@ fn progress(app: &App, frame: &Frame) -> Words {
     words
 }
 
-fn quality(app: &App, frame: &Frame) -> Words {
+fn quality(app: &App, frame: &Frame) -> StatusWords {
     let metrics = &frame.metrics;
     let trouble = app.trouble();
     let residual = match trouble {

@@ -25,7 +25,7 @@ const COLUMNS: usize = 161;
 pub(super) struct Hung {
     mesh: waiting::Sheet,
     tints: Tints,
-    sheet: Option<Sheet>,
+    sheet: Option<HungSheet>,
     /// The map of the last picture: it changes when a material point has crossed.
     last: Vec<f32>,
 }
@@ -42,14 +42,14 @@ impl Hung {
 }
 
 /// The sheet's rows, and what of the block each of its columns shows.
-struct Sheet {
+struct HungSheet {
     depths: Depths,
     columns: Vec<usize>,
     /// Columns and length (m) of the block.
     block: (usize, f64),
 }
 
-impl Sheet {
+impl HungSheet {
     fn new(block: &DamageBlock, a: f64) -> Option<Self> {
         let column = |i: usize| {
             let way = (x(i, a) / MM).rem_euclid(block.length_m) / block.length_m;
@@ -99,9 +99,9 @@ impl Space {
             return Ok(());
         }
         self.hung.last.clone_from(&block.damage);
-        let fits = |sheet: &Sheet| sheet.fits(block);
+        let fits = |sheet: &HungSheet| sheet.fits(block);
         if !self.hung.sheet.as_ref().is_some_and(fits) {
-            self.hung.sheet = Sheet::new(block, self.geometry.a);
+            self.hung.sheet = HungSheet::new(block, self.geometry.a);
             self.log_sheet(stream)?;
         }
         let Hung {

@@ -1,6 +1,6 @@
 //! The three curves: life against S, friction against S, friction against the speed (Stribeck).
 
-use super::{Figure, Place};
+use super::{CurveFigure, Place};
 use crate::sim::Knob;
 use crate::sweep::{Along, Found};
 use crate::tui::app::{App, Curve, Leading};
@@ -12,7 +12,7 @@ const FINE: usize = 120;
 /// |S| up to which the formula sets the axis.
 const MOVES: f64 = 1.9;
 
-pub(super) fn figure(app: &App) -> Figure {
+pub(super) fn figure(app: &App) -> CurveFigure {
     match app.curve {
         Curve::Life => life(app),
         Curve::Friction => friction(app),
@@ -32,7 +32,7 @@ fn axis(app: &App, knob: Knob) -> ([f64; 2], f64) {
 }
 
 /// Life over whole decades, logarithmic: the formula over the whole range of S, dots where it was simulated.
-fn life(app: &App) -> Figure {
+fn life(app: &App) -> CurveFigure {
     let (x, knob) = axis(app, Knob::SlideRoll);
     let formula: Vec<(f64, f64)> = (0..=FINE)
         .map(|i| x[0] + (x[1] - x[0]) * i as f64 / FINE as f64)
@@ -48,7 +48,7 @@ fn life(app: &App) -> Figure {
     let known = known.map(|place| place.1);
     let now = app.leading_life().map(f64::log10);
     let y = decades(known.chain(points.iter().map(|place| place.1)).chain(now));
-    Figure {
+    CurveFigure {
         name: "life against S",
         formula,
         points,
@@ -82,10 +82,10 @@ fn friction_now(app: &App) -> Option<f64> {
 }
 
 /// The traction curve.
-fn friction(app: &App) -> Figure {
+fn friction(app: &App) -> CurveFigure {
     let (x, knob) = axis(app, Knob::SlideRoll);
     let (points, most) = frictions(app, Along::SlideRoll, |found| found.at.slide_roll);
-    Figure {
+    CurveFigure {
         name: "friction against S",
         formula: Vec::new(),
         points,
@@ -103,7 +103,7 @@ fn friction(app: &App) -> Figure {
 }
 
 /// Friction against the entrainment speed, logarithmic; the λ that belong to the points below it.
-fn stribeck(app: &App) -> Figure {
+fn stribeck(app: &App) -> CurveFigure {
     let place = |speed_m_s: f64| speed_m_s.abs().max(1e-12).log10();
     let (ends, knob) = axis(app, Knob::EntrainmentMS);
     // Bodies that run towards −x have negative speeds: the slow end stands left.
@@ -127,7 +127,7 @@ fn stribeck(app: &App) -> Figure {
         String::new()
     };
     let unit = app.units.speed();
-    Figure {
+    CurveFigure {
         name: "Stribeck",
         formula: Vec::new(),
         points,

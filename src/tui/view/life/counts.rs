@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::text::{Line, Span};
 
-use super::{Rows, simulated};
+use super::{RowAllotment, simulated};
 use crate::scene::CycleBasis;
 use crate::tui::app::App;
 use crate::tui::theme::Role;
@@ -11,7 +11,7 @@ use crate::tui::units::{sig, sig_or_dash};
 use crate::tui::view::{ascii_text, put};
 
 /// n by formula beside n counted, for both bodies.
-pub(super) fn counts(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let theme = app.theme;
     let metrics = app.frame().map(|frame| frame.metrics.clone());
     let metrics = metrics.unwrap_or_default();
@@ -48,7 +48,7 @@ pub(super) fn counts(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
 }
 
 /// The life by the count that is not the headline's: the paper's, or that by damage.
-pub(super) fn other_count(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let (Some(life), Some(asked)) = (app.life(), &app.setup.scene.life) else {
         return;
     };
@@ -68,7 +68,7 @@ pub(super) fn other_count(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
 }
 
 /// "3.4 times shorter than pinned".
-pub(super) fn comparison(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let theme = app.theme;
     let row = rows.take(1);
     let Some(ratio) = app.against_pinned() else {

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::Rows;
+use super::RowAllotment;
 use crate::math::number::sig;
 use crate::scene::ContactKind;
 use crate::tui::app::App;
@@ -14,7 +14,7 @@ use crate::tui::view::{ascii_text, put, put_right};
 
 /// The factors one under the other on one logarithmic scale: each bar begins where the one above ended, so that the
 /// third ends at the life; the fourth is what the load costs beside it.
-pub(super) fn mechanisms(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let now = app.leading_factors();
     let pinned = app.pinned.map_or(1.0, |pinned| pinned.load_factor);
     let factors = [

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::Rows;
+use super::RowAllotment;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
@@ -23,7 +23,7 @@ pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
 }
 
 /// The number itself.
-pub(super) fn figure(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let theme = app.theme;
     let role = match app.leading() {
         Leading::Simulated => Role::Strong,

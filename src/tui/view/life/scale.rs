@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::Line;
 
-use super::{Rows, simulated};
+use super::{RowAllotment, simulated};
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::view::{put, put_right};
@@ -24,7 +24,7 @@ fn column(value: f64, width: u16) -> u16 {
 }
 
 /// The logarithmic scale with band, number, formula and pin.
-pub(super) fn scale(app: &App, rows: &mut Rows, buffer: &mut Buffer) {
+pub(super) fn scale(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let theme = app.theme;
     let bar = rows.take(1);
     let width = bar.width;

@@ -68,7 +68,7 @@ impl Raster {
 
 /// Nodes that a pixel draws on along one axis, as places and weights of the outer two.
 #[derive(Debug, Clone, Copy)]
-struct Span {
+struct PixelSpan {
     first: usize,
     last: usize,
     /// Weight of `last` where only two nodes count.
@@ -225,7 +225,7 @@ fn spans(
     window: [f64; 2],
     nodes: usize,
     place: &dyn Fn(f64) -> f64,
-) -> Option<Vec<Span>> {
+) -> Option<Vec<PixelSpan>> {
     if nodes < 2 || pixels == 0 {
         return None;
     }
@@ -233,7 +233,7 @@ fn spans(
     let spans = cells.into_iter().map(|[from, to]| {
         let (first, last) = (from.ceil() as usize, to.floor() as usize);
         if last > first {
-            return Span {
+            return PixelSpan {
                 first,
                 last: last.min(nodes - 1),
                 part: 0.0,
@@ -242,7 +242,7 @@ fn spans(
         }
         let middle = 0.5 * (from + to);
         let first = (middle as usize).min(nodes - 2);
-        Span {
+        PixelSpan {
             first,
             last: first + 1,
             part: (middle - first as f64) as f32,
@@ -252,7 +252,7 @@ fn spans(
     Some(spans.collect())
 }
 
-fn values(field: &[f32], nx: usize, along: &[Span], down: &[Span]) -> Vec<f32> {
+fn values(field: &[f32], nx: usize, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<f32> {
     let mut values = Vec::with_capacity(along.len() * down.len());
     for vertical in down {
         for horizontal in along {
@@ -265,7 +265,7 @@ fn values(field: &[f32], nx: usize, along: &[Span], down: &[Span]) -> Vec<f32> {
     values
 }
 
-fn over(span: &Span, at: impl Fn(usize) -> f32) -> f32 {
+fn over(span: &PixelSpan, at: impl Fn(usize) -> f32) -> f32 {
     if span.mean {
         let sum: f32 = (span.first..=span.last).map(at).sum();
         sum / (span.last - span.first + 1) as f32
@@ -276,8 +276,8 @@ fn over(span: &Span, at: impl Fn(usize) -> f32) -> f32 {
 }
 
 /// A single spot must not vanish between pixels: any node in the pixel, or the nearest one.
-fn touching(frame: &Frame, along: &[Span], down: &[Span]) -> Vec<bool> {
-    let reach = |span: &Span| {
+fn touching(frame: &Frame, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
+    let reach = |span: &PixelSpan| {
         if span.mean {
             span.first..=span.last
         } else {
