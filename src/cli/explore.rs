@@ -10,7 +10,7 @@ use asperity::observe::Overwrite;
 use asperity::run::{Activity, Command, Ending, Request, RunError, Session, Status};
 use asperity::sweep::{Background, Ground};
 use asperity::tui::{
-    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, TuiError, Wiring,
+    Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, TuiError, Wiring,
 };
 use miette::miette;
 
@@ -209,14 +209,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
             half_width_m: plan.hertz.a_m,
             p_hertz_pa: plan.hertz.p_max_pa,
             plan_text: plan.to_string(),
-            left_out: plan
-                .left_out
-                .iter()
-                .map(|item| LeftOut {
-                    stage: item.stage.to_owned(),
-                    reason: item.why.clone(),
-                })
-                .collect(),
+            left_out: plan.left_out.clone(),
         },
         frames: session.latest(),
         commands: session.commands(),

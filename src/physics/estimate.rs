@@ -420,7 +420,7 @@ mod tests {
             law,
             count: Count::Contacts,
             oil: Some(OilBasis {
-                film: FilmBasis::Point(groups::OperatingPoint {
+                film: FilmBasis::Point(groups::PointContact {
                     rx_m: 0.01,
                     ry_m: 0.01,
                     e_prime_pa: 2.2e11,

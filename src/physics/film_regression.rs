@@ -19,10 +19,10 @@
 //! Hamrock and Dowson is up to 90 % too high at M = 1000. Used as a first guess, a sanity check, an
 //! instant estimate and to size the grid; never as a result.
 
-use super::groups::OperatingPoint;
+use super::groups::PointContact;
 
 /// Central film by Hamrock and Dowson, m.
-pub fn hamrock_dowson_central_m(point: &OperatingPoint) -> f64 {
+pub fn hamrock_dowson_central_m(point: &PointContact) -> f64 {
     let groups = point.groups();
     let k = point.hertz().ellipticity();
     2.69 * point.rx_m
@@ -33,7 +33,7 @@ pub fn hamrock_dowson_central_m(point: &OperatingPoint) -> f64 {
 }
 
 /// Minimum film by Hamrock and Dowson, m.
-pub fn hamrock_dowson_minimum_m(point: &OperatingPoint) -> f64 {
+pub fn hamrock_dowson_minimum_m(point: &PointContact) -> f64 {
     let groups = point.groups();
     let k = point.hertz().ellipticity();
     3.63 * point.rx_m
@@ -45,7 +45,7 @@ pub fn hamrock_dowson_minimum_m(point: &OperatingPoint) -> f64 {
 
 /// Central film by Nijenbanning, Venner and Moes, m: valid from the rigid isoviscous to the elastic
 /// piezoviscous limit.
-pub fn nijenbanning_central_m(point: &OperatingPoint) -> f64 {
+pub fn nijenbanning_central_m(point: &PointContact) -> f64 {
     let groups = point.groups();
     nijenbanning_central(point.rx_m / point.ry_m, groups.m, groups.l)
         * groups.film_unit_m(point.rx_m)
@@ -101,18 +101,6 @@ impl Parts {
 mod tests {
     use super::*;
 
-    fn base_case(entrainment_m_s: f64) -> OperatingPoint {
-        OperatingPoint {
-            rx_m: 0.01905,
-            ry_m: 0.01905,
-            e_prime_pa: 219.78e9,
-            viscosity_pa_s: 0.096,
-            alpha_per_pa: 18.2e-9,
-            entrainment_m_s,
-            force_n: 800.0,
-        }
-    }
-
     #[test]
     fn hamrock_dowson_of_the_speed_sweep() {
         // U, h_c, h_min in nm, worked out independently; printed to whole or tenths of a nanometre.
@@ -122,7 +110,7 @@ mod tests {
             (0.1, 101.0, 56.0),
             (0.01, 21.6, 11.7),
         ] {
-            let point = base_case(u);
+            let point = PointContact::of_the_speed_sweep(u);
             let h_c = hamrock_dowson_central_m(&point) * 1e9;
             let h_min = hamrock_dowson_minimum_m(&point) * 1e9;
             assert!((h_c - central).abs() < 0.005 * central, "{h_c} {central}");
@@ -169,8 +157,8 @@ mod tests {
 
     #[test]
     fn a_wide_contact_carries_a_thicker_film() {
-        let circular = base_case(1.0);
-        let wide = OperatingPoint {
+        let circular = PointContact::of_the_speed_sweep(1.0);
+        let wide = PointContact {
             ry_m: 0.19,
             ..circular
         };

@@ -14,7 +14,7 @@ use super::hertz::Hertz;
 
 /// A smooth lubricated point contact in SI: all that the film regressions need.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OperatingPoint {
+pub struct PointContact {
     /// Equivalent radius along the rolling direction, m.
     pub rx_m: f64,
     /// Equivalent radius across, m.
@@ -31,7 +31,7 @@ pub struct OperatingPoint {
     pub force_n: f64,
 }
 
-/// The dimensionless groups of an [`OperatingPoint`].
+/// The dimensionless groups of an [`PointContact`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Groups {
     /// Speed parameter Ū = η₀U/(E'Rx).
@@ -50,7 +50,7 @@ pub struct Groups {
     pub alpha_p_hertz: f64,
 }
 
-impl OperatingPoint {
+impl PointContact {
     /// The Hertz contact under the load.
     pub fn hertz(&self) -> Hertz {
         Hertz::from_force(self.rx_m, self.ry_m, self.e_prime_pa, self.force_n)
@@ -84,12 +84,10 @@ impl Groups {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::PI;
-
-    fn base_case(entrainment_m_s: f64) -> OperatingPoint {
-        OperatingPoint {
+impl PointContact {
+    /// Crowned steel rollers of the reference's speed sweep.
+    pub(super) fn of_the_speed_sweep(entrainment_m_s: f64) -> Self {
+        Self {
             rx_m: 0.01905,
             ry_m: 0.01905,
             e_prime_pa: 219.78e9,
@@ -99,11 +97,17 @@ mod tests {
             force_n: 800.0,
         }
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
 
     #[test]
     fn reference_groups_of_the_speed_sweep() {
         for (u, m, l) in [(10.0, 101.0, 18.5), (1.0, 569.0, 10.4), (0.1, 3201.0, 5.85)] {
-            let groups = base_case(u).groups();
+            let groups = PointContact::of_the_speed_sweep(u).groups();
             // Three printed digits.
             assert!((groups.m / m - 1.0).abs() < 5e-3, "{}", groups.m);
             assert!((groups.l / l - 1.0).abs() < 5e-3, "{}", groups.l);
@@ -112,7 +116,7 @@ mod tests {
 
     #[test]
     fn the_two_scalings_agree_for_a_circle() {
-        let point = base_case(1.0);
+        let point = PointContact::of_the_speed_sweep(1.0);
         let groups = point.groups();
         // λ = (128π³/(3M⁴))^{1/3} and αp_h = (L/π)(3M/2)^{1/3}.
         let lambda = (128.0 * PI.powi(3) / (3.0 * groups.m.powi(4))).cbrt();

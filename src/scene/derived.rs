@@ -3,7 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use super::model::{ContactKind, MapEdge, Scene, Surface};
-use crate::physics::groups::OperatingPoint;
+use crate::physics::groups::PointContact;
 use crate::physics::hertz::{self, Hertz};
 use crate::physics::line::{self, LinePoint};
 
@@ -103,9 +103,9 @@ impl Scene {
     }
 
     /// What the film regressions need; `None` for a dry scene or a line.
-    pub fn operating_point(&self) -> Option<OperatingPoint> {
+    pub fn operating_point(&self) -> Option<PointContact> {
         let lubricant = self.lubricant.as_ref()?;
-        (self.contact.kind == ContactKind::Point).then(|| OperatingPoint {
+        (self.contact.kind == ContactKind::Point).then(|| PointContact {
             rx_m: self.contact.rx_m,
             ry_m: self.ry_m(),
             e_prime_pa: self.e_prime_pa(),

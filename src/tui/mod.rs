@@ -46,8 +46,8 @@ use pixels::{Canvas, Pixels};
 use terminal::{Input, Panics, Stage};
 use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{
-    Health, LeftOut, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, Shown, TuiError,
-    Wiring, WriteShown,
+    Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, Shown, TuiError, Wiring,
+    WriteShown,
 };
 
 /// Time from one drawing to the next.

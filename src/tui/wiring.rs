@@ -8,19 +8,11 @@ use std::sync::mpsc::{Receiver, Sender};
 use thiserror::Error;
 
 use crate::observe::Latest;
+use crate::plan::LeftOut;
 use crate::run::{Command, Settled};
 use crate::scene::Scene;
 use crate::sim::Frame;
 use crate::sweep::{Background, Order};
-
-/// A stage that the plan leaves out, and why.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LeftOut {
-    /// Which stage, in a word or two ("cavitation").
-    pub stage: String,
-    /// Why.
-    pub reason: String,
-}
 
 /// How the run is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

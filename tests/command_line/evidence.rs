@@ -9,7 +9,8 @@ use asperity::physics::gear::{GearPair, LoadSharing};
 use asperity::scene::{CycleBasis, Scene, presets};
 use asperity::study::Extent;
 use asperity::study::evidence::{
-    Evidence, EvidenceSet, Grade, Kind, evidence, evidence_table, evidence_text, planned, word,
+    Comparison, Evidence, EvidenceSet, Grade, evidence, evidence_table, evidence_text, planned,
+    word,
 };
 
 fn set() -> EvidenceSet {
@@ -89,7 +90,7 @@ fn every_experiment_says_what_can_be_compared_and_its_points_plan_by_every_count
             assert!(labels.contains(&claim.more), "{name}: {}", claim.says);
             assert!(claim.less.as_ref().is_none_or(|less| labels.contains(less)));
             assert_eq!(
-                claim.kind == Kind::Ratio,
+                claim.kind == Comparison::Ratio,
                 claim.ratio.is_some(),
                 "{}",
                 claim.says

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use asperity::math::grid::{Grid, Symmetry};
 use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
-use asperity::physics::groups::OperatingPoint;
+use asperity::physics::groups::PointContact;
 use asperity::scene::Order;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{
@@ -120,7 +120,7 @@ impl Case {
     }
 
     /// The same for an operating point in SI (circular; Roelands, Dowson and Higginson).
-    pub(crate) fn of_point(point: &OperatingPoint, domain: (f64, f64, f64)) -> Self {
+    pub(crate) fn of_point(point: &PointContact, domain: (f64, f64, f64)) -> Self {
         let hertz = point.hertz();
         let p_hertz = hertz.p_max_pa;
         let lambda = 12.0 * point.entrainment_m_s * point.viscosity_pa_s * point.rx_m.powi(2)

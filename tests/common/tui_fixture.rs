@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Duration;
 
-use asperity::plan::Plan;
+use asperity::plan::{LeftOut, Plan};
 use asperity::run::{Command, Settled};
 use asperity::scene::{
     Body, Contact, ContactKind, CycleBasis, Life, Load, Motion, Record, Scene, Surface,
@@ -17,7 +17,7 @@ use asperity::sim::{
 use asperity::sweep::{Began, Conditions, Found};
 use asperity::tui::app::{App, Effect, ErrandKind};
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-use asperity::tui::{LeftOut, RecorderActivity, RecorderState, RunStatus, Setup, view};
+use asperity::tui::{RecorderActivity, RecorderState, RunStatus, Setup, view};
 use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -120,12 +120,12 @@ pub(crate) fn app(theme: Theme) -> App {
         plan_text: "Plan for \"Paper-like demonstration\"\n  film       129 x 129, step 1 node\n  stress     y = 0 every step, volume 8 times a period\n  memory     84 MB".into(),
         left_out: vec![
             LeftOut {
-                stage: "cavitation pools".into(),
-                reason: "cavitation = \"reynolds\": the gap behind the contact counts as full".into(),
+                stage: "cavitation pools",
+                why: "cavitation = \"reynolds\": the gap behind the contact counts as full".into(),
             },
             LeftOut {
-                stage: "tangential displacement".into(),
-                reason: "both bodies have the same elastic constants, so shear does not part them".into(),
+                stage: "tangential displacement",
+                why: "both bodies have the same elastic constants, so shear does not part them".into(),
             },
         ],
     };

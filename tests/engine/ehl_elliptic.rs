@@ -22,13 +22,13 @@
 use asperity::physics::film_regression::{
     hamrock_dowson_central_m, hamrock_dowson_minimum_m, nijenbanning_central_m,
 };
-use asperity::physics::groups::OperatingPoint;
+use asperity::physics::groups::PointContact;
 use asperity::plan::Plan;
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Frame, Simulation, Stage};
 
 /// Central and minimum film, m, of 65² and 129².
-fn films(ratio: f64, more: &[&str]) -> (OperatingPoint, [[f64; 2]; 2]) {
+fn films(ratio: f64, more: &[&str]) -> (PointContact, [[f64; 2]; 2]) {
     let sets = [
         "contact.rx_m=0.01".to_owned(),
         format!("contact.ry_m={}", 0.01 * ratio),

@@ -10,7 +10,7 @@
 //! --nocapture`. Their numbers stand at the tests.
 
 use crate::common::contact::{Case, Fluid, Row, Table, central, minimum};
-use asperity::physics::groups::OperatingPoint;
+use asperity::physics::groups::PointContact;
 
 /// Domain of the tables, in a.
 const TABLE: (f64, f64, f64) = (-4.5, 1.5, 3.0);
@@ -226,7 +226,7 @@ fn speed_sweep_of_the_base_case() {
     });
     for row in table.rows() {
         let speed = row.number("u_m_s");
-        let point = OperatingPoint {
+        let point = PointContact {
             rx_m: 0.01905,
             ry_m: 0.01905,
             e_prime_pa: 219.78e9,

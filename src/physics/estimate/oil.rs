@@ -10,7 +10,7 @@ use crate::physics::line::LinePoint;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FilmBasis {
     /// Of a point contact.
-    Point(groups::OperatingPoint),
+    Point(groups::PointContact),
     /// Of a line.
     Line(LinePoint),
 }

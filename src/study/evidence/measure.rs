@@ -6,7 +6,7 @@ use rustfft::num_complex::Complex;
 
 use super::dent::dent;
 use super::fit::{Waves, read};
-use super::set::{Case, Measure, Values, planned};
+use super::set::{EvidenceCase, Measure, Values, planned};
 use crate::physics::film_ripple::FlatFilm;
 use crate::physics::fluid::{Density, Viscosity};
 use crate::plan::Plan;
@@ -19,7 +19,7 @@ const TWO_REACH: f64 = 0.5;
 const RIPPLE_REACH: f64 = 0.6;
 
 /// A case on `nodes` per side, in the domain of the grid of `finest` nodes.
-pub(super) fn measure(case: &Case, nodes: usize, finest: usize) -> Result<Values, String> {
+pub(super) fn measure(case: &EvidenceCase, nodes: usize, finest: usize) -> Result<Values, String> {
     let (scene, plan) = on_grid(&case.scene, &case.set, nodes, finest)?;
     match case.measure {
         Measure::Stress => stress(&scene, plan),

@@ -17,7 +17,8 @@ pub use plot::{agreement_plot, experiments_plot};
 pub use report::{evidence_table, evidence_text};
 use set::Values;
 pub use set::{
-    Case, Claim, EvidenceSet, Experiment, Forecast, Grade, Kind, Measure, Point, Row, planned,
+    Comparison, EvidenceCase, EvidenceClaim, EvidenceNumber, EvidencePoint, EvidenceSet,
+    Experiment, Forecast, Grade, Measure, planned,
 };
 pub use tried::{Damage, Judged, Tried, word};
 
@@ -93,8 +94,8 @@ impl Evidence {
 
 /// What one worker does.
 enum EvidenceJob<'a> {
-    Case(&'a Case, usize, usize),
-    Point(&'a Experiment, &'a Point, CycleBasis, usize),
+    Case(&'a EvidenceCase, usize, usize),
+    Point(&'a Experiment, &'a EvidencePoint, CycleBasis, usize),
 }
 
 /// What came of it.
@@ -146,7 +147,7 @@ pub fn evidence(
     let clock = Instant::now();
     let set = EvidenceSet::shipped().map_err(StudyError::Scene)?;
     let wanted = |names: [&str; 3]| only.is_none_or(|part| names.iter().any(|n| n.contains(part)));
-    let mut cases: Vec<(&Case, [usize; 2])> = Vec::new();
+    let mut cases: Vec<(&EvidenceCase, [usize; 2])> = Vec::new();
     for case in &set.cases {
         let nodes = case.nodes(extent);
         if let Some(nodes) = nodes.filter(|_| wanted([&case.name, &case.source, &case.scene])) {
@@ -203,7 +204,11 @@ pub fn evidence(
 }
 
 /// The rows of a case from what its two grids gave.
-fn rows(case: &Case, nodes: [usize; 2], found: &[Result<Values, String>]) -> Vec<EvidenceRow> {
+fn rows(
+    case: &EvidenceCase,
+    nodes: [usize; 2],
+    found: &[Result<Values, String>],
+) -> Vec<EvidenceRow> {
     let failed = found.iter().find_map(|found| found.as_ref().err().cloned());
     let of = |grid: usize, name: &str| {
         let values = found[grid].as_ref().ok();
@@ -215,7 +220,7 @@ fn rows(case: &Case, nodes: [usize; 2], found: &[Result<Values, String>]) -> Vec
         scene.push_str(" --set ");
         scene.push_str(set);
     }
-    let row = |row: &Row| {
+    let row = |row: &EvidenceNumber| {
         let found = [0, 1].map(|grid| of(grid, &row.value));
         let limit = found[1] + (found[1] - found[0]) / 3.0;
         let theirs = match &row.closed {

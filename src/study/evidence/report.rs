@@ -336,15 +336,15 @@ fn push_left_out(text: &mut String) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::set::{Claim, Kind};
+    use super::super::set::{Comparison, EvidenceClaim};
     use super::*;
 
     fn judged(says: &str, holds: &[usize]) -> Judged {
         let countings = 0..CycleBasis::ALL.len();
         Judged {
-            claim: Claim {
+            claim: EvidenceClaim {
                 says: says.to_owned(),
-                kind: Kind::Rank,
+                kind: Comparison::Rank,
                 more: String::new(),
                 less: None,
                 ratio: None,

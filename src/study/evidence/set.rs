@@ -58,7 +58,7 @@ pub(super) type Values = Vec<(&'static str, f64)>;
 /// A number of a case.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Row {
+pub struct EvidenceNumber {
     /// What it is, with its unit.
     pub what: String,
     /// Name of the measured value.
@@ -82,7 +82,7 @@ pub struct Row {
 /// A computed case.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Case {
+pub struct EvidenceCase {
     /// Name.
     pub name: String,
     /// Grade.
@@ -99,10 +99,10 @@ pub struct Case {
     /// Nodes of both grids in the quick, usual and full form.
     nodes: [Vec<usize>; 3],
     /// The numbers.
-    pub row: Vec<Row>,
+    pub row: Vec<EvidenceNumber>,
 }
 
-impl Case {
+impl EvidenceCase {
     /// Nodes of both grids, coarse first; `None`: left out.
     pub fn nodes(&self, extent: Extent) -> Option<[usize; 2]> {
         let of = match extent {
@@ -117,7 +117,7 @@ impl Case {
 /// An operating point of an experiment.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Point {
+pub struct EvidencePoint {
     /// Name.
     pub label: String,
     /// Scene of `assets/evidence`.
@@ -146,7 +146,7 @@ fn one() -> usize {
 /// How two damages compare.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum Comparison {
     /// The first is greater.
     Rank,
     /// Both are alike.
@@ -158,11 +158,11 @@ pub enum Kind {
 /// What an experiment says.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Claim {
+pub struct EvidenceClaim {
     /// In words.
     pub says: String,
     /// How the points compare.
-    pub kind: Kind,
+    pub kind: Comparison,
     /// The point with the greater damage.
     pub more: String,
     /// The other one; `None`: the smooth contact, whose stress is 1.
@@ -217,9 +217,9 @@ pub struct Experiment {
     #[serde(default)]
     pub axis: Option<String>,
     /// Operating points.
-    pub point: Vec<Point>,
+    pub point: Vec<EvidencePoint>,
     /// What it says of them.
-    pub claim: Vec<Claim>,
+    pub claim: Vec<EvidenceClaim>,
     /// What its known life foretells.
     #[serde(default)]
     pub forecast: Option<Forecast>,
@@ -231,7 +231,7 @@ pub struct Experiment {
 pub struct EvidenceSet {
     /// Computations.
     #[serde(rename = "case")]
-    pub cases: Vec<Case>,
+    pub cases: Vec<EvidenceCase>,
     /// Experiments.
     #[serde(rename = "experiment")]
     pub experiments: Vec<Experiment>,

@@ -1,7 +1,7 @@
 //! Experiments: the damage at their operating points by every counting of cycles, and whether what they say holds.
 
 use super::measure::{on_grid, run};
-use super::set::{Claim, Experiment, Kind, Point};
+use super::set::{Comparison, EvidenceClaim, EvidencePoint, Experiment};
 use crate::scene::{CycleBasis, Scene, Surface};
 use crate::sim::{Frame, Simulation, Stage};
 
@@ -33,7 +33,7 @@ pub struct Damage {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
     /// The claim.
-    pub claim: Claim,
+    pub claim: EvidenceClaim,
     /// Damage of the one point over that of the other, by counting.
     pub ratios: Vec<f64>,
     /// Whether the claim holds, by counting.
@@ -99,19 +99,23 @@ impl Tried {
     }
 }
 
-fn holds(claim: &Claim, ratio: f64) -> bool {
+fn holds(claim: &EvidenceClaim, ratio: f64) -> bool {
     let within = |off: f64, factor: f64| (1.0 / factor..=factor).contains(&off);
     match claim.kind {
-        Kind::Rank => ratio > MORE,
-        Kind::Equal => within(ratio, ALIKE),
-        Kind::Ratio => claim
+        Comparison::Rank => ratio > MORE,
+        Comparison::Equal => within(ratio, ALIKE),
+        Comparison::Ratio => claim
             .ratio
             .is_some_and(|theirs| within(ratio / theirs, HALF_A_DECADE)),
     }
 }
 
 /// The damage of a point by a counting, on `nodes`.
-pub(super) fn damage(point: &Point, basis: CycleBasis, nodes: usize) -> Result<Damage, String> {
+pub(super) fn damage(
+    point: &EvidencePoint,
+    basis: CycleBasis,
+    nodes: usize,
+) -> Result<Damage, String> {
     let mut set = point.set.clone();
     set.push(format!("life.cycles={}", word(basis)));
     let (scene, plan) = on_grid(&point.scene, &set, nodes, nodes)?;
@@ -164,8 +168,8 @@ fn stress_at(scene: &Scene, depth_m: f64) -> Result<f64, String> {
 mod tests {
     use super::*;
 
-    fn claim(kind: Kind, ratio: Option<f64>) -> Claim {
-        Claim {
+    fn claim(kind: Comparison, ratio: Option<f64>) -> EvidenceClaim {
+        EvidenceClaim {
             says: String::new(),
             kind,
             more: String::new(),
@@ -178,12 +182,18 @@ mod tests {
 
     #[test]
     fn claims_hold_where_they_should_and_nowhere_else() {
-        assert!(holds(&claim(Kind::Rank, None), 1.2) && !holds(&claim(Kind::Rank, None), 1.05));
-        assert!(holds(&claim(Kind::Equal, None), 0.8) && !holds(&claim(Kind::Equal, None), 2.0));
-        let ratio = claim(Kind::Ratio, Some(100.0));
+        assert!(
+            holds(&claim(Comparison::Rank, None), 1.2)
+                && !holds(&claim(Comparison::Rank, None), 1.05)
+        );
+        assert!(
+            holds(&claim(Comparison::Equal, None), 0.8)
+                && !holds(&claim(Comparison::Equal, None), 2.0)
+        );
+        let ratio = claim(Comparison::Ratio, Some(100.0));
         assert!(holds(&ratio, 250.0) && holds(&ratio, 40.0));
         assert!(!holds(&ratio, 20.0) && !holds(&ratio, 400.0));
-        for kind in [Kind::Rank, Kind::Equal, Kind::Ratio] {
+        for kind in [Comparison::Rank, Comparison::Equal, Comparison::Ratio] {
             assert!(!holds(&claim(kind, Some(1.0)), f64::NAN));
         }
     }

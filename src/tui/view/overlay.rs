@@ -178,10 +178,10 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
         for left in &app.setup.left_out {
             lines.push(Line::from(vec![
                 Span::styled(
-                    format!("  {}: ", ascii_text(theme, &left.stage)),
+                    format!("  {}: ", ascii_text(theme, left.stage)),
                     theme.style(Role::Strong),
                 ),
-                Span::raw(ascii_text(theme, &left.reason)),
+                Span::raw(ascii_text(theme, &left.why)),
             ]));
         }
         lines.push(Line::default());

@@ -254,7 +254,7 @@ fn hint_width((key, word): &(&str, String)) -> usize {
 /// What the plan leaves out: all of it where it fits, else how much.
 fn left_out(app: &App, room: usize) -> String {
     let left_out = &app.setup.left_out;
-    let stages: Vec<&str> = left_out.iter().map(|left| left.stage.as_str()).collect();
+    let stages: Vec<&str> = left_out.iter().map(|left| left.stage).collect();
     let all = ascii_text(app.theme, &format!("not computed: {}", stages.join(", ")));
     if all.chars().count() + 4 <= room {
         all
