@@ -4,6 +4,7 @@
 mod circles;
 mod features;
 mod guide;
+mod names;
 mod provenance;
 
 use std::path::Path;
