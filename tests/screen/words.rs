@@ -225,11 +225,11 @@ fn a_single_step_that_did_not_converge_can_be_read_with_its_reason() {
     });
     // Solved within the tolerance: it is the overlap that is wrong, and two frames later it is still told.
     play(&mut app, 98..=99, &State::default());
-    let shown = text(&app, 160, 48);
-    assert!(
-        shown.contains("STEP 97 NOT CONVERGED: surfaces overlap by 0.30 nm"),
-        "{shown}"
-    );
+    for (width, height) in [(80, 24), (160, 48)] {
+        let shown = text(&app, width, height);
+        let told = "STEP 97 NOT CONVERGED: surfaces overlap by 0.30 nm; e, Enter: wider domain";
+        assert!(shown.contains(told), "{shown}");
+    }
     play(&mut app, 100..=300, &State::default());
     assert!(!text(&app, 160, 48).contains("NOT CONVERGED"));
 }

@@ -156,7 +156,8 @@ fn not_converged(app: &App, trouble: Trouble) -> String {
         Unconverged::Film(part) => format!("{part:.1e} of the film not balanced"),
         Unconverged::Overlap(overlap_m) => {
             let overlap = app.units.film().show(overlap_m, 2);
-            format!("surfaces overlap by {overlap}, perhaps at the domain's edge")
+            // A load turned by hand keeps the domain of the run's start; started anew the scene has one of its own.
+            format!("surfaces overlap by {overlap}; e, Enter: wider domain")
         }
     };
     format!(" STEP {} NOT CONVERGED: {why} ", trouble.step)
