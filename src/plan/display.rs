@@ -77,53 +77,59 @@ impl Plan {
             significant(u_1),
             significant(u_2)
         )?;
-        if let Some(film) = &self.film {
-            let m = film.groups.m;
-            write!(
-                f,
-                "Film        M {}, L {:.2}, αp_h {:.1}; smooth by formula: central {:.1} nm ",
-                if m < 10.0 {
-                    significant(m)
-                } else {
-                    m.round().to_string()
-                },
-                film.groups.l,
-                film.groups.alpha_p_hertz,
-                film.central_m * 1e9
-            )?;
-            let source = match film.others {
-                OtherFilms::HamrockDowson {
-                    central_m,
-                    minimum_m,
-                } => {
-                    writeln!(
-                        f,
-                        "(Nijenbanning), {:.1} nm (Hamrock-Dowson), minimum {:.1} nm (Hamrock-Dowson)",
-                        central_m * 1e9,
-                        minimum_m * 1e9
-                    )?;
-                    "Hamrock-Dowson"
-                }
-                OtherFilms::DowsonHigginson { minimum_m } => {
-                    writeln!(
-                        f,
-                        "(Moes), minimum {:.1} nm (Dowson-Higginson)",
-                        minimum_m * 1e9
-                    )?;
-                    "Moes"
-                }
-            };
-            if let Some(ratio) = film.lambda_ratio {
-                writeln!(
-                    f,
-                    "Lambda      {ratio:.2} = central film ({source})/composite root-mean-square roughness"
-                )?;
-            }
-        }
+        self.write_film(f)?;
         for (index, wave) in self.waves.iter().enumerate() {
             if let Some(wave) = wave {
                 writeln!(f, "Body {}      {}", index + 1, wave_text(wave))?;
             }
+        }
+        Ok(())
+    }
+
+    fn write_film(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(film) = &self.film else {
+            return Ok(());
+        };
+        let m = film.groups.m;
+        write!(
+            f,
+            "Film        M {}, L {:.2}, αp_h {:.1}; smooth by formula: central {:.1} nm ",
+            if m < 10.0 {
+                significant(m)
+            } else {
+                m.round().to_string()
+            },
+            film.groups.l,
+            film.groups.alpha_p_hertz,
+            film.central_m * 1e9
+        )?;
+        let source = match film.others {
+            OtherFilms::HamrockDowson {
+                central_m,
+                minimum_m,
+            } => {
+                writeln!(
+                    f,
+                    "(Nijenbanning), {:.1} nm (Hamrock-Dowson), minimum {:.1} nm (Hamrock-Dowson)",
+                    central_m * 1e9,
+                    minimum_m * 1e9
+                )?;
+                "Hamrock-Dowson"
+            }
+            OtherFilms::DowsonHigginson { minimum_m } => {
+                writeln!(
+                    f,
+                    "(Moes), minimum {:.1} nm (Dowson-Higginson)",
+                    minimum_m * 1e9
+                )?;
+                "Moes"
+            }
+        };
+        if let Some(ratio) = film.lambda_ratio {
+            writeln!(
+                f,
+                "Lambda      {ratio:.2} = central film ({source})/composite root-mean-square roughness"
+            )?;
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! A run's state in a file: JSON behind one line with format and digest.
 //!
 //! ```text
-//! asperity state 1 <FNV-1a of the rest, hexadecimal>
+//! asperity state 2 <FNV-1a of the rest, hexadecimal>
 //! { "program": ..., "scene": ..., "n_events_played": ..., "n_unconverged": ..., "sim": { ... } }
 //! ```
 //! Numbers are written with as many digits as read back to the same bits.
@@ -16,7 +16,7 @@ use crate::files::fnv;
 use crate::scene::Scene;
 use crate::sim::State;
 
-const MAGIC: &str = "asperity state 1 ";
+const MAGIC: &str = "asperity state 2 ";
 /// Nodes per side of the finest grid.
 const FINEST: usize = 1025;
 /// Digits of the digest.
@@ -112,7 +112,7 @@ impl Checkpoint {
             .and_then(|rest| rest.strip_suffix('\n'));
         let Some(digest) = digest.filter(|_| whole.is_ok()) else {
             return Err(failed(
-                "not a state saved by this version of asperity".to_owned(),
+                "no state, or one of an earlier format (this build reads format 2)".to_owned(),
             ));
         };
         let mut body = String::new();

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::caution;
 use super::fatigue_stage::LifeStage;
@@ -20,12 +21,27 @@ struct Entry {
     /// Its length, in a.
     span: f64,
     /// What the catalogue sums up, in its order.
+    #[serde(deserialize_with = "padded")]
     values: [Option<f64>; SUMMED],
     /// Greatest effective stress: value, depth, x.
     stress: Option<[f64; 3]>,
     /// What both bodies have yielded up to its end, m³.
     #[serde(default)]
     yielded_m3: f64,
+}
+
+/// Values of a state saved before the catalogue got its last lines: what those read is not known of its steps.
+fn padded<'de, D: Deserializer<'de>>(saved: D) -> Result<[Option<f64>; SUMMED], D::Error> {
+    let known = Vec::<Option<f64>>::deserialize(saved)?;
+    let mut values = [None; SUMMED];
+    let Some(first) = values.get_mut(..known.len()) else {
+        return Err(D::Error::invalid_length(
+            known.len(),
+            &"fewer values of a step",
+        ));
+    };
+    first.copy_from_slice(&known);
+    Ok(values)
 }
 
 /// What the summary averages over the last passage or period, each step by its length.
@@ -105,7 +121,7 @@ impl Totals {
         });
         let sum: f64 = known.clone().map(|(weight, value)| weight * value).sum();
         let length: f64 = known.map(|(weight, _)| weight).sum();
-        (length > 0.0).then(|| sum / length.max(f64::MIN_POSITIVE))
+        (length > 0.0).then(|| sum / length)
     }
 
     /// What is shown by itself, each by its key.
@@ -257,4 +273,27 @@ fn a_iso(sim: &Simulation) -> Option<f64> {
     let m = sim.metrics();
     let load_ratio = sim.iso_load_ratio? * sim.plan.force_n / m.load_n;
     a_iso_radial_ball(kappa_from_lambda(m.lambda_ratio?), load_ratio)
+}
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_saved_before_a_quantity_was_added_are_read() {
+        let entry = |values: usize| {
+            let values = vec!["2.5"; values].join(",");
+            let text = format!(r#"{{"way":1.0,"span":0.5,"values":[{values}],"stress":null}}"#);
+            serde_json::from_str::<Entry>(&text)
+        };
+        let before = entry(SUMMED - 1).unwrap();
+        assert_eq!(
+            (before.values[0], before.values[SUMMED - 1]),
+            (Some(2.5), None)
+        );
+        assert_eq!(entry(SUMMED).unwrap().values, [Some(2.5); SUMMED]);
+        let refused = entry(SUMMED + 1).unwrap_err().to_string();
+        assert!(refused.contains("invalid length"), "{refused}");
+    }
 }

@@ -9,7 +9,7 @@ use super::Existing;
 use crate::files::{BUILD, identity, open_plain, read_up_to};
 
 /// Beginning of the mark: the format of the folder and its files.
-const FORMAT: &str = "asperity sweep 2 ";
+const FORMAT: &str = "asperity sweep 3 ";
 /// The file with the mark.
 pub(super) const MARK: &str = "sweep.digest";
 const LOCK: &str = "sweep.lock";
