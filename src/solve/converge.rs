@@ -23,6 +23,9 @@ pub const CARRIED: f64 = 0.1;
 /// said to touch at, untuned.
 pub const OVERLAP: f64 = 0.05;
 
+/// Times that the deflection by traction may use a solution's iterations in one step; a safeguard, untuned.
+const FOLLOWED: usize = 4;
+
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
@@ -58,6 +61,8 @@ pub struct NewtonReport {
     pub verdict: Verdict,
     /// Newton iterations.
     pub iterations: u32,
+    /// Newton iterations when the deflection by traction last followed (`tangential.rs`).
+    pub followed_at: u32,
     /// Krylov iterations.
     pub linear_iterations: u32,
     /// Residual evaluations (one deflection in double precision each).
@@ -84,6 +89,7 @@ impl NewtonReport {
         Self {
             verdict: Verdict::Stalled,
             iterations: 0,
+            followed_at: 0,
             linear_iterations: 0,
             evaluations: 0,
             change: f64::INFINITY,
@@ -94,6 +100,13 @@ impl NewtonReport {
             overlap: 0.0,
             worst_node: 0,
         }
+    }
+
+    /// Whether the contact with the u^s that is held has had its `most` iterations, or all of them together [`FOLLOWED`]
+    /// times as many.
+    pub(super) fn is_out_of_work(&self, most: usize) -> bool {
+        let since = self.iterations - self.followed_at;
+        since as usize >= most || self.iterations as usize >= FOLLOWED * most
     }
 
     /// Takes what a further solution reached and adds what it took.

@@ -180,7 +180,7 @@ impl Newton {
                 report.verdict = Verdict::Converged;
                 return report;
             }
-            if report.iterations as usize >= problem.tolerance.max_iterations {
+            if report.is_out_of_work(problem.tolerance.max_iterations) {
                 return report;
             }
             report.iterations += 1;

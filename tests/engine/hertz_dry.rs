@@ -156,6 +156,7 @@ fn unlike_bodies_slide_alike_by_both_paths() {
         law: &law,
         deflection: &sheared,
         film: &march.state.film,
+        keeps: false,
     };
     let answer = (&mut p[..], &mut h[..], &mut h0);
     let newton_report = by_newton(&march, &mut newton, Some(sheared), asked.tolerance, answer);

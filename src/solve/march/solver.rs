@@ -194,6 +194,7 @@ impl Solver {
                 law,
                 deflection: &state.sheared,
                 film: &state.film,
+                keeps: guess == Guess::Last,
             }),
             gap: &self.gap,
             c_star: &self.c_star,

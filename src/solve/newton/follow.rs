@@ -7,9 +7,11 @@ use super::judge::Evaluation;
 use super::{Iterate, Newton, NewtonReport, Problem};
 
 impl Newton {
-    /// A step begins with all of the deflection that the traction of its first guess makes.
+    /// A step begins with all of the deflection that the traction of its first guess makes, unless this keeps the last one's.
     pub(super) fn begin_traction(&mut self, problem: &Problem, iterate: &mut Iterate) {
-        if let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared) {
+        if let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared)
+            && !sheared.keeps
+        {
             shear.aim(&sheared, iterate.p, iterate.h, problem.tolerance.least_film);
             shear.follow(iterate.h);
             self.balance(problem, iterate);
@@ -42,17 +44,15 @@ impl Newton {
             new.film_error += way;
             return new;
         }
+        shear.set_share();
         shear.follow(iterate.h);
+        report.followed_at = report.iterations;
         let lacking = shear.lacking(way);
         self.balance(problem, iterate);
-        let held = new.merit;
         new = self.judge(problem, iterate);
         new.film_error += lacking;
         new.reduction = new.merit / base;
         report.left = left_of(report.change, new.reduction);
-        if let Some(shear) = &mut self.shear {
-            shear.pace(base, held, new.merit);
-        }
         new
     }
 }
