@@ -24,7 +24,6 @@ pub(super) struct Counting {
     trackers: [MaterialTracker; 2],
     row: Vec<f32>,
     shown_depth: usize,
-    #[serde(default)]
     shown_body: BodyId,
     /// The shown point.
     pub(super) shown: Option<Sample>,

@@ -6,11 +6,13 @@
 //! bodies are compared in time, as equal discs: `L = [½ Σ (N_i U/|U_i|)^{−e}]^{−1/e}` relative to the two bodies of the
 //! reference (U_fast in place of U_i where N_i are its cycles).
 
+mod lives;
+mod reference;
+
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
 use super::estimates::{LifeDetail, LifeEstimate, Repeat};
-use super::reference::Calibration;
 use super::settling::Settling;
 use super::smooth::Conditions;
 use super::stress_stage::StressStage;
@@ -38,29 +40,40 @@ pub(super) struct Now {
     pub(super) has_reference: bool,
 }
 
+/// Loading cycles of the smooth contact, where the scene gives a point of them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Calibration {
+    /// Cycles of the point.
+    cycles: f64,
+    /// p_cal/p_h.
+    pressure_ratio: f64,
+    /// Life at the scene's survival over that at the point's.
+    survival_ratio: f64,
+}
+
 /// Life models under way.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct LifeStage {
-    pub(super) law: LifeLaw,
-    pub(super) asked: Life,
+    law: LifeLaw,
+    asked: Life,
     /// The scene's model first.
-    pub(super) variants: Vec<Variant>,
+    variants: Vec<Variant>,
     pub(super) laws: Vec<StressLaw>,
-    pub(super) sweep: Sweep,
+    sweep: Sweep,
     scratch: Shares,
-    pub(super) depths: Vec<f64>,
+    depths: Vec<f64>,
     /// Wavelength along x of the mating crests, a.
-    pub(super) wavelengths: [Option<f64>; 2],
+    wavelengths: [Option<f64>; 2],
     is_smooth: bool,
-    pub(super) calibration: Option<Calibration>,
+    calibration: Option<Calibration>,
     /// Directions in which the contact grows with the pressure.
-    pub(super) sides: f64,
+    sides: f64,
     /// Hertz half-width, over the scene's, for which the reference was computed.
-    pub(super) reference_size: f64,
+    reference_size: f64,
     /// Load and speed for which it was.
     pub(super) reference_at: Conditions,
     /// Cycles of the smooth contact of that size.
-    pub(super) reference_cycles: Option<f64>,
+    reference_cycles: Option<f64>,
     settling: Settling,
     /// How far ln of the damage of both bodies moved, where cycles count by it.
     damage: Marks,
@@ -143,7 +156,7 @@ impl LifeStage {
     }
 
     /// Passes over the surface loaded last and hands its sums to every model.
-    pub(super) fn each(
+    fn each(
         &mut self,
         stress: &mut StressStage,
         mut take: impl FnMut(&mut Variant, &mut StressStage, &mut Shared),
@@ -213,7 +226,7 @@ impl LifeStage {
     }
 
     /// Forgets the phases seen.
-    pub(super) fn clear(&mut self) {
+    fn clear(&mut self) {
         self.sweep.restart();
         for variant in &mut self.variants {
             variant.restart();

@@ -16,7 +16,6 @@ pub(super) struct Motion {
     /// Time (a/U) that must pass until a steady contact is steady again.
     unsettled: f64,
     /// Ways that the surfaces still have to be led beside their own, in a, and over which time (a/U).
-    #[serde(default)]
     lead: ([f64; 2], f64),
 }
 

@@ -83,18 +83,16 @@ impl StressStage {
         measure: StressMeasure,
         purpose: Purpose,
     ) -> Result<Self, StressError> {
-        use crate::solve::stress::Symmetry as Rows;
-        let volume = |rows: Rows| {
+        let volume = || {
             let (nodes, spacing) = ((grid.nx, grid.ny), (grid.dx, grid.dy));
-            let mut spec = StressSpec::new(nodes, spacing, poisson[0], depths, rows);
+            let mut spec = StressSpec::new(nodes, spacing, poisson[0], depths, grid.symmetry);
             spec.nu_2 = poisson[1];
             (spec.x_first, spec.measure) = (grid.x_min, measure);
             spec.purpose = purpose;
             StressEngine::new(&spec).map(|engine| StressBackend::Volume(Box::new(engine)))
         };
         let engine = match grid.symmetry {
-            Symmetry::MirrorY => volume(Rows::MirrorY)?,
-            Symmetry::General => volume(Rows::General)?,
+            Symmetry::MirrorY | Symmetry::General => volume()?,
             Symmetry::Line => {
                 let place = (grid.x_min, grid.dx);
                 let engine = LineStress::new(grid.nx, place, poisson, depths, measure);
