@@ -22,7 +22,7 @@ use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
 use crate::scene::{ContactKind, CycleBasis, Life, Scene, Surface, VolumeIntegral};
-use crate::solve::life::{Shares, Sweep, Window};
+use crate::solve::life::{Sweep, Window};
 use crate::solve::marks::Marks;
 use crate::solve::stress::{Loading, StressLaw};
 
@@ -60,7 +60,6 @@ pub(super) struct LifeStage {
     variants: Vec<Variant>,
     pub(super) laws: Vec<StressLaw>,
     sweep: Sweep,
-    scratch: Shares,
     depths: Vec<f64>,
     /// Wavelength along x of the mating crests, a.
     wavelengths: [Option<f64>; 2],
@@ -115,7 +114,6 @@ impl LifeStage {
             variants,
             laws,
             sweep: Sweep::new(stress.row_count()),
-            scratch: Shares::new(depths.len()),
             depths,
             wavelengths: BodyId::BOTH.map(wavelength),
             is_smooth: (scene.surfaces().iter()).all(|s| matches!(s, Surface::Smooth {})),
@@ -166,11 +164,12 @@ impl LifeStage {
             law: self.law,
             laws: &self.laws,
             sweep: &self.sweep,
-            scratch: &mut self.scratch,
+            scratch: std::mem::take(&mut stress.shares),
         };
         for variant in &mut self.variants {
             take(variant, stress, &mut shared);
         }
+        stress.shares = shared.scratch;
     }
 
     /// How cycles are counted, and of whose loading cycles lives are.
@@ -189,14 +188,13 @@ impl LifeStage {
 
     /// Whether a stage that was saved is of the same make as this one.
     pub(super) fn fits(&self, saved: &Self) -> bool {
-        let (depths, rows) = (self.depths.len(), self.sweep.of(Loading::ALL[0]).len());
+        let rows = self.sweep.of(Loading::ALL[0]).len();
         self.law == saved.law
             && self.calibration == saved.calibration
             && self.asked == saved.asked
             && self.laws == saved.laws
             && self.depths == saved.depths
             && saved.sweep.is_sound(rows)
-            && saved.scratch.is_sound(depths)
             && saved.damage.is_sound()
             && self.variants.len() == saved.variants.len()
             && self

@@ -39,7 +39,7 @@ pub(super) struct Shared<'a> {
     pub(super) law: LifeLaw,
     pub(super) laws: &'a [StressLaw],
     pub(super) sweep: &'a Sweep,
-    pub(super) scratch: &'a mut Shares,
+    pub(super) scratch: Shares,
 }
 
 impl Variant {
@@ -126,7 +126,7 @@ impl Variant {
     /// Takes the surface loaded last; the volume pass has been made.
     pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, shared: &mut Shared) {
         self.take(stress, shared);
-        self.meter.push(way, shared.scratch);
+        self.meter.push(way, &shared.scratch);
     }
 
     /// What has been swept, as the mean over the material points of `counting`.

@@ -24,20 +24,12 @@ impl Simulation {
             self.work
                 .pool
                 .install(|| stress.slice(p, q, measured.friction));
-        }
-        if on_fine
-            && self.state.phase == Phase::Passage
-            && let Some(counting) = &mut self.state.counting
-        {
-            let travel = [0, 1].map(|body: usize| self.state.watched[body] - before[body]);
-            let pressure = &self.state.contact.pressure;
-            counting.step(
-                &self.work.solver.grid,
-                travel,
-                pressure,
-                self.work.stress.as_ref(),
-                size,
-            );
+            if self.state.phase == Phase::Passage
+                && let Some(counting) = &mut self.state.counting
+            {
+                let travel = [0, 1].map(|body: usize| self.state.watched[body] - before[body]);
+                counting.step(&self.work.solver.grid, travel, stress, size);
+            }
         }
         if looks {
             self.sample_life();

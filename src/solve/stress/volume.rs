@@ -271,7 +271,7 @@ impl LayerInput<'_> {
                 match self.spec.symmetry {
                     Symmetry::MirrorY => unfold_rows(layer, block, which, input, fields),
                     Symmetry::General | Symmetry::Line => {
-                        turn_rows(layer, block, which, input, fields)
+                        turn_rows(layer, block, which, input, fields);
                     }
                 }
             }

@@ -136,7 +136,7 @@ impl Forced {
                 let asked = Plan::new(&scene).ok()?;
                 // What nobody forces stays left out.
                 plan = Plan {
-                    march: plan.time_dependence,
+                    time_dependence: plan.time_dependence,
                     steps: plan.steps,
                     symmetry: plan.symmetry,
                     ..asked
