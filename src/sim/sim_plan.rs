@@ -4,7 +4,6 @@ use super::Grounds;
 use super::door::Door;
 use super::orbit::LONGEST;
 use super::pace::Stepping;
-use super::regime::Regime;
 use crate::math::grid::Grid;
 use crate::physics::fluid::ShearedFlow;
 use crate::physics::strength::{self, Strength};
@@ -30,9 +29,12 @@ pub(super) struct SimPlan {
     pub(super) shape: Shape,
     /// Flow of the films that are films.
     pub(super) flow: Flow,
-    pub(super) regime: Regime,
+    /// Of steps with flow and of steps without.
+    pub(super) tolerances: [Tolerance; 2],
     /// Traction law of the scene's oil; its speed is the step's.
     pub(super) law: TractionLaw,
+    /// η0/(p_h × film unit), s/m: shear stress of a Newtonian film per sliding speed; 0: no oil.
+    pub(super) shear_rate: f64,
     /// What cautions rest on, as far as the scene gives it.
     pub(super) grounds: Grounds,
     pub(super) stepping: Stepping,
@@ -49,14 +51,14 @@ impl SimPlan {
     pub(super) fn new(scene: &Scene, decided: Plan) -> Self {
         let door = Door::new(scene);
         let flow = flow_of(scene);
-        let speed_m_s = scene.motion.entrainment_m_s.abs();
         let hardness = scene.hardness_pa();
         Self {
             scene: scene.clone(),
             shape: shape_of(&decided, &door),
             flow,
-            regime: Regime::new(&decided, flow, speed_m_s, |flow| {
-                tolerance_of(scene, flow, &door)
+            tolerances: [flow, Flow::Dry].map(|flow| tolerance_of(scene, flow, &door)),
+            shear_rate: scene.lubricant.as_ref().map_or(0.0, |oil| {
+                oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
             }),
             law: traction_law(scene, &door),
             grounds: grounds_of(scene),

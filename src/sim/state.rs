@@ -100,7 +100,7 @@ impl State {
             contact,
             drive: wanted.smooth(),
             wanted,
-            motion: motion_of(plan),
+            motion: Motion::new(),
             yielded: yields.then(|| Yielded::new(&fine, scene.softer(), repeats)),
             watched: [0.0; 2],
             counting,
@@ -138,15 +138,6 @@ impl State {
             life.make_room();
         }
     }
-}
-
-fn motion_of(plan: &SimPlan) -> Motion {
-    let door = &plan.door;
-    let mut motion = Motion::new();
-    motion.shear_rate = plan.scene.lubricant.as_ref().map_or(0.0, |oil| {
-        oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
-    });
-    motion
 }
 
 /// A knob as the scene wants it, and how fast it walks.

@@ -273,10 +273,7 @@ impl Mover<'_> {
         } else if report.verdict != Verdict::Converged && report.film_error > HOPELESS {
             done.keep(&report);
             let (x_m, y_m) = self.place_of(report.worst_node);
-            let (flow, tolerance) = (
-                self.solver.flow,
-                self.plan.regime.tolerance(self.solver.flow),
-            );
+            let (flow, tolerance) = (self.solver.flow, self.plan.tolerance(self.solver.flow));
             let asked = Unsolved {
                 residual_asked: tolerance.pressure,
                 film_error_asked: tolerance.film,
@@ -306,7 +303,7 @@ impl Mover<'_> {
         }
         if let Some((node, overlap)) = self
             .solver
-            .overlap_at_edge(self.plan.regime.tolerance(self.solver.flow).least_film)
+            .overlap_at_edge(self.plan.tolerance(self.solver.flow).least_film)
         {
             // Solved as it stands; but contact reaches beyond the domain, so it is not the scene's.
             done.converged = false;
@@ -356,25 +353,22 @@ impl Mover<'_> {
         solve: impl FnOnce(&mut Solver, &State, &Conditions) -> NewtonReport,
     ) -> NewtonReport {
         let value = |knob| self.drive.get(knob).now;
-        let flow = self.plan.regime.flow_now(&self.plan.door, self.drive);
+        let flow = self.plan.flow_now(self.drive);
         let (speed, slide_roll) = (value(Knob::EntrainmentMS), value(Knob::SlideRoll));
         let medium = match flow {
             Flow::Dry => self.plan.door.medium_at_rest(),
             Flow::Film | Flow::MassConserving => self.plan.door.medium(speed, slide_roll),
         };
         // Of the knobs as this step has moved them.
-        let plan = self.plan;
-        let law = plan
-            .regime
-            .law_now(&plan.law, &plan.door, self.drive, self.motion);
+        let law = self.plan.law_now(self.drive);
         let conditions = Conditions {
             medium: &medium,
             law: Some(&law),
             load: self.plan.door.load(value(self.plan.door.load_knob())),
-            tolerance: self.plan.regime.tolerance(flow),
+            tolerance: self.plan.tolerance(flow),
         };
         self.solver.flow = flow;
-        self.solver.newton.order = self.plan.regime.order_now(&self.plan.door, self.drive);
+        self.solver.newton.order = self.plan.order_now(self.drive);
         self.solver.yield_at(match self.yielded {
             Some(_) => self.plan.hardness,
             None => f64::INFINITY,

@@ -217,7 +217,6 @@ fn crafted_states_are_refused_in_words() {
         ("/time_s", json!(-1.0)),
         ("/way", json!(-1.0)),
         ("/motion/unsettled", json!(-1.0)),
-        ("/motion/shear_rate", json!(1.0)),
         ("/pace/nodes", json!(0.0)),
         ("/orbit/period", json!(0.0)),
         ("/orbit/ring/2/film", json!([])),

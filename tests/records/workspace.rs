@@ -2,7 +2,7 @@
 //! the work that is counted are the same as of the run that kept it.
 //!
 //! Seen to fail with a warm start planted in the solver (the last attempt's pressure as the first guess of the next one in
-//! place of the state's): every case but those that rest.
+//! place of the state's): all three tests end at the second step.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::restart_matrix::{lengthen, scene_smooth};

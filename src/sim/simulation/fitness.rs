@@ -102,7 +102,7 @@ impl Simulation {
             "its steps or times are not valid",
         )?;
         demand(
-            self.state.motion.fits(&state.motion) && state.pace.is_sound(),
+            state.motion.is_sound() && state.pace.is_sound(),
             "its motion does not fit the scene",
         )?;
         if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {

@@ -10,8 +10,7 @@ use crate::solve::march::Flow;
 impl Simulation {
     /// a and p_h of the present load over those of the scene's.
     pub(super) fn size_now(&self) -> f64 {
-        let load = self.state.drive.get(self.plan.door.load_knob()).now / self.plan.decided.force_n;
-        self.plan.door.size_ratio(load)
+        self.plan.size_now(&self.state.drive)
     }
 
     /// Relative error of stress by the mesh, of the bodies that are rough now.
@@ -23,15 +22,8 @@ impl Simulation {
 
     /// What was measured of the committed step, its regime and mesh error.
     pub(super) fn publish_lubrication(&mut self, measured: &Measured) {
-        let film = self
-            .plan
-            .regime
-            .film_now(&self.plan.door, &self.state.drive);
-        let flows = self
-            .plan
-            .regime
-            .flow_now(&self.plan.door, &self.state.drive)
-            != Flow::Dry;
+        let film = self.plan.film_now(&self.state.drive);
+        let flows = self.plan.flow_now(&self.state.drive) != Flow::Dry;
         let errors = self.mesh_errors_now(film);
         let m = &mut self.state.metrics;
         measured.publish(&self.plan.door, m);
@@ -70,15 +62,8 @@ impl Simulation {
 
     /// What cautions rest on beside the scalars.
     pub(super) fn grounds(&self) -> Grounds {
-        let film = self
-            .plan
-            .regime
-            .film_now(&self.plan.door, &self.state.drive);
-        let flows = self
-            .plan
-            .regime
-            .flow_now(&self.plan.door, &self.state.drive)
-            != Flow::Dry;
+        let film = self.plan.film_now(&self.state.drive);
+        let flows = self.plan.flow_now(&self.state.drive) != Flow::Dry;
         let size = self.size_now();
         let measured = self.state.metrics.errors.map(|errors| errors.h_central);
         let by_rule = film.map(|film| self.mesh_rule(&film, size));

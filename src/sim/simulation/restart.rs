@@ -75,7 +75,7 @@ impl Simulation {
         state.nodes = neighbour.nodes;
         state.contact.clone_from(&neighbour.contact);
         if let (Some(own), Some(other)) = (&mut state.life, &neighbour.life) {
-            own.take_base(other, self.plan.regime.base());
+            own.take_base(other, self.plan.base());
         }
         if let (Some(own), Some(other)) = (&mut state.counting, &neighbour.counting) {
             own.take_reference(other);

@@ -54,7 +54,7 @@ impl Simulation {
             .plan
             .door
             .size_ratio(at.load / self.plan.decided.force_n);
-        let film = self.plan.regime.film_at(at);
+        let film = self.plan.film_at(at);
         let central = film.map_or(0.0, |film| self.plan.door.h_from_m(film.central_m));
         let mut drive = self.state.wanted.smooth();
         drive.jump(self.plan.door.load_knob(), at.load);
@@ -74,10 +74,7 @@ impl Simulation {
     }
 
     fn flows_at(&self, at: Conditions) -> bool {
-        self.plan
-            .regime
-            .film_at(at)
-            .is_some_and(|film| film.flows())
+        self.plan.film_at(at).is_some_and(|film| film.flows())
     }
 
     fn refine_smooth(&self, smooth: &mut Smooth) {

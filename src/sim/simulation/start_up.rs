@@ -36,7 +36,7 @@ impl Simulation {
             h_min: off(coarser.h_min, measured.h_min),
             p_max: off(coarser.p_max, measured.p_max) + self.plan.stress_error([1.0; 2]),
         });
-        let base = self.plan.regime.base();
+        let base = self.plan.base();
         if let (Some(stress), Some(life)) = (&mut self.work.stress, &mut self.state.life) {
             let (p, q) = (&self.state.contact.pressure, &self.work.traction);
             self.work.pool.install(|| {

@@ -118,12 +118,7 @@ impl Simulation {
     }
 
     pub(super) fn measure(&mut self) -> Measured {
-        let law = self.plan.regime.law_now(
-            &self.plan.law,
-            &self.plan.door,
-            &self.state.drive,
-            &self.state.motion,
-        );
+        let law = self.plan.law_now(&self.state.drive);
         let scale = self.size_now();
         let state = &self.state.contact;
         self.work.traction.resize(self.work.solver.grid.len(), 0.0);
@@ -153,8 +148,8 @@ impl Simulation {
         m.mass_error = attempted.mass_error;
         m.load_error = attempted.load_error;
         m.overlap_m = door.m_from_h(attempted.overlap);
-        let flow = self.plan.regime.flow_now(door, &self.state.drive);
-        let tolerance = self.plan.regime.tolerance(flow);
+        let flow = self.plan.flow_now(&self.state.drive);
+        let tolerance = self.plan.tolerance(flow);
         m.asked = [tolerance.pressure, tolerance.film];
         let load = door.load_knob();
         let (s, force) = (
