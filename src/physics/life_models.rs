@@ -28,9 +28,9 @@ use serde::{Deserialize, Serialize};
 
 use super::fatigue::LifeLaw;
 
-/// A life model; stress in p_h, lengths in a.
+/// A life model with its parameters; stress in p_h, lengths in a.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum LifeModel {
+pub enum LifeEquation {
     /// Volume integral of σ^{c e}.
     Zaretsky,
     /// Greatest orthogonal shear and its depth.
@@ -64,7 +64,7 @@ pub enum LifeModel {
 /// h of Lundberg and Palmgren.
 pub const DEPTH_EXPONENT: f64 = 7.0 / 3.0;
 
-impl LifeModel {
+impl LifeEquation {
     /// Exponent of a volume integral over stress, and the limit; `None` for models without one.
     pub fn stress_law(self, law: LifeLaw) -> Option<(f64, f64)> {
         match self {
@@ -125,7 +125,7 @@ impl LifeModel {
     }
 
     /// Exponent s of life against the Hertz pressure of the smooth contact with the same radii, `N ∝ p_h^{−s}`;
-    /// `None` where a limit breaks the power law. `sides` as in [`LifeModel::growth`].
+    /// `None` where a limit breaks the power law. `sides` as in [`LifeEquation::growth`].
     pub fn pressure_exponent(self, law: LifeLaw, sides: f64) -> Option<f64> {
         let limited = matches!(self, Self::IoannidesHarris { limit, .. } if limit != 0.0);
         let exponent = (self.growth(law, sides, false) + self.width(sides)) / law.weibull_slope;
@@ -177,7 +177,7 @@ fn near_surface(z: f64, wavelength: f64) -> f64 {
 /// Life by a calibration point: the smooth, frictionless contact lives `cycles` loading cycles at the Hertz
 /// pressure `p_hertz` and the survival of the point.
 ///
-/// `N_ref(p) = cycles (p_cal/p)^s` with s from [`LifeModel::pressure_exponent`].
+/// `N_ref(p) = cycles (p_cal/p)^s` with s from [`LifeEquation::pressure_exponent`].
 pub fn calibrated_reference(cycles: f64, p_calibration: f64, p_hertz: f64, exponent: f64) -> f64 {
     cycles * (p_calibration / p_hertz).powf(exponent)
 }
@@ -192,7 +192,7 @@ mod tests {
         // Point contact, p ∝ load^{1/3}: Lundberg and Palmgren's life falls with the cube of the load,
         // (31/3 + 2 − 7/3)/(10/9)/3. Line contact, p ∝ load^{1/2}: with its fourth power.
         let law = LifeLaw::default();
-        let model = LifeModel::LundbergPalmgren {
+        let model = LifeEquation::LundbergPalmgren {
             depth_exponent: DEPTH_EXPONENT,
             cut_off: 0.05,
         };
@@ -205,9 +205,9 @@ mod tests {
         };
         let s = model.pressure_exponent(line, 1.0).unwrap_or(f64::NAN);
         assert_relative_eq!(s / 2.0, 4.0, max_relative = 1e-12);
-        let zaretsky = LifeModel::Zaretsky.pressure_exponent(law, 2.0);
+        let zaretsky = LifeEquation::Zaretsky.pressure_exponent(law, 2.0);
         assert_relative_eq!(zaretsky.unwrap_or(f64::NAN), 31.0 / 3.0 + 2.7);
-        let limited = LifeModel::IoannidesHarris {
+        let limited = LifeEquation::IoannidesHarris {
             depth_exponent: DEPTH_EXPONENT,
             cut_off: 0.05,
             limit: 0.4,
@@ -235,13 +235,13 @@ mod tests {
 
     #[test]
     fn depth_weight_stops_at_the_cut_off() {
-        let model = LifeModel::IoannidesHarris {
+        let model = LifeEquation::IoannidesHarris {
             depth_exponent: 2.0,
             cut_off: 0.1,
             limit: 0.0,
         };
         assert_relative_eq!(model.ln_depth_weight(1e-9), 100.0_f64.ln());
         assert_relative_eq!(model.ln_depth_weight(0.5), 4.0_f64.ln());
-        assert_eq!(LifeModel::Zaretsky.ln_depth_weight(0.01), 0.0);
+        assert_eq!(LifeEquation::Zaretsky.ln_depth_weight(0.01), 0.0);
     }
 }

@@ -2,8 +2,8 @@
 
 use super::LifeAsked;
 use super::{
-    Crests, Domain, EDGES_WORTH_A_WORD, FilmPlan, LeftOut, MOLECULE_M, March, OtherFilms, Plan,
-    StressPlan, Symmetry, TractionDeflection, Valleys, Warning, WavePlan,
+    Crests, Domain, EDGES_WORTH_A_WORD, FilmPlan, LeftOut, MOLECULE_M, OtherFilms, Plan,
+    StressPlan, Symmetry, TimeDependence, TractionDeflection, Valleys, Warning, WavePlan,
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
@@ -214,20 +214,20 @@ pub(super) fn symmetry(scene: &Scene) -> Symmetry {
     }
 }
 
-pub(super) fn march(scene: &Scene) -> March {
+pub(super) fn time_dependence(scene: &Scene) -> TimeDependence {
     let surfaces = scene.surfaces();
     if scene.events.iter().any(|event| !event.set.is_empty()) {
-        March::Transient
+        TimeDependence::Transient
     } else if surfaces.iter().all(|surface| surface.is_smooth()) {
-        March::Steady {
+        TimeDependence::Steady {
             why: "both surfaces are smooth, so nothing changes in time",
         }
     } else if surfaces.iter().all(|surface| !surface.varies_along_x()) {
-        March::Steady {
+        TimeDependence::Steady {
             why: "the ridges lie along the rolling direction, so nothing changes in time",
         }
     } else {
-        March::Transient
+        TimeDependence::Transient
     }
 }
 
@@ -320,7 +320,7 @@ pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
             leave(stage, "its surface is smooth");
         }
     }
-    if let March::Steady { why } = plan.march {
+    if let TimeDependence::Steady { why } = plan.time_dependence {
         leave("time steps", why);
     }
     match plan.symmetry {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{LINE_ROWS, LifePlan, March, OtherFilms, Plan, Symmetry, WavePlan};
+use super::{LINE_ROWS, LifePlan, OtherFilms, Plan, Symmetry, TimeDependence, WavePlan};
 use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread, VolumeIntegral};
 
 impl fmt::Display for Plan {
@@ -156,9 +156,9 @@ impl Plan {
                 n = domain.nodes
             )?,
         }
-        match self.march {
-            March::Steady { .. } => writeln!(f, "Time        steady: one solution"),
-            March::Transient => {
+        match self.time_dependence {
+            TimeDependence::Steady { .. } => writeln!(f, "Time        steady: one solution"),
+            TimeDependence::Transient => {
                 writeln!(
                     f,
                     "Time        {} steps of {:.3e} s after the start-up: {:.3e} s, {:.2} passages of 4 a",

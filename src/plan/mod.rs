@@ -23,6 +23,7 @@ pub use surfaces::WavePlan;
 pub use truncation::{Truncation, inlet_error, mesh_error, side_error};
 pub use warning::{LeftOut, PlanError, Warning};
 
+pub use crate::math::grid::Symmetry;
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
@@ -57,7 +58,7 @@ pub struct Plan {
     /// Whether half of the rows is enough.
     pub symmetry: Symmetry,
     /// Whether time matters.
-    pub march: March,
+    pub time_dependence: TimeDependence,
     /// Time step, s.
     pub dt_s: f64,
     /// Time steps after the start-up; of adaptive ones, what as many of the usual length would be.
@@ -176,20 +177,9 @@ pub enum OtherFilms {
     },
 }
 
-/// Which rows are computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Symmetry {
-    /// Both surfaces are even in y: rows y ≥ 0 are computed and mirrored.
-    MirrorY,
-    /// All rows.
-    General,
-    /// A line contact: one row, because nothing varies along y.
-    Line,
-}
-
 /// Whether time is marched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum March {
+pub enum TimeDependence {
     /// Nothing changes in time: one solution is all.
     Steady {
         /// Why.
@@ -264,12 +254,14 @@ impl Plan {
         let order = decide::order(scene, film.as_ref(), &domain);
         let step_m = scene.time.step_nodes * dx_m;
         let waves = surfaces::plan(scene, [dx_m, dy_m], (step_m, order), &mut warnings)?;
-        let march = decide::march(scene);
+        let time_dependence = decide::time_dependence(scene);
         warnings.extend(decide::step_warning(scene, film.as_ref(), &waves, order));
         let steps_per_passage = (4.0 * hertz.a_m / step_m).round().max(1.0) as u64;
-        let steps = match march {
-            March::Steady { .. } => 1,
-            March::Transient => (scene.time.passages * 4.0 * hertz.a_m / step_m).ceil() as u64,
+        let steps = match time_dependence {
+            TimeDependence::Steady { .. } => 1,
+            TimeDependence::Transient => {
+                (scene.time.passages * 4.0 * hertz.a_m / step_m).ceil() as u64
+            }
         };
         let mut plan = Self {
             title: scene.title.clone(),
@@ -284,7 +276,7 @@ impl Plan {
             dx_m,
             dy_m,
             symmetry: decide::symmetry(scene),
-            march,
+            time_dependence,
             dt_s: step_m / scene.motion.entrainment_m_s.abs(),
             steps,
             step_tolerance: scene.time.tolerance,

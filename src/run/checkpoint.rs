@@ -1,8 +1,8 @@
 //! A run's state in a file: JSON behind one line with format and digest.
 //!
 //! ```text
-//! asperity state 2 <FNV-1a of the rest, hexadecimal>
-//! { "program": ..., "scene": ..., "n_events_played": ..., "n_unconverged": ..., "sim": { ... } }
+//! asperity state 3 <FNV-1a of the rest, hexadecimal>
+//! { "program": ..., "scene": ..., "n_events_played": ..., "n_unconverged": ..., "stats": { ... }, "sim": { ... } }
 //! ```
 //! Numbers are written with as many digits as read back to the same bits.
 
@@ -14,9 +14,9 @@ use thiserror::Error;
 
 use crate::files::fnv;
 use crate::scene::Scene;
-use crate::sim::State;
+use crate::sim::{State, Stats};
 
-const MAGIC: &str = "asperity state 2 ";
+const MAGIC: &str = "asperity state 3 ";
 /// Nodes per side of the finest grid.
 const FINEST: usize = 1025;
 /// Digits of the digest.
@@ -38,8 +38,9 @@ pub struct Checkpoint {
     /// Steps so far that did not converge.
     pub n_unconverged: u64,
     /// Knobs turned by hand so far: it goes on from where they stand, where the scene's own run would not be.
-    #[serde(default)]
     pub n_turned_by_hand: usize,
+    /// Work that was counted.
+    pub stats: Stats,
     /// The simulation.
     pub sim: State,
 }
@@ -112,7 +113,7 @@ impl Checkpoint {
             .and_then(|rest| rest.strip_suffix('\n'));
         let Some(digest) = digest.filter(|_| whole.is_ok()) else {
             return Err(failed(
-                "no state, or one of an earlier format (this build reads format 2)".to_owned(),
+                "no state, or one of an earlier format (this build reads format 3)".to_owned(),
             ));
         };
         let mut body = String::new();

@@ -16,7 +16,7 @@ use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind, SetBy};
 use crate::scene::{Event, Scene};
-use crate::sim::{Frame, Knob, LubricationRegime, SimError, Stage, State, Unsolved};
+use crate::sim::{Frame, Knob, LubricationRegime, SimError, Stage, State, Stats, Unsolved};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
@@ -156,7 +156,8 @@ impl Driver {
                         .filter(|_| steps > 1)
                         .map(|began| (steps - 1) as f64 / began.elapsed().as_secs_f64().max(1e-9));
                     summary = (steps > 0).then(|| sim.summary());
-                    checkpoint = sim.save().map(|sim| self.checkpoint(context, sim));
+                    let stats = sim.stats();
+                    checkpoint = sim.save().map(|sim| self.checkpoint(context, sim, stats));
                     end
                 }
             }
@@ -193,13 +194,14 @@ impl Driver {
         }
     }
 
-    fn checkpoint(&self, context: &RunContext, sim: State) -> Box<Checkpoint> {
+    fn checkpoint(&self, context: &RunContext, sim: State, stats: Stats) -> Box<Checkpoint> {
         Box::new(Checkpoint {
             program: context.program.clone(),
             scene: context.scene_toml.clone(),
             n_events_played: self.n_events_played,
             n_unconverged: self.n_unconverged,
             n_turned_by_hand: self.n_turned_by_hand,
+            stats,
             sim,
         })
     }

@@ -167,6 +167,7 @@ impl Session {
                 .map_err(|error| SimError::State(error.to_string()))?;
             let mut sim = Simulation::new(scene, plan, threads)?;
             sim.restore(checkpoint.sim)?;
+            sim.count_from(checkpoint.stats)?;
             Ok(sim)
         })
     }

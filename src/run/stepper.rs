@@ -1,7 +1,7 @@
 //! What the loop needs of a simulation. One implementation runs; tests put in others that fail on purpose.
 
 use crate::sim::{
-    Follow, Frame, Knob, Metrics, SimError, Simulation, Stage, State, StepError, Summary,
+    Follow, Frame, Knob, Metrics, SimError, Simulation, Stage, State, Stats, StepError, Summary,
 };
 
 /// A simulation as the loop sees it.
@@ -41,6 +41,10 @@ pub trait Stepper {
     fn is_done(&self) -> bool;
     /// Result so far.
     fn summary(&self) -> Summary;
+    /// Work done so far.
+    fn stats(&self) -> Stats {
+        Stats::default()
+    }
     /// What a restart needs; `None`: it cannot go on later.
     fn save(&self) -> Option<State> {
         None
@@ -83,6 +87,9 @@ impl Stepper for Simulation {
     }
     fn summary(&self) -> Summary {
         self.summary()
+    }
+    fn stats(&self) -> Stats {
+        *self.stats()
     }
     fn save(&self) -> Option<State> {
         Some(self.save())

@@ -22,9 +22,7 @@ const MAP_COLUMNS: usize = 24;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Counting {
     trackers: [MaterialTracker; 2],
-    row: Vec<f32>,
     shown_depth: usize,
-    #[serde(default)]
     shown_body: BodyId,
     /// The shown point.
     pub(super) shown: Option<Sample>,
@@ -94,7 +92,6 @@ impl Counting {
         };
         Self {
             trackers: [tracker(0), tracker(1)],
-            row: vec![0.0; grid.nx],
             shown_depth,
             shown_body: BodyId::One,
             shown: None,
@@ -111,7 +108,7 @@ impl Counting {
     /// Takes the smooth contact of `size` times the scene's: its worst point is the unit of damage.
     pub(super) fn set_reference(&mut self, stress: &StressStage, size: f64) {
         let slice = stress.slice_in(BodyId::One);
-        let nx = self.row.len().max(1);
+        let nx = stress.criterion().0;
         let range = |row: &[f32]| {
             let low = row.iter().fold(0.0_f32, |low, v| low.min(*v));
             row.iter().fold(0.0_f32, |high, v| high.max(*v)) - low
@@ -140,8 +137,7 @@ impl Counting {
             profile.counted.len() == depths && profile.equivalent.len() == depths
         };
         let mut trackers = self.trackers.iter().zip(&saved.trackers);
-        self.row.len() == saved.row.len()
-            && self.basis == saved.basis
+        self.basis == saved.basis
             && saved.shown_depth < depths.max(1)
             && saved.profiles.iter().flatten().all(whole)
             && trackers.all(|(own, saved)| own.fits(saved))
@@ -164,28 +160,17 @@ impl Counting {
         }
     }
 
-    /// Moves the points by `travel` (in a) and samples the line y = 0 of a contact of `size` times the scene's.
-    pub(super) fn step(
-        &mut self,
-        grid: &Grid,
-        travel: [f64; 2],
-        pressure: &[f64],
-        stress: Option<&StressStage>,
-        size: f64,
-    ) {
-        let axis = grid.axis_row() * grid.nx;
-        for (to, &from) in self.row.iter_mut().zip(&pressure[axis..axis + grid.nx]) {
-            *to = from as f32;
-        }
-        let row = &self.row;
+    /// Moves the points by `travel` (in a) and samples the line y = 0 below the surface loaded last, of a contact of
+    /// `size` times the scene's.
+    pub(super) fn step(&mut self, grid: &Grid, travel: [f64; 2], stress: &StressStage, size: f64) {
         let line = |body: BodyId| {
-            let slice = stress.map(|stress| stress.slice_in(body));
+            let slice = stress.slice_in(body);
             Line {
                 x_first: grid.x_min,
                 dx: grid.dx,
-                pressure: row,
-                tau_xz: slice.map(|slice| &slice.sxz[..]),
-                effective: slice.map(|slice| &slice.effective[..]),
+                pressure: stress.pressure_on_axis(grid),
+                tau_xz: Some(&slice.sxz[..]),
+                effective: Some(&slice.effective[..]),
             }
         };
         for body in BodyId::BOTH {

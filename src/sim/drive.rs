@@ -50,6 +50,15 @@ impl Drive {
         }
     }
 
+    /// The same knobs, but of smooth bodies in pure rolling.
+    pub(super) fn smooth(&self) -> Self {
+        let mut smooth = self.clone();
+        for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
+            smooth.jump(knob, 0.0);
+        }
+        smooth
+    }
+
     fn index(knob: Knob) -> usize {
         Knob::ALL.iter().position(|&k| k == knob).unwrap_or(0)
     }

@@ -6,11 +6,13 @@
 //! bodies are compared in time, as equal discs: `L = [½ Σ (N_i U/|U_i|)^{−e}]^{−1/e}` relative to the two bodies of the
 //! reference (U_fast in place of U_i where N_i are its cycles).
 
+mod lives;
+mod reference;
+
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
 use super::estimates::{LifeDetail, LifeEstimate, Repeat};
-use super::reference::Calibration;
 use super::settling::Settling;
 use super::smooth::Conditions;
 use super::stress_stage::StressStage;
@@ -20,7 +22,7 @@ use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
 use crate::scene::{ContactKind, CycleBasis, Life, Scene, Surface, VolumeIntegral};
-use crate::solve::life::{Shares, Sweep, Window};
+use crate::solve::life::{Sweep, Window};
 use crate::solve::marks::Marks;
 use crate::solve::stress::{Loading, StressLaw};
 
@@ -38,29 +40,39 @@ pub(super) struct Now {
     pub(super) has_reference: bool,
 }
 
+/// Loading cycles of the smooth contact, where the scene gives a point of them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Calibration {
+    /// Cycles of the point.
+    cycles: f64,
+    /// p_cal/p_h.
+    pressure_ratio: f64,
+    /// Life at the scene's survival over that at the point's.
+    survival_ratio: f64,
+}
+
 /// Life models under way.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct LifeStage {
-    pub(super) law: LifeLaw,
-    pub(super) asked: Life,
+    law: LifeLaw,
+    asked: Life,
     /// The scene's model first.
-    pub(super) variants: Vec<Variant>,
+    variants: Vec<Variant>,
     pub(super) laws: Vec<StressLaw>,
-    pub(super) sweep: Sweep,
-    scratch: Shares,
-    pub(super) depths: Vec<f64>,
+    sweep: Sweep,
+    depths: Vec<f64>,
     /// Wavelength along x of the mating crests, a.
-    pub(super) wavelengths: [Option<f64>; 2],
+    wavelengths: [Option<f64>; 2],
     is_smooth: bool,
-    pub(super) calibration: Option<Calibration>,
+    calibration: Option<Calibration>,
     /// Directions in which the contact grows with the pressure.
-    pub(super) sides: f64,
+    sides: f64,
     /// Hertz half-width, over the scene's, for which the reference was computed.
-    pub(super) reference_size: f64,
+    reference_size: f64,
     /// Load and speed for which it was.
     pub(super) reference_at: Conditions,
     /// Cycles of the smooth contact of that size.
-    pub(super) reference_cycles: Option<f64>,
+    reference_cycles: Option<f64>,
     settling: Settling,
     /// How far ln of the damage of both bodies moved, where cycles count by it.
     damage: Marks,
@@ -102,7 +114,6 @@ impl LifeStage {
             variants,
             laws,
             sweep: Sweep::new(stress.row_count()),
-            scratch: Shares::new(depths.len()),
             depths,
             wavelengths: BodyId::BOTH.map(wavelength),
             is_smooth: (scene.surfaces().iter()).all(|s| matches!(s, Surface::Smooth {})),
@@ -143,7 +154,7 @@ impl LifeStage {
     }
 
     /// Passes over the surface loaded last and hands its sums to every model.
-    pub(super) fn each(
+    fn each(
         &mut self,
         stress: &mut StressStage,
         mut take: impl FnMut(&mut Variant, &mut StressStage, &mut Shared),
@@ -153,11 +164,12 @@ impl LifeStage {
             law: self.law,
             laws: &self.laws,
             sweep: &self.sweep,
-            scratch: &mut self.scratch,
+            scratch: std::mem::take(&mut stress.shares),
         };
         for variant in &mut self.variants {
             take(variant, stress, &mut shared);
         }
+        stress.shares = shared.scratch;
     }
 
     /// How cycles are counted, and of whose loading cycles lives are.
@@ -176,14 +188,13 @@ impl LifeStage {
 
     /// Whether a stage that was saved is of the same make as this one.
     pub(super) fn fits(&self, saved: &Self) -> bool {
-        let (depths, rows) = (self.depths.len(), self.sweep.of(Loading::ALL[0]).len());
+        let rows = self.sweep.of(Loading::ALL[0]).len();
         self.law == saved.law
             && self.calibration == saved.calibration
             && self.asked == saved.asked
             && self.laws == saved.laws
             && self.depths == saved.depths
             && saved.sweep.is_sound(rows)
-            && saved.scratch.is_sound(depths)
             && saved.damage.is_sound()
             && self.variants.len() == saved.variants.len()
             && self
@@ -213,7 +224,7 @@ impl LifeStage {
     }
 
     /// Forgets the phases seen.
-    pub(super) fn clear(&mut self) {
+    fn clear(&mut self) {
         self.sweep.restart();
         for variant in &mut self.variants {
             variant.restart();

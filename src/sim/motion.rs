@@ -9,14 +9,11 @@ use crate::math::grid::Grid;
 pub(super) struct Motion {
     /// Way of body 1 and 2, in a.
     pub(super) travelled: [f64; 2],
-    /// η0/(p_h × film unit), s/m: shear stress per sliding speed.
-    pub(super) shear_rate: f64,
     /// Where both bodies were when the passage began; `None`: it has not begun.
     launched_at: Option<[f64; 2]>,
     /// Time (a/U) that must pass until a steady contact is steady again.
     unsettled: f64,
     /// Ways that the surfaces still have to be led beside their own, in a, and over which time (a/U).
-    #[serde(default)]
     lead: ([f64; 2], f64),
 }
 
@@ -34,16 +31,15 @@ impl Motion {
     pub(super) fn new() -> Self {
         Self {
             travelled: [0.0; 2],
-            shear_rate: 0.0,
             launched_at: None,
             unsettled: 0.0,
             lead: ([0.0; 2], 0.0),
         }
     }
 
-    /// Whether a motion that was saved is of the same make as this one.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        self.shear_rate == saved.shear_rate && saved.unsettled >= 0.0 && saved.lead.1 >= 0.0
+    /// Whether a motion that was read from a file can be kept.
+    pub(super) fn is_sound(&self) -> bool {
+        self.unsettled >= 0.0 && self.lead.1 >= 0.0
     }
 
     /// Moves both bodies by a step of `nodes` nodes at slide-to-roll ratio `s`.

@@ -7,66 +7,62 @@
 //! passage   every number counts
 //! ```
 
+mod fill;
+mod fitness;
+mod follow;
+mod present;
+mod restart;
+mod smooth_reference;
+mod start_up;
+mod summary;
+mod watching;
+
 use std::sync::Arc;
 
-use rayon::ThreadPool;
-use serde::{Deserialize, Serialize};
-
-use super::door::Door;
-use super::pace::Stepping;
-use super::regime::Regime;
-use super::state::{State, Work};
+use super::sim_plan::{DEVELOP, SimPlan};
+use super::state::{Phase, State};
 use super::stepping::{Attempted, Mover};
-use super::{Frame, Grounds, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
-use crate::plan::{March as Marching, Plan};
-use crate::solve::march::{Flow, Shape};
-use crate::solve::stress::Cut;
-use crate::solve::traction::TractionLaw;
+use super::work::{Work, thread_pool};
+use super::{Frame, Knob, Metrics, SimError, Stage, Stats, StepError};
+use crate::plan::{Plan, TimeDependence};
+use crate::scene::Scene;
+use crate::sim::pace::Stepping;
 
-/// Time (a/U) to ramp sliding and roughness and to flush the contact once; also what a steady contact
-/// takes to be steady again after a knob moved.
-pub(super) const DEVELOP: f64 = 4.0;
-
-/// Where the run is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Phase {
-    /// Smooth, with this many steps to go on the present grid.
-    Smooth { left: u64 },
-    /// In the wake of a neighbour: this many long steps, then so many of the usual length.
-    Settle { coarse: u64, fine: u64 },
-    /// Sliding and roughness come up.
-    Develop { left: u64 },
-    /// The passage.
-    Passage,
-}
-
-/// The simulation of one scene: what follows from the scene, the state, and the workspace.
+/// The simulation of one scene.
 pub struct Simulation {
-    pub(super) plan: Plan,
-    pub(super) door: Door,
-    pub(super) shape: Shape,
-    /// Flow of the films that are films.
-    pub(super) flow: Flow,
-    pub(super) regime: Regime,
-    /// Traction law of the scene's oil; its speed is the step's.
-    pub(super) law: TractionLaw,
-    /// What cautions rest on, as far as the scene gives it.
-    pub(super) grounds: Grounds,
-    pub(super) stepping: Stepping,
-    pub(super) cuts: Vec<Cut>,
-    pub(super) iso_load_ratio: Option<f64>,
-    pub(super) stress_error: f64,
-    pub(super) composite: [f64; 2],
-    /// Hardness of the softer body over p_h; infinite: both are elastic.
-    pub(super) hardness: f64,
-    /// Steps that the summary may have to average over.
-    pub(super) most_steps: usize,
-    pub(super) pool: Arc<ThreadPool>,
-    pub(super) state: State,
-    pub(super) work: Work,
+    /// What follows from the scene.
+    plan: SimPlan,
+    /// What a restart needs.
+    state: State,
+    /// What steps are solved with.
+    work: Work,
+    /// Work done so far.
+    stats: Stats,
 }
 
 impl Simulation {
+    /// Makes all memory for `scene` by `plan`; `threads` workers of its own.
+    ///
+    /// # Errors
+    /// [`SimError`] when the workers cannot be started or the stress engine refuses the plan.
+    pub fn new(scene: &Scene, plan: Plan, threads: usize) -> Result<Self, SimError> {
+        let pool = thread_pool(threads)?;
+        let plan = SimPlan::new(scene, plan);
+        let mut work = Work::new(&plan, plan.first_nodes(), pool)?;
+        let state = State::new(&plan, &mut work);
+        let stats = Stats::default();
+        let mut this = Self {
+            plan,
+            state,
+            work,
+            stats,
+        };
+        this.make_room();
+        let measured = this.see_again();
+        this.publish(&Attempted::default(), &measured);
+        Ok(this)
+    }
+
     /// One step, of the start-up first and then of the passage.
     ///
     /// # Errors
@@ -78,12 +74,12 @@ impl Simulation {
     /// Does something on a thread of the simulation's pool. Handing work over to a pool takes a wake-up, and room in
     /// its queue now and then: who makes many steps makes them all inside.
     pub fn inside<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R {
-        let pool = Arc::clone(&self.pool);
+        let pool = Arc::clone(&self.work.pool);
         pool.install(|| work(self))
     }
 
     fn step_inside(&mut self) -> Result<(), StepError> {
-        self.state.stats.steps += 1;
+        self.stats.steps += 1;
         match self.state.phase {
             Phase::Smooth { left: 0 } => self.refine_or_develop(),
             Phase::Smooth { left } => {
@@ -94,7 +90,7 @@ impl Simulation {
             }
             Phase::Settle { coarse: 0, fine: 0 } => {
                 self.state.phase = Phase::Develop { left: 0 };
-                self.state.stats.steps -= 1;
+                self.stats.steps -= 1;
                 self.step_inside()
             }
             Phase::Settle { coarse, fine } => {
@@ -127,7 +123,7 @@ impl Simulation {
     /// Counts and phases seen so far belong to other conditions. The next step is looked at.
     fn forget_passage(&mut self) {
         self.state.orbit.restart();
-        let window = self.state.orbit.life_window(self.plan.passage_a);
+        let window = self.state.orbit.life_window(self.plan.decided.passage_a);
         if let Some(life) = &mut self.state.life {
             life.restart(window);
         }
@@ -155,14 +151,17 @@ impl Simulation {
         self.step_smooth()?;
         let before = self.state.way;
         // Where a body yields at rest, what enters is flattened anew.
-        let held = matches!(self.plan.march, Marching::Steady { .. })
-            && self.state.motion.is_flushed()
-            && self.door.p_from_pa(self.state.metrics.p_max_pa) < self.hardness * (1.0 - 1e-9);
+        let held = matches!(
+            self.plan.decided.time_dependence,
+            TimeDependence::Steady { .. }
+        ) && self.state.motion.is_flushed()
+            && self.plan.door.p_from_pa(self.state.metrics.p_max_pa)
+                < self.plan.hardness * (1.0 - 1e-9);
         if held {
             let speed = self.state.drive.get(Knob::EntrainmentMS).now;
             self.state.time_s +=
-                self.stepping.usual() * self.work.solver.grid.dx * self.door.a_m / speed;
-            let held = Attempted::held(&self.state.metrics, self.stepping.usual());
+                self.plan.stepping.usual() * self.work.solver.grid.dx * self.plan.door.a_m / speed;
+            let held = Attempted::held(&self.state.metrics, self.plan.stepping.usual());
             // The contact rests, the bodies do not: material points cross it.
             let s = self.state.drive.get(Knob::SlideRoll).now;
             let grid = &self.work.solver.grid;
@@ -181,7 +180,7 @@ impl Simulation {
     }
 
     /// One time step: solved, committed, measured.
-    pub(super) fn advance(&mut self) -> Result<(), StepError> {
+    fn advance(&mut self) -> Result<(), StepError> {
         let (stepping, nodes) = self.next_step();
         let (walked, was_flushed) = (
             self.state.drive.is_walking(),
@@ -191,23 +190,21 @@ impl Simulation {
         // The smooth contact that all lives are compared with is elastic.
         let is_smooth = matches!(self.state.phase, Phase::Smooth { .. });
         let yielded = self.state.yielded.as_mut().filter(|_| !is_smooth);
-        let attempted = self.pool.install(|| {
+        let attempted = self.work.pool.install(|| {
             Mover {
                 state: &mut self.state.contact,
                 solver: &mut self.work.solver,
                 terrain: &mut self.work.terrain,
                 drive: &mut self.state.drive,
                 motion: &mut self.state.motion,
-                door: &self.door,
-                law: &self.law,
-                regime: self.regime,
+                plan: &self.plan,
                 stepping,
-                yielding: yielded.map(|yielded| (self.hardness, yielded)),
+                yielded,
             }
             .advance(nodes)
         });
         let made = self.work.solver.transforms() - transforms;
-        self.state.stats.add(&attempted, made);
+        self.stats.add(&attempted, made);
         if let Some(error) = attempted.fatal(self.state.time_s) {
             return Err(error);
         }
@@ -225,32 +222,36 @@ impl Simulation {
     /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
     fn next_step(&self) -> (Stepping, f64) {
         if let Phase::Settle { coarse: 1.., .. } = self.state.phase {
-            let nodes = super::follow::COARSE * self.stepping.usual();
+            let nodes = follow::COARSE * self.plan.stepping.usual();
             return (Stepping::Fixed(nodes), nodes);
         }
         if self.state.phase != Phase::Passage {
             return (
-                Stepping::Fixed(self.stepping.usual()),
-                self.stepping.usual(),
+                Stepping::Fixed(self.plan.stepping.usual()),
+                self.plan.stepping.usual(),
             );
         }
         let crests = self
             .plan
+            .decided
             .waves
             .iter()
             .flatten()
             .map(|wave| wave.crests_per_m);
         let sliding = self.state.drive.get(Knob::SlideRoll).now.abs();
         let crest = match &self.state.counting {
-            Some(_) => 1.0 / (crests.fold(0.0, f64::max) * sliding * self.plan.dx_m),
+            Some(_) => 1.0 / (crests.fold(0.0, f64::max) * sliding * self.plan.decided.dx_m),
             None => f64::INFINITY,
         };
-        (self.stepping, self.state.pace.next(self.stepping, crest))
+        (
+            self.plan.stepping,
+            self.state.pace.next(self.plan.stepping, crest),
+        )
     }
 
     /// Way over which the summary averages, in a.
-    pub(super) fn averaged(&self) -> f64 {
-        self.state.orbit.window(self.plan.passage_a)
+    fn averaged(&self) -> f64 {
+        self.state.orbit.window(self.plan.decided.passage_a)
     }
 
     /// Moves a knob's target.
@@ -268,15 +269,15 @@ impl Simulation {
         {
             return Err(refuse(key.allowed()));
         }
-        if matches!(knob, Knob::ForceN | Knob::ForceNPerM) && knob != self.door.load_knob() {
+        if matches!(knob, Knob::ForceN | Knob::ForceNPerM) && knob != self.plan.door.load_knob() {
             return Err(refuse(format!(
                 "{} in this kind of contact",
-                self.door.load_knob().key()
+                self.plan.door.load_knob().key()
             )));
         }
         let mut value = value;
         if knob == Knob::EntrainmentMS {
-            value *= self.door.heading.sign();
+            value *= self.plan.door.heading.sign();
             if value < 0.0 {
                 return Err(refuse(
                     "a speed of the sign that the run began with: to turn the flow round is another run"
@@ -284,9 +285,9 @@ impl Simulation {
                 ));
             }
         }
-        let most = self.plan.most_force_n();
-        if knob == self.door.load_knob() && value > most * (1.0 + 1e-9) {
-            if self.plan.carried_force_n() <= most {
+        let most = self.plan.decided.most_force_n();
+        if knob == self.plan.door.load_knob() && value > most * (1.0 + 1e-9) {
+            if self.plan.decided.carried_force_n() <= most {
                 return Err(refuse(format!(
                     "at most {most:.4e}, which makes a Hertz pressure of twice the hardness of the softer body: with more it gives way as a whole and not by its asperities"
                 )));
@@ -326,10 +327,10 @@ impl Simulation {
     /// How much of the run is done, 0 to 1, start-up included.
     pub fn progress(&self) -> f64 {
         let (done, all) = self.state.start_up_steps;
-        let steps = self.plan.steps as f64;
-        let passed = match self.stepping {
+        let steps = self.plan.decided.steps as f64;
+        let passed = match self.plan.stepping {
             Stepping::Fixed(_) => self.state.step as f64,
-            Stepping::Adaptive { .. } => steps * self.state.way / self.plan.length_a,
+            Stepping::Adaptive { .. } => steps * self.state.way / self.plan.decided.length_a,
         };
         ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
     }
@@ -359,12 +360,15 @@ impl Simulation {
 
     /// Whether the passages that the scene asks for are done.
     pub fn is_done(&self) -> bool {
-        let steady = matches!(self.plan.march, Marching::Steady { .. });
-        let enough = match self.stepping {
+        let steady = matches!(
+            self.plan.decided.time_dependence,
+            TimeDependence::Steady { .. }
+        );
+        let enough = match self.plan.stepping {
             Stepping::Adaptive { .. } if !steady => {
-                self.state.way >= self.plan.length_a * (1.0 - 1e-9)
+                self.state.way >= self.plan.decided.length_a * (1.0 - 1e-9)
             }
-            _ => self.state.step >= self.plan.steps,
+            _ => self.state.step >= self.plan.decided.steps,
         };
         self.state.phase == Phase::Passage && enough
     }
@@ -376,25 +380,15 @@ impl Simulation {
 
     /// Work done so far.
     pub fn stats(&self) -> &Stats {
-        &self.state.stats
+        &self.stats
     }
 
-    /// Result so far.
-    pub fn summary(&self) -> Summary {
-        super::totals::summary(
-            self,
-            &self.state.totals,
-            self.life_estimate().as_ref(),
-            self.state.stats,
-        )
-    }
-
-    pub(super) fn contact_film_m(&self) -> f64 {
-        self.door.m_from_h(self.law.contact_film)
+    fn contact_film_m(&self) -> f64 {
+        self.plan.door.m_from_h(self.plan.law.contact_film)
     }
 
     /// Writes the last step's fields and scalars into `frame`.
     pub fn fill(&self, frame: &mut Frame) {
-        super::fill::fill(self, frame);
+        fill::fill(self, frame);
     }
 }

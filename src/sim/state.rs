@@ -1,33 +1,45 @@
-//! What a restart needs. Everything else of a [`Simulation`] is scratch or follows from the scene.
+//! What a restart needs. Everything else of a [`super::Simulation`] follows from it and from the scene, or counts work.
 //!
 //! ```text
-//! Simulation = scene, plan (given again) + State (saved) + Work (made again, or measured again)
+//! Simulation = SimPlan (from the scene) + State (saved) + Work (made again at any time) + Stats (counters)
 //! ```
-//! [`Simulation::save`] is a copy of the state, [`Simulation::restore`] an assignment after a check. A run that goes on
-//! from a saved state equals the uninterrupted one bit for bit, in every field of every frame, even when its workspace is
-//! thrown away before every step (`tests/records/restart.rs`).
+//! To save is to copy the state, to restore is to assign it after a check. A run that goes on from a saved state equals
+//! the uninterrupted one bit for bit, in every field of every frame (`tests/records/restart.rs`, `restart_matrix.rs`).
 
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
+use super::counting_spec::counting_spec;
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
-use super::measure::{Measured, RowSums};
+use super::measure::Measured;
 use super::motion::Motion;
 use super::orbit::Orbit;
 use super::pace::Pace;
-use super::setup::grid_of;
-use super::simulation::{Phase, Simulation};
-use super::smooth::{Smooth, SmoothWork};
-use super::stepping::place_surfaces;
-use super::stress_stage::StressStage;
-use super::terrain::Terrain;
+use super::sim_plan::SimPlan;
+use super::smooth::Smooth;
 use super::totals::Totals;
+use super::work::Work;
 use super::yielded::Yielded;
-use super::{MeshErrors, Metrics, SimError, Stats};
-use crate::solve::march::{self, Solver};
+use super::{Knob, MeshErrors, Metrics};
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::solve::march;
 
-/// State of a simulation; opaque, made by [`Simulation::save`].
+/// Where the run is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Phase {
+    /// Smooth, with this many steps to go on the present grid.
+    Smooth { left: u64 },
+    /// In the wake of a neighbour: this many long steps, then so many of the usual length.
+    Settle { coarse: u64, fine: u64 },
+    /// Sliding and roughness come up.
+    Develop { left: u64 },
+    /// The passage.
+    Passage,
+}
+
+/// State of a simulation; opaque, made by [`super::Simulation::save`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct State {
     /// Nodes per side of the grid that the contact is on: the start-up climbs through several.
@@ -38,7 +50,6 @@ pub struct State {
     pub(super) wanted: Drive,
     pub(super) motion: Motion,
     /// What both bodies have yielded; `None`: they are elastic.
-    #[serde(default)]
     pub(super) yielded: Option<Yielded>,
     /// Where both bodies were when they were looked at last, in a.
     pub(super) watched: [f64; 2],
@@ -48,7 +59,6 @@ pub struct State {
     pub(super) smooth: Option<Smooth>,
     pub(super) phase: Phase,
     pub(super) metrics: Metrics,
-    pub(super) stats: Stats,
     pub(super) totals: Totals,
     /// The smooth contact on the last but one grid.
     pub(super) coarser: Option<Measured>,
@@ -66,115 +76,82 @@ pub struct State {
     pub(super) start_up_steps: (u64, u64),
 }
 
-/// What may be dropped between two steps.
-pub(super) struct Work {
-    pub(super) solver: Solver,
-    pub(super) terrain: Terrain,
-    pub(super) stress: Option<StressStage>,
-    pub(super) traction: Vec<f64>,
-    pub(super) row_sums: Vec<RowSums>,
-    pub(super) smooth: Option<SmoothWork>,
-}
-
 impl State {
+    /// Before the first step: a Hertz contact of smooth bodies in pure rolling, on the first grid.
+    pub(super) fn new(plan: &SimPlan, work: &mut Work) -> Self {
+        let (scene, decided) = (&plan.scene, &plan.decided);
+        let nodes = plan.first_nodes();
+        let fine = plan.finest();
+        let film = decided.film.map_or(0.0, |film| film.central);
+        let contact = work.pool.install(|| work.solver.hertz(&plan.shape, film));
+        let stress = work.stress.as_ref();
+        let life = stress.and_then(|stress| LifeStage::new(scene, decided, stress));
+        let counting = stress.map(|stress| {
+            let heading = plan.door.heading;
+            let mut spec = counting_spec(scene, decided, heading, stress.depth_count());
+            spec.laws = life.as_ref().map(|life| life.laws.clone());
+            Counting::new(&fine, stress.depths(), &spec)
+        });
+        let wanted = Drive::new(|knob| initial(scene, decided, knob));
+        let repeats = [0, 1].map(|body: usize| work.terrain.repeat(body));
+        let yields = plan.hardness.is_finite();
+        Self {
+            nodes,
+            contact,
+            drive: wanted.smooth(),
+            wanted,
+            motion: Motion::new(),
+            yielded: yields.then(|| Yielded::new(&fine, scene.softer(), repeats)),
+            watched: [0.0; 2],
+            counting,
+            life,
+            smooth: None,
+            phase: Phase::Smooth {
+                left: plan.smooth_steps(nodes, decided.has_flow()),
+            },
+            metrics: Metrics::default(),
+            totals: Totals::default(),
+            coarser: None,
+            mesh_errors: None,
+            orbit: Orbit::new(fine.len(), decided.passage_a),
+            pace: Pace::new(plan.stepping),
+            way: 0.0,
+            next_volume: 0.0,
+            step: 0,
+            time_s: 0.0,
+            start_up_steps: (0, plan.start_up_steps()),
+        }
+    }
+
     /// Time steps since the start-up.
     pub fn passage_steps(&self) -> u64 {
         self.step
     }
-}
-
-impl Simulation {
-    /// What a restart needs, as it is between two steps.
-    pub fn save(&self) -> State {
-        self.state.clone()
-    }
-
-    /// Goes on from `state`, saved by a simulation of the same scene.
-    ///
-    /// # Errors
-    /// [`SimError::State`] when the state does not fit the scene; the simulation is as it was.
-    pub fn restore(&mut self, state: State) -> Result<(), SimError> {
-        self.check(&state)?;
-        self.check_course(&state)?;
-        self.solve_on(state.nodes);
-        self.state = state;
-        self.make_room();
-        self.see_again();
-        Ok(())
-    }
-
-    /// Makes the solver for a grid of so many nodes per side, if it is for another one.
-    pub(super) fn solve_on(&mut self, nodes: usize) {
-        if nodes != self.work.solver.grid.nx {
-            let grid = grid_of(&self.plan, nodes, self.door.b_over_a);
-            let usual = self.stepping.usual();
-            let (shape, flow) = (&self.shape, self.flow);
-            self.work.solver = self.pool.install(|| Solver::new(grid, shape, usual, flow));
-        }
-    }
 
     /// Makes the room again that a copy or a file does not keep: a warm step allocates nothing.
-    pub(super) fn make_room(&mut self) {
-        let state = &mut self.state;
-        state.totals.make_room(self.most_steps);
-        if let Some(counting) = &mut state.counting {
+    pub(super) fn make_room(&mut self, plan: &SimPlan) {
+        self.totals.make_room(plan.most_steps());
+        if let Some(counting) = &mut self.counting {
             counting.make_room();
         }
-        if let Some(life) = &mut state.life {
+        if let Some(life) = &mut self.life {
             life.make_room();
         }
-        if !matches!(state.phase, Phase::Smooth { .. }) {
-            self.work.solver.yield_at(self.hardness);
-        }
     }
+}
 
-    /// Takes over what a neighbour leaves to [`Simulation::follow`]: its contact and its references.
-    ///
-    /// # Errors
-    /// As [`Simulation::restore`].
-    pub(super) fn take_over(&mut self, neighbour: &State) -> Result<(), SimError> {
-        self.check(neighbour)?;
-        if neighbour.nodes != self.plan.domain.nodes || neighbour.phase != Phase::Passage {
-            let early = "its passage has not begun".to_owned();
-            return Err(SimError::State(early));
-        }
-        self.solve_on(neighbour.nodes);
-        let state = &mut self.state;
-        state.nodes = neighbour.nodes;
-        state.contact.clone_from(&neighbour.contact);
-        if let (Some(own), Some(other)) = (&mut state.life, &neighbour.life) {
-            own.take_base(other, self.regime.base());
-        }
-        if let (Some(own), Some(other)) = (&mut state.counting, &neighbour.counting) {
-            own.take_reference(other);
-        }
-        (state.coarser, state.mesh_errors) = (neighbour.coarser, neighbour.mesh_errors);
-        state.motion.travelled = neighbour.motion.travelled;
-        Ok(())
-    }
-
-    /// Roughness, traction and slice of the restored step, which follow from the state.
-    pub(super) fn see_again(&mut self) {
-        place_surfaces(
-            &mut self.work.solver,
-            &mut self.work.terrain,
-            &self.state.drive,
-            &self.state.motion,
-            &self.door,
-            self.state.yielded.as_ref(),
-        );
-        self.slice_again();
-    }
-
-    /// The slices below the run's own contact.
-    pub(super) fn slice_again(&mut self) {
-        let measured = self.measure();
-        let on_fine = self.state.nodes == self.plan.domain.nodes;
-        if on_fine && self.stage_has_stress() {
-            let (p, q) = (&self.state.contact.pressure, &self.work.traction);
-            if let Some(stress) = &mut self.work.stress {
-                self.pool.install(|| stress.slice(p, q, measured.friction));
-            }
-        }
+/// A knob as the scene wants it, and how fast it walks.
+fn initial(scene: &Scene, plan: &Plan, knob: Knob) -> (f64, f64) {
+    let amplitude = |m: f64| (m, m.max(1e-7));
+    match knob {
+        Knob::SlideRoll => (scene.motion.slide_roll, 1.0),
+        // The one that is not this kind's stays at rest.
+        Knob::ForceN | Knob::ForceNPerM => (plan.force_n, 0.5 * plan.force_n),
+        Knob::Amplitude1M => amplitude(scene.body_1.surface.amplitude_m()),
+        Knob::Amplitude2M => amplitude(scene.body_2.surface.amplitude_m()),
+        Knob::EntrainmentMS => (
+            scene.motion.entrainment_m_s.abs(),
+            0.5 * scene.motion.entrainment_m_s.abs(),
+        ),
     }
 }

@@ -6,6 +6,7 @@ use super::stepping::Attempted;
 
 /// How much work a run has done so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Stats {
     /// Time steps, the start-up's included.
     pub steps: u64,
@@ -23,13 +24,10 @@ pub struct Stats {
     /// Volume integrals of the stress.
     pub stress_volumes: u64,
     /// Steps that were halved.
-    #[serde(default)]
     pub halved: u64,
     /// Parts of steps that needed the safe settings.
-    #[serde(default)]
     pub safer: u64,
     /// Converged steps that were made again for their error in time.
-    #[serde(default)]
     pub rejected: u64,
 }
 

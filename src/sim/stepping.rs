@@ -15,13 +15,12 @@ use super::frame::Metrics;
 use super::knob::Knob;
 use super::motion::Motion;
 use super::pace::{Judgement, Stepping};
-use super::regime::Regime;
+use super::sim_plan::SimPlan;
 use super::terrain::Terrain;
 use super::yielded::Yielded;
 use super::{StepError, Unsolved};
 use crate::solve::march::{Conditions, Flow, Guess, Solver, State};
 use crate::solve::newton::{NewtonReport, Verdict};
-use crate::solve::traction::TractionLaw;
 
 /// Most times a step is halved.
 const MAX_HALVINGS: u32 = 5;
@@ -131,9 +130,8 @@ impl Attempted {
 pub(super) fn place_surfaces(
     solver: &mut Solver,
     terrain: &mut Terrain,
-    drive: &Drive,
-    motion: &Motion,
     door: &Door,
+    (drive, motion): (&Drive, &Motion),
     yielded: Option<&Yielded>,
 ) {
     let grid = &solver.grid;
@@ -169,13 +167,10 @@ pub(super) struct Mover<'a> {
     pub(super) terrain: &'a mut Terrain,
     pub(super) drive: &'a mut Drive,
     pub(super) motion: &'a mut Motion,
-    pub(super) door: &'a Door,
-    /// Traction law of the scene's oil.
-    pub(super) law: &'a TractionLaw,
-    pub(super) regime: Regime,
+    pub(super) plan: &'a SimPlan,
     pub(super) stepping: Stepping,
-    /// Hardness of the softer body over p_h, and what has yielded; `None`: elastic.
-    pub(super) yielding: Option<(f64, &'a mut Yielded)>,
+    /// What has yielded; `None`: elastic.
+    pub(super) yielded: Option<&'a mut Yielded>,
 }
 
 impl Mover<'_> {
@@ -229,21 +224,17 @@ impl Mover<'_> {
     /// All that comes after the first rung; a step that fails leaves everything as it was `before`, its first parts too.
     fn in_parts(&mut self, nodes: f64, before: (Drive, Motion), done: &mut Attempted) {
         let contact = self.state.clone();
-        let yielded = self.yielded().cloned();
+        let yielded = self.yielded.as_deref().cloned();
         (*self.drive, *self.motion) = before.clone();
         self.in_halves(nodes, 1, done);
         if done.failure.is_some() {
             *self.state = contact;
             (*self.drive, *self.motion) = before;
-            if let (Some((_, now)), Some(yielded)) = (&mut self.yielding, yielded) {
+            if let (Some(now), Some(yielded)) = (&mut self.yielded, yielded) {
                 **now = yielded;
             }
             self.place_surfaces();
         }
-    }
-
-    fn yielded(&self) -> Option<&Yielded> {
-        self.yielding.as_ref().map(|(_, yielded)| &**yielded)
     }
 
     /// Second rung: two parts of half the length, each from the first rung on.
@@ -282,7 +273,7 @@ impl Mover<'_> {
         } else if report.verdict != Verdict::Converged && report.film_error > HOPELESS {
             done.keep(&report);
             let (x_m, y_m) = self.place_of(report.worst_node);
-            let (flow, tolerance) = (self.solver.flow, self.regime.tolerance(self.solver.flow));
+            let (flow, tolerance) = (self.solver.flow, self.plan.tolerance(self.solver.flow));
             let asked = Unsolved {
                 residual_asked: tolerance.pressure,
                 film_error_asked: tolerance.film,
@@ -298,7 +289,10 @@ impl Mover<'_> {
     fn place_of(&self, node: usize) -> (f64, f64) {
         let grid = &self.solver.grid;
         let (i, j) = (node % grid.nx, node / grid.nx);
-        (self.door.place_m(grid.x(i)), self.door.m_from_x(grid.y(j)))
+        (
+            self.plan.door.place_m(grid.x(i)),
+            self.plan.door.m_from_x(grid.y(j)),
+        )
     }
 
     fn commit(&mut self, nodes: f64, report: &NewtonReport, done: &mut Attempted) {
@@ -309,7 +303,7 @@ impl Mover<'_> {
         }
         if let Some((node, overlap)) = self
             .solver
-            .overlap_at_edge(self.regime.tolerance(self.solver.flow).least_film)
+            .overlap_at_edge(self.plan.tolerance(self.solver.flow).least_film)
         {
             // Solved as it stands; but contact reaches beyond the domain, so it is not the scene's.
             done.converged = false;
@@ -317,16 +311,16 @@ impl Mover<'_> {
             done.overlap = done.overlap.max(overlap);
         }
         self.solver.commit(self.state, nodes);
-        let amplitudes = amplitudes(self.door, self.drive);
-        if let (Some((_, yielded)), Some(depth)) = (&mut self.yielding, self.solver.yielded())
+        let amplitudes = amplitudes(&self.plan.door, self.drive);
+        if let (Some(yielded), Some(depth)) = (&mut self.yielded, self.solver.yielded())
             && yielded.take(&self.solver.grid, depth, self.motion.ways(), amplitudes)
         {
             // The surfaces are seen as the step leaves them.
             self.place_surfaces();
         }
         done.nodes += nodes;
-        done.dt_s +=
-            nodes * self.solver.grid.dx * self.door.a_m / self.drive.get(Knob::EntrainmentMS).now;
+        done.dt_s += nodes * self.solver.grid.dx * self.plan.door.a_m
+            / self.drive.get(Knob::EntrainmentMS).now;
     }
 
     /// Walks the knobs, moves the bodies, makes the gap.
@@ -339,14 +333,12 @@ impl Mover<'_> {
     }
 
     fn place_surfaces(&mut self) {
-        let yielded = self.yielding.as_ref().map(|(_, yielded)| &**yielded);
         place_surfaces(
             self.solver,
             self.terrain,
-            self.drive,
-            self.motion,
-            self.door,
-            yielded,
+            &self.plan.door,
+            (self.drive, self.motion),
+            self.yielded.as_deref(),
         );
     }
 
@@ -361,26 +353,26 @@ impl Mover<'_> {
         solve: impl FnOnce(&mut Solver, &State, &Conditions) -> NewtonReport,
     ) -> NewtonReport {
         let value = |knob| self.drive.get(knob).now;
-        let flow = self.regime.flow_now(self.door, self.drive);
+        let flow = self.plan.flow_now(self.drive);
         let (speed, slide_roll) = (value(Knob::EntrainmentMS), value(Knob::SlideRoll));
         let medium = match flow {
-            Flow::Dry => self.door.medium_at_rest(),
-            Flow::Film | Flow::MassConserving => self.door.medium(speed, slide_roll),
+            Flow::Dry => self.plan.door.medium_at_rest(),
+            Flow::Film | Flow::MassConserving => self.plan.door.medium(speed, slide_roll),
         };
         // Of the knobs as this step has moved them.
-        let law = self
-            .regime
-            .law_now(self.law, self.door, self.drive, self.motion);
+        let law = self.plan.law_now(self.drive);
         let conditions = Conditions {
             medium: &medium,
             law: Some(&law),
-            load: self.door.load(value(self.door.load_knob())),
-            tolerance: self.regime.tolerance(flow),
+            load: self.plan.door.load(value(self.plan.door.load_knob())),
+            tolerance: self.plan.tolerance(flow),
         };
         self.solver.flow = flow;
-        self.solver.newton.order = self.regime.order_now(self.door, self.drive);
-        let hardness = self.yielding.as_ref().map(|(hardness, _)| *hardness);
-        self.solver.yield_at(hardness.unwrap_or(f64::INFINITY));
+        self.solver.newton.order = self.plan.order_now(self.drive);
+        self.solver.yield_at(match self.yielded {
+            Some(_) => self.plan.hardness,
+            None => f64::INFINITY,
+        });
         solve(self.solver, self.state, &conditions)
     }
 }

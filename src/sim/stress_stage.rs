@@ -3,6 +3,7 @@
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
+use crate::solve::life::Shares;
 use crate::solve::stress::{
     Cut, LineStress, Loading, Plane, Purpose, SliceOut, StressEngine, StressError, StressLaw,
     StressSpec, VolumeSums,
@@ -52,6 +53,8 @@ pub(super) struct StressStage {
     shear: TractionActs,
     /// The slice of the last step in body 1.
     pub(super) slice: SliceOut,
+    /// Room for what a life model makes of the surface loaded last.
+    pub(super) shares: Shares,
     /// What life looks at besides; `None` where no life is asked for.
     companions: Option<Companions>,
 }
@@ -83,18 +86,16 @@ impl StressStage {
         measure: StressMeasure,
         purpose: Purpose,
     ) -> Result<Self, StressError> {
-        use crate::solve::stress::Symmetry as Rows;
-        let volume = |rows: Rows| {
+        let volume = || {
             let (nodes, spacing) = ((grid.nx, grid.ny), (grid.dx, grid.dy));
-            let mut spec = StressSpec::new(nodes, spacing, poisson[0], depths, rows);
+            let mut spec = StressSpec::new(nodes, spacing, poisson[0], depths, grid.symmetry);
             spec.nu_2 = poisson[1];
             (spec.x_first, spec.measure) = (grid.x_min, measure);
             spec.purpose = purpose;
             StressEngine::new(&spec).map(|engine| StressBackend::Volume(Box::new(engine)))
         };
         let engine = match grid.symmetry {
-            Symmetry::MirrorY => volume(Rows::MirrorY)?,
-            Symmetry::General => volume(Rows::General)?,
+            Symmetry::MirrorY | Symmetry::General => volume()?,
             Symmetry::Line => {
                 let place = (grid.x_min, grid.dx);
                 let engine = LineStress::new(grid.nx, place, poisson, depths, measure);
@@ -107,6 +108,7 @@ impl StressStage {
             pressure: vec![0.0; grid.len()],
             traction: vec![0.0; grid.len()],
             shear: TractionActs::None,
+            shares: Shares::new(depths.0),
             companions: (purpose == Purpose::Volumes).then(|| Companions {
                 mate: slice.clone(),
                 criterion: slice.clone(),
@@ -129,6 +131,11 @@ impl StressStage {
     pub(super) fn row_count(&self) -> usize {
         let one = Loading::Normal(BodyId::One);
         self.engine.sums().row_tops(one).len()
+    }
+
+    /// Pressure of the surface loaded last on the line y = 0.
+    pub(super) fn pressure_on_axis(&self, grid: &Grid) -> &[f32] {
+        &self.pressure[grid.axis_row() * grid.nx..][..grid.nx]
     }
 
     /// Takes the surface of a step and computes the slices.

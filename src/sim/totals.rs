@@ -1,17 +1,12 @@
-//! Means over the last passage, and the summary of a run.
+//! Means over the last passage, and what a summary says of them.
 
 use std::collections::{BTreeMap, VecDeque};
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::caution;
-use super::fatigue_stage::LifeStage;
 use super::frame::{SUMMED, summed, total};
-use super::summary::PitStart;
-use super::{CATALOGUE, Grounds, LifeEstimate, Metrics, Over, Simulation, Stats, Summary};
-use crate::physics::cycles::BodyId;
-use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
+use super::{CATALOGUE, Grounds, Metrics, Over, Summary};
 
 /// One step.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -26,7 +21,6 @@ struct Entry {
     /// Greatest effective stress: value, depth, x.
     stress: Option<[f64; 3]>,
     /// What both bodies have yielded up to its end, m³.
-    #[serde(default)]
     yielded_m3: f64,
 }
 
@@ -151,128 +145,44 @@ impl Totals {
         let lately = last.yielded_m3 - first.yielded_m3;
         (last.yielded_m3 > 0.0).then(|| lately / last.yielded_m3)
     }
-}
 
-/// The summary of a simulation. What only its run knows (name, clock, steps planned, discretisation error) is left out.
-pub(super) fn summary(
-    sim: &Simulation,
-    totals: &Totals,
-    life: Option<&LifeEstimate>,
-    counters: Stats,
-) -> Summary {
-    let m = sim.metrics();
-    let size = sim.size_now();
-    let stress = totals.greatest_stress();
-    Summary {
-        converged: totals.not_converged == 0,
-        steps: sim.passage_steps(),
-        steps_not_converged: totals.not_converged,
-        a_m: sim.plan.hertz.a_m * size,
-        p_hertz_pa: sim.plan.hertz.p_max_pa * size,
-        h_central_m: totals.number(const { total("h_central_m") }),
-        h_min_m: totals.number(const { total("h_min_m") }),
-        p_max_pa: totals.number(const { total("p_max_pa") }),
-        p_max_greatest_pa: totals.number(const { total("p_max_greatest_pa") }),
-        h_min_least_m: totals.number(const { total("h_min_least_m") }),
-        regime: m.regime,
-        cautions: caution::list(m, &sim.grounds()),
-        lambda_ratio: m.lambda_ratio,
-        contact_ratio: totals.number(const { total("contact_ratio") }),
-        contact_load_ratio: totals.number(const { total("contact_load_ratio") }),
-        load_n: totals.number(const { total("load_n") }),
-        load_error: totals.number(const { total("load_error") }),
-        mass_error: totals.number(const { total("mass_error") }),
-        friction_coefficient: totals.number(const { total("friction_coefficient") }),
-        yielded_body_1_m3: m.yielded_m3.map(|both| both[0]),
-        yielded_body_2_m3: m.yielded_m3.map(|both| both[1]),
-        yielded_last_share: totals.yielded_last_share(),
-        n_body_1: m.n_body_1,
-        n_body_2: m.n_body_2,
-        n_counted_body_1: m.n_counted_body_1,
-        n_counted_body_2: m.n_counted_body_2,
-        sigma_eff_max_pa: stress.map(|s| s[0]),
-        sigma_eff_max_depth_m: stress.map(|s| s[1]),
-        sigma_eff_max_x_m: stress.map(|s| s[2]),
-        counters,
-        pit_body_1: pit(sim, BodyId::One),
-        pit_body_2: pit(sim, BodyId::Two),
-        cycles_end_depth_1_m: cycles_end(sim, BodyId::One),
-        cycles_end_depth_2_m: cycles_end(sim, BodyId::Two),
-        a_iso: a_iso(sim),
-        rhythm: m.repeat.map(|r| r.rhythm),
-        period_s: m.repeat.map(|r| r.period_s),
-        period_drift: m.repeat.and_then(|r| r.drift),
-        periodic: m.repeat.map(|r| r.repeats),
-        by_itself: totals.by_themselves(),
-        ..with_life(life, sim.state.life.as_ref())
+    /// The summary of the last step `m` and of what was summed up; `known`: what does not come from the steps.
+    pub(super) fn summary(&self, m: &Metrics, known: Summary) -> Summary {
+        let stress = self.greatest_stress();
+        Summary {
+            converged: self.not_converged == 0,
+            steps_not_converged: self.not_converged,
+            h_central_m: self.number(const { total("h_central_m") }),
+            h_min_m: self.number(const { total("h_min_m") }),
+            p_max_pa: self.number(const { total("p_max_pa") }),
+            p_max_greatest_pa: self.number(const { total("p_max_greatest_pa") }),
+            h_min_least_m: self.number(const { total("h_min_least_m") }),
+            regime: m.regime,
+            lambda_ratio: m.lambda_ratio,
+            contact_ratio: self.number(const { total("contact_ratio") }),
+            contact_load_ratio: self.number(const { total("contact_load_ratio") }),
+            load_n: self.number(const { total("load_n") }),
+            load_error: self.number(const { total("load_error") }),
+            mass_error: self.number(const { total("mass_error") }),
+            friction_coefficient: self.number(const { total("friction_coefficient") }),
+            yielded_body_1_m3: m.yielded_m3.map(|both| both[0]),
+            yielded_body_2_m3: m.yielded_m3.map(|both| both[1]),
+            yielded_last_share: self.yielded_last_share(),
+            n_body_1: m.n_body_1,
+            n_body_2: m.n_body_2,
+            n_counted_body_1: m.n_counted_body_1,
+            n_counted_body_2: m.n_counted_body_2,
+            sigma_eff_max_pa: stress.map(|s| s[0]),
+            sigma_eff_max_depth_m: stress.map(|s| s[1]),
+            sigma_eff_max_x_m: stress.map(|s| s[2]),
+            rhythm: m.repeat.map(|r| r.rhythm),
+            period_s: m.repeat.map(|r| r.period_s),
+            period_drift: m.repeat.and_then(|r| r.drift),
+            periodic: m.repeat.map(|r| r.repeats),
+            by_itself: self.by_themselves(),
+            ..known
+        }
     }
-}
-
-/// What a summary says of the life.
-fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary {
-    Summary {
-        i_ref: life.map(|l| l.i_ref),
-        i_mean: life.map(|l| l.i_mean),
-        cycle_factor: life.map(|l| l.cycle_factor),
-        stress_factor: life.map(|l| l.stress_factor),
-        peak_factor: life.map(|l| l.peak_factor),
-        traction_factor: life.map(|l| l.traction_factor),
-        load_factor: life.map(|l| l.load_factor),
-        life_relative: life.map(|l| l.life_relative),
-        life_relative_low: life.map(|l| l.life_relative_low),
-        life_relative_high: life.map(|l| l.life_relative_high),
-        survival_ratio: stage.map(LifeStage::survival_ratio),
-        life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
-        life_count: stage.map(LifeStage::count_text),
-        life_basis: stage.map(LifeStage::basis_text),
-        life_body: life.map(|l| l.detail.body),
-        life_body_1: life.and_then(|l| l.detail.life_body[0]),
-        life_body_2: life.and_then(|l| l.detail.life_body[1]),
-        life_system: life.and_then(|l| l.detail.life_system),
-        life_global: life.and_then(|l| l.detail.life_global),
-        life_damage: life.and_then(|l| l.detail.life_damage),
-        life_snapshot: life.and_then(|l| l.detail.life_snapshot),
-        life_swept: life.and_then(|l| l.detail.life_swept),
-        life_models_low: life.map(|l| l.detail.spread_low),
-        life_models_high: life.map(|l| l.detail.spread_high),
-        life_models: life.map(|l| l.detail.variants),
-        life_cycles: life.and_then(|l| l.detail.cycles),
-        life_cycles_low: life
-            .and_then(|l| Some(l.detail.cycles? * l.life_relative_low / l.life_relative)),
-        life_cycles_high: life
-            .and_then(|l| Some(l.detail.cycles? * l.life_relative_high / l.life_relative)),
-        ..Summary::default()
-    }
-}
-
-/// Where the pit of a body starts.
-fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
-    let counting = sim.state.counting.as_ref()?;
-    let size = sim.size_now();
-    let pit = counting.pit(body, size)?;
-    let depth = *sim.work.stress.as_ref()?.depths().get(pit.depth)?;
-    let length = counting.map(body, size)?.0.spec().length;
-    Some(PitStart {
-        depth_m: sim.door.m_from_x(depth),
-        place_m: super::fill::place_m(sim, pit.place, length),
-        damage: pit.damage,
-    })
-}
-
-/// Depth from which on a crossing counts less than 1.5 cycles of signed shear.
-fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
-    let counts = sim.state.counting.as_ref()?.shear_counts(body)?;
-    let depths = sim.work.stress.as_ref()?.depths();
-    let last = counts.iter().rposition(|count| *count >= 1.5);
-    let k = last.map_or(0, |k| (k + 1).min(depths.len() - 1));
-    Some(sim.door.m_from_x(depths[k]))
-}
-
-/// a_ISO beside the result, from λ and e_C C_u/P at the load P of now.
-fn a_iso(sim: &Simulation) -> Option<f64> {
-    let m = sim.metrics();
-    let load_ratio = sim.iso_load_ratio? * sim.plan.force_n / m.load_n;
-    a_iso_radial_ball(kappa_from_lambda(m.lambda_ratio?), load_ratio)
 }
 
 #[cfg(test)]
@@ -284,7 +194,9 @@ mod tests {
     fn steps_saved_before_a_quantity_was_added_are_read() {
         let entry = |values: usize| {
             let values = vec!["2.5"; values].join(",");
-            let text = format!(r#"{{"way":1.0,"span":0.5,"values":[{values}],"stress":null}}"#);
+            let text = format!(
+                r#"{{"way":1.0,"span":0.5,"values":[{values}],"stress":null,"yielded_m3":0}}"#
+            );
             serde_json::from_str::<Entry>(&text)
         };
         let before = entry(SUMMED - 1).unwrap();

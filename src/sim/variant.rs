@@ -7,8 +7,8 @@ use super::stress_stage::StressStage;
 use crate::math::ln_sum::ln_list;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
-use crate::physics::life_models::LifeModel;
-use crate::scene::{Life, Spread, VolumeIntegral};
+use crate::physics::life_models::LifeEquation;
+use crate::scene::{Life, LifeModel, Spread, VolumeIntegral};
 use crate::solve::critical::shares_of_slice;
 use crate::solve::life::{LifeMeter, Shares, Sweep, Window};
 use crate::solve::stress::{Loading, StressLaw};
@@ -16,7 +16,7 @@ use crate::solve::stress::{Loading, StressLaw};
 /// A model with its accumulators: plain data, all of it state.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Variant {
-    pub(super) model: LifeModel,
+    pub(super) model: LifeEquation,
     /// Place of its stress law in the volume pass; `None`: it reads slices.
     pub(super) law: Option<usize>,
     meter: LifeMeter,
@@ -39,12 +39,12 @@ pub(super) struct Shared<'a> {
     pub(super) law: LifeLaw,
     pub(super) laws: &'a [StressLaw],
     pub(super) sweep: &'a Sweep,
-    pub(super) scratch: &'a mut Shares,
+    pub(super) scratch: Shares,
 }
 
 impl Variant {
     pub(super) fn new(
-        model: LifeModel,
+        model: LifeEquation,
         law: Option<usize>,
         depths: usize,
         (window, capacity): (Window, usize),
@@ -126,7 +126,7 @@ impl Variant {
     /// Takes the surface loaded last; the volume pass has been made.
     pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, shared: &mut Shared) {
         self.take(stress, shared);
-        self.meter.push(way, shared.scratch);
+        self.meter.push(way, &shared.scratch);
     }
 
     /// What has been swept, as the mean over the material points of `counting`.
@@ -217,29 +217,30 @@ fn form_index(form: VolumeIntegral) -> usize {
 }
 
 /// The models that are computed: the scene's, and those of the spread.
-pub(super) fn models(asked: &Life, p_hertz_pa: f64) -> Vec<LifeModel> {
-    use crate::scene::LifeModel as Asked;
-    let make = |model: Asked| match model {
-        Asked::Zaretsky => LifeModel::Zaretsky,
-        Asked::LundbergPalmgren => LifeModel::LundbergPalmgren {
+pub(super) fn models(asked: &Life, p_hertz_pa: f64) -> Vec<LifeEquation> {
+    let make = |model: LifeModel| match model {
+        LifeModel::Zaretsky => LifeEquation::Zaretsky,
+        LifeModel::LundbergPalmgren => LifeEquation::LundbergPalmgren {
             depth_exponent: asked.depth_exponent,
             cut_off: asked.cut_off_a,
         },
-        Asked::IoannidesHarris => LifeModel::IoannidesHarris {
+        LifeModel::IoannidesHarris => LifeEquation::IoannidesHarris {
             depth_exponent: asked.depth_exponent,
             cut_off: asked.cut_off_a,
             limit: asked.limit_pa / p_hertz_pa,
         },
-        Asked::DangVan => LifeModel::DangVan {
+        LifeModel::DangVan => LifeEquation::DangVan {
             hydrostatic: asked.normal_weight,
         },
-        Asked::Findley => LifeModel::Findley {
+        LifeModel::Findley => LifeEquation::Findley {
             normal: asked.normal_weight,
         },
     };
     let mut list = vec![make(asked.model)];
     if asked.spread == Spread::Models {
-        let others = Asked::ALL.into_iter().filter(|model| *model != asked.model);
+        let others = LifeModel::ALL
+            .into_iter()
+            .filter(|model| *model != asked.model);
         list.extend(others.map(make));
     }
     list

@@ -65,11 +65,6 @@ impl Yielded {
         Self { skins }
     }
 
-    /// Whether body `body` (0 or 1) yields.
-    pub(super) fn yields(&self, body: usize) -> bool {
-        self.skins[body].is_some()
-    }
-
     /// What body 1 and 2 have yielded since the start, ∬ w in film units times a².
     pub(super) fn volumes(&self) -> [f64; 2] {
         let volume = |skin: &Option<Skin>| skin.as_ref().map_or(0.0, |skin| skin.volume);

@@ -8,13 +8,13 @@
 
 use super::stress::{DEPTH_SCALE_A, SliceOut};
 use crate::physics::fatigue::LifeLaw;
-use crate::physics::life_models::LifeModel;
+use crate::physics::life_models::LifeEquation;
 use crate::physics::multiaxial::{dang_van, findley};
 
 /// ln J of `model` from a slice of `nx` nodes below each of `depths`, into `shares`, one per depth; and the
 /// stress of every depth (half range of τ_xz, or risk, p_h) into `by_depth`.
 pub fn shares_of_slice(
-    model: LifeModel,
+    model: LifeEquation,
     law: LifeLaw,
     (nx, depths): (usize, &[f64]),
     slice: &SliceOut,
@@ -34,14 +34,14 @@ pub fn shares_of_slice(
     }
 }
 
-fn stress_at(model: LifeModel, slice: &SliceOut, nx: usize, k: usize) -> f64 {
+fn stress_at(model: LifeEquation, slice: &SliceOut, nx: usize, k: usize) -> f64 {
     let history = (0..nx).map(|i| slice.state(k * nx + i));
     match model {
-        LifeModel::DangVan { hydrostatic } => dang_van(history, hydrostatic),
-        LifeModel::Findley { normal } => findley(&history, normal).0,
-        LifeModel::LundbergPalmgren { .. }
-        | LifeModel::Zaretsky
-        | LifeModel::IoannidesHarris { .. } => {
+        LifeEquation::DangVan { hydrostatic } => dang_van(history, hydrostatic),
+        LifeEquation::Findley { normal } => findley(&history, normal).0,
+        LifeEquation::LundbergPalmgren { .. }
+        | LifeEquation::Zaretsky
+        | LifeEquation::IoannidesHarris { .. } => {
             let row = &slice.sxz[k * nx..(k + 1) * nx];
             let low = row.iter().fold(0.0_f32, |low, v| low.min(*v));
             let high = row.iter().fold(0.0_f32, |high, v| high.max(*v));

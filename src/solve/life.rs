@@ -30,7 +30,7 @@ use crate::physics::fatigue::{CyclePair, IntegralLogs, LifeFactors, LifeLaw};
 use crate::physics::life_models::CycleProfile;
 
 /// ln of every depth's share of J, for each of the four loadings (`[loading · depths + k]`).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Shares {
     depths: usize,
     #[serde(with = "ln_list")]

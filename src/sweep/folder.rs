@@ -25,7 +25,7 @@ use super::spec::Sweep;
 use crate::files::{fnv, publish, sync_file};
 use crate::run::Checkpoint;
 use crate::scene::Scene;
-use crate::sim::State;
+use crate::sim::{State, Stats};
 use mark::{Company, Lock, MARK, Mark, TEMPORARY};
 
 const MAGIC: &str = "asperity case 1 ";
@@ -192,6 +192,7 @@ impl Folder {
             n_events_played: 0,
             n_unconverged: 0,
             n_turned_by_hand: 0,
+            stats: Stats::default(),
             sim: state.clone(),
         };
         self.write_by(&self.state_path(chain, case), |temporary| {

@@ -13,7 +13,7 @@ use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::{ChainKeys, Sweep};
 use super::window::window;
-use crate::plan::{Cost, March, Plan, PlanError};
+use crate::plan::{Cost, Plan, PlanError, TimeDependence};
 use crate::scene::Scene;
 use crate::sim::State;
 
@@ -175,7 +175,7 @@ pub(super) fn case_of(scene: Scene, chain: ChainKeys) -> Result<(Scene, Plan), P
 
 /// Makes the last passage of a plan as long as its window.
 fn fit_window(plan: &mut Plan) {
-    if plan.march != March::Transient {
+    if plan.time_dependence != TimeDependence::Transient {
         return;
     }
     let run_in = (plan.length_a - plan.passage_a).max(0.0);

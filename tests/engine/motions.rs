@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::{March, Plan};
+use asperity::plan::{Plan, TimeDependence};
 use asperity::scene::{Override, Scene, presets};
 use asperity::sim::{Frame, Knob, Simulation, Stage, Summary};
 
@@ -218,7 +218,10 @@ fn ridges_turned_by_a_right_angle_are_longitudinal() {
     ]);
     for scene in [&turned, &longitudinal] {
         let plan = Plan::new(scene).unwrap();
-        assert!(matches!(plan.march, March::Steady { .. }));
+        assert!(matches!(
+            plan.time_dependence,
+            TimeDependence::Steady { .. }
+        ));
     }
     let ((one, _), (two, _)) = (run(&turned, 2), run(&longitudinal, 2));
     for (a, b) in one.iter().zip(&two) {

@@ -24,7 +24,7 @@ use asperity::solve::film::Elastic;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{Iterate, NewtonReport, Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
-use asperity::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry as StressSymmetry};
+use asperity::solve::stress::{SliceOut, StressEngine, StressSpec};
 use asperity::study::Table;
 
 /// Time that the runs of a case take together, s, and how many they are.
@@ -225,7 +225,7 @@ fn subsurface(n: usize, depths: usize) -> Result<Row, String> {
         (d, d),
         0.3,
         (depths, 3.0),
-        StressSymmetry::General,
+        Symmetry::General,
     );
     spec.x_first = -2.0;
     let p: Vec<f32> = (0..spec.nx * spec.ny)

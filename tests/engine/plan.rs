@@ -1,7 +1,7 @@
 //! The plan: which stage is there, which is left out and why, and what is refused.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::{March, Plan, PlanError, Symmetry, Warning};
+use asperity::plan::{Plan, PlanError, Symmetry, TimeDependence, Warning};
 use asperity::scene::{Override, Scene, presets};
 
 fn plan(settings: &[&str]) -> Result<Plan, PlanError> {
@@ -34,8 +34,8 @@ fn the_default_scene() {
         (129, -2.5, 2.0)
     );
     assert_eq!(
-        (plan.march, plan.symmetry),
-        (March::Transient, Symmetry::MirrorY)
+        (plan.time_dependence, plan.symmetry),
+        (TimeDependence::Transient, Symmetry::MirrorY)
     );
     assert_eq!((plan.steps, plan.steps_per_passage), (256, 128));
     assert!(
@@ -74,7 +74,10 @@ fn nothing_that_is_not_asked_for_is_computed() {
         assert!(left_out(&dry).contains(&stage), "{stage}");
     }
     let smooth = plan(&["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"]).unwrap();
-    assert!(matches!(smooth.march, March::Steady { .. }));
+    assert!(matches!(
+        smooth.time_dependence,
+        TimeDependence::Steady { .. }
+    ));
     assert_eq!((smooth.steps, smooth.waves), (1, [None, None]));
     let ridges = plan(&[
         "body_1.surface.wavelength_x_m=inf",
@@ -82,7 +85,10 @@ fn nothing_that_is_not_asked_for_is_computed() {
         "body_2.surface.kind=smooth",
     ]);
     assert!(
-        matches!(ridges.unwrap().march, March::Steady { .. }),
+        matches!(
+            ridges.unwrap().time_dependence,
+            TimeDependence::Steady { .. }
+        ),
         "longitudinal ridges do not move"
     );
 }
@@ -230,7 +236,7 @@ fn events_keep_time_marching() {
     let with_event =
         format!("{toml}\n[[event]]\nat_s = 1e-4\nset = {{ \"load.force_n\" = 900.0 }}\n");
     let plan = Plan::new(&Scene::from_toml(&with_event).unwrap()).unwrap();
-    assert_eq!(plan.march, March::Transient);
+    assert_eq!(plan.time_dependence, TimeDependence::Transient);
 }
 
 #[test]

@@ -183,6 +183,7 @@ fn adaptive_steps_are_deterministic_and_go_on_from_a_saved_state() {
     }
     let mut second = simulation(&sets);
     second.restore(first.save()).unwrap();
+    second.count_from(*first.stats()).unwrap();
     while !second.is_done() {
         second.step().unwrap();
     }

@@ -3,7 +3,7 @@
 
 use asperity::physics::cycles::{BodyId, Kinematics, miner_part};
 use asperity::physics::fatigue::LifeLaw;
-use asperity::physics::life_models::{CycleProfile, DEPTH_EXPONENT, LifeModel};
+use asperity::physics::life_models::{CycleProfile, DEPTH_EXPONENT, LifeEquation};
 use asperity::scene::StressMeasure;
 use asperity::solve::critical::shares_of_slice;
 use asperity::solve::life::{Shares, factors};
@@ -21,7 +21,7 @@ fn spec(n: usize, depths: usize, symmetry: Symmetry) -> StressSpec {
     let d = 2.0 * HALF / n as f64;
     let ny = match symmetry {
         Symmetry::MirrorY => n / 2 + 1,
-        Symmetry::General => n + 1,
+        Symmetry::General | Symmetry::Line => n + 1,
     };
     let mut spec = StressSpec::new((n + 1, ny), (d, d), NU, (depths, 3.0), symmetry);
     spec.x_first = -HALF;
@@ -371,24 +371,24 @@ fn models_of_one_depth_know_hertz() {
     engine.slice(&mut slice);
     let mut by_depth = vec![0.0_f32; 32];
     let mut shares = vec![0.0; 32];
-    let mut greatest = |model: LifeModel| {
+    let mut greatest = |model: LifeEquation| {
         let place = (spec.nx, &spec.depths[..]);
         shares_of_slice(model, law, place, &slice, &mut by_depth, &mut shares);
         assert_eq!(shares.iter().filter(|ln| ln.is_finite()).count(), 1);
         let k = shares.iter().position(|ln| ln.is_finite()).expect("one");
         (f64::from(by_depth[k]), spec.depths[k])
     };
-    let (tau, z) = greatest(LifeModel::LundbergPalmgren {
+    let (tau, z) = greatest(LifeEquation::LundbergPalmgren {
         depth_exponent: DEPTH_EXPONENT,
         cut_off: 0.05,
     });
     println!("orthogonal shear {tau:.4} p_h near z = {z:.3} a");
     assert!((tau - 0.214).abs() < 3e-3 && (z - 0.35).abs() < 0.07);
-    let (findley, z) = greatest(LifeModel::Findley { normal: 0.0 });
+    let (findley, z) = greatest(LifeEquation::Findley { normal: 0.0 });
     println!("Findley without normal stress {findley:.4} p_h near z = {z:.3} a");
     assert!((findley / tau - 1.0).abs() < 1e-3);
-    let (plain, _) = greatest(LifeModel::DangVan { hydrostatic: 0.0 });
-    let (weighed, _) = greatest(LifeModel::DangVan { hydrostatic: 0.3 });
+    let (plain, _) = greatest(LifeEquation::DangVan { hydrostatic: 0.0 });
+    let (weighed, _) = greatest(LifeEquation::DangVan { hydrostatic: 0.3 });
     println!("Dang Van {plain:.4} p_h, with 0.3 of the hydrostatic stress {weighed:.4}");
     assert!(plain < 0.31 && weighed < plain, "pressure lowers the risk");
 }

@@ -29,7 +29,7 @@ impl Surface {
         let d = self.size / self.n as f64;
         let ny = match symmetry {
             Symmetry::MirrorY => self.n / 2 + 1,
-            Symmetry::General => self.n + 1,
+            Symmetry::General | Symmetry::Line => self.n + 1,
         };
         let mut spec = StressSpec::new((self.n + 1, ny), (d, d), NU, depths, symmetry);
         spec.x_first = self.x0;
@@ -41,7 +41,7 @@ impl Surface {
 fn field(spec: &StressSpec, f: impl Fn(f64, f64) -> f64) -> Vec<f32> {
     let axis = match spec.symmetry {
         Symmetry::MirrorY => 0,
-        Symmetry::General => spec.ny / 2,
+        Symmetry::General | Symmetry::Line => spec.ny / 2,
     };
     let mut out = vec![0.0; spec.nx * spec.ny];
     for j in 0..spec.ny {

@@ -15,7 +15,7 @@ fn spec(n: usize, symmetry: Symmetry, depths: &[f64]) -> StressSpec {
     let d = 4.0 / n as f64;
     let ny = match symmetry {
         Symmetry::MirrorY => n / 2 + 1,
-        Symmetry::General => n + 1,
+        Symmetry::General | Symmetry::Line => n + 1,
     };
     let mut spec = StressSpec::new((n + 1, ny), (d, d), NU, (8, 3.0), symmetry);
     spec.x_first = -2.0;
@@ -29,7 +29,7 @@ fn spec(n: usize, symmetry: Symmetry, depths: &[f64]) -> StressSpec {
 fn field(spec: &StressSpec, f: impl Fn(f64, f64) -> f64) -> Vec<f32> {
     let axis = match spec.symmetry {
         Symmetry::MirrorY => 0,
-        Symmetry::General => spec.ny / 2,
+        Symmetry::General | Symmetry::Line => spec.ny / 2,
     };
     let y = |j: usize| spec.dy * (j as f64 - axis as f64);
     let x = |i: usize| spec.x_first + spec.dx * i as f64;

@@ -11,3 +11,4 @@ mod restart;
 mod restart_cli;
 mod restart_matrix;
 mod viewer;
+mod workspace;

@@ -253,9 +253,7 @@ fn a_workspace_thrown_away_before_a_step_changes_nothing() {
             whole.step().unwrap();
             // The smooth start-up is the same in all cases but for its grid.
             if made_steps % 8 == 0 || whole.progress() > 0.4 {
-                let state = cut.save();
-                cut = made(&case.scene);
-                cut.restore(state).unwrap();
+                cut.renew_work().unwrap();
             }
             cut.step().unwrap();
             made_steps += 1;
@@ -378,7 +376,7 @@ fn states_of_all_presets_load() {
     }
 }
 
-fn scene_smooth(preset: &str) -> Scene {
+pub(crate) fn scene_smooth(preset: &str) -> Scene {
     let sets = [
         "grid.nodes=33",
         "body_1.surface.kind=smooth",
@@ -389,7 +387,7 @@ fn scene_smooth(preset: &str) -> Scene {
     Scene::load_with(preset, &sets).unwrap()
 }
 
-fn lengthen(surface: &mut asperity::scene::Surface, least_m: f64) {
+pub(crate) fn lengthen(surface: &mut asperity::scene::Surface, least_m: f64) {
     if let asperity::scene::Surface::Sinusoid {
         wavelength_x_m,
         wavelength_y_m,

@@ -190,7 +190,7 @@ fn inside(length: f64, step: f64) -> usize {
 fn rows_inside(spec: &StressSpec, hy: f64) -> (isize, usize) {
     match spec.symmetry {
         Symmetry::MirrorY => (0, inside((spec.ny - 1) as f64 * spec.dy, hy) + 1),
-        Symmetry::General => {
+        Symmetry::General | Symmetry::Line => {
             let half = inside((spec.ny / 2) as f64 * spec.dy, hy);
             (-(half as isize), 2 * half + 1)
         }

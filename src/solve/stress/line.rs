@@ -81,7 +81,7 @@ impl LineStress {
         depths: (usize, f64),
         measure: StressMeasure,
     ) -> Self {
-        let mut spec = StressSpec::new((nx, 1), (dx, 1.0), nu[0], depths, Symmetry::MirrorY);
+        let mut spec = StressSpec::new((nx, 1), (dx, 1.0), nu[0], depths, Symmetry::Line);
         (spec.nu_2, spec.x_first, spec.measure) = (nu[1], x_first, measure);
         (spec.depths, spec.weights) = depth_rule(depths.0, depths.1);
         let length = 2 * (nx - 1);

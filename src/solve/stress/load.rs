@@ -148,7 +148,7 @@ impl StressEngine {
         }
         let (spec, waves, work) = (&self.spec, &self.waves, &mut self.load);
         let signs = match spec.symmetry {
-            Symmetry::General => 2,
+            Symmetry::General | Symmetry::Line => 2,
             Symmetry::MirrorY => 1,
         };
         for block in 0..spec.nx.div_ceil(LANES) {
@@ -215,7 +215,7 @@ fn read_rows(spec: &StressSpec, block: usize, field: &[f32], parity: MirrorParit
                 out[0] = V::ZERO;
             }
         }
-        Symmetry::General => {
+        Symmetry::General | Symmetry::Line => {
             let axis = spec.ny / 2;
             for j in 0..spec.ny {
                 out[(j + n - axis) % n] = row(j);

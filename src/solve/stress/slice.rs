@@ -134,7 +134,7 @@ impl StressEngine {
         let line = |component: usize| (component * depth_blocks + depth_block) * width;
         let pairs = match spec.symmetry {
             Symmetry::MirrorY => 2,
-            Symmetry::General => 3,
+            Symmetry::General | Symmetry::Line => 3,
         };
         for (pair, x) in work.along_x.iter_mut().enumerate().take(pairs) {
             let places = (line(2 * pair), Some(line(2 * pair + 1)));

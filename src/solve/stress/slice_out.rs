@@ -48,7 +48,7 @@ impl SliceOut {
     pub fn new(spec: &StressSpec) -> Self {
         let n = spec.nx * spec.depths.len();
         let odd = match spec.symmetry {
-            Symmetry::MirrorY => 0,
+            Symmetry::MirrorY | Symmetry::Line => 0,
             Symmetry::General => n,
         };
         Self {

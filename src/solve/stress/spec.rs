@@ -3,17 +3,9 @@
 //! Part of `stress/mod.rs`.
 
 use super::depth::depth_rule;
+pub use crate::math::grid::Symmetry;
 use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
-
-/// Which rows of the surface are given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Symmetry {
-    /// Even in y: rows y = 0, dy, 2dy, ...; row 0 is the axis.
-    MirrorY,
-    /// All rows; the middle one (`ny/2`, `ny` odd) is y = 0.
-    General,
-}
 
 /// Which body is looked at, and what acts on it. Body 2 has its own inward z and the same x and y; the
 /// traction on it is opposite.
@@ -89,7 +81,7 @@ pub struct StressSpec {
     pub depths: Vec<f64>,
     /// Weights of the depths in an integral over z, a.
     pub weights: Vec<f64>,
-    /// Which rows are given.
+    /// Which rows are given: of all of them (`ny` odd) the middle one is y = 0.
     pub symmetry: Symmetry,
     /// What it is used for.
     pub purpose: Purpose,
@@ -225,7 +217,7 @@ impl StressSpec {
     pub(super) fn full_rows(&self) -> usize {
         match self.symmetry {
             Symmetry::MirrorY => 2 * self.ny - 1,
-            Symmetry::General => self.ny,
+            Symmetry::General | Symmetry::Line => self.ny,
         }
     }
 }

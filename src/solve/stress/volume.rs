@@ -88,7 +88,7 @@ impl Worker {
         let longest = waves.n_x.max(waves.n_y);
         let (buffers, rows) = match symmetry {
             Symmetry::MirrorY => (3, waves.n_y / 2 + 1),
-            Symmetry::General => (5, waves.n_y),
+            Symmetry::General | Symmetry::Line => (5, waves.n_y),
         };
         let fields = 5 * rows.div_ceil(LANES) * waves.blocks * LANES;
         let all_rows = layers.iter().map(|layer| layer.inside_y).sum();
@@ -270,7 +270,9 @@ impl LayerInput<'_> {
                 let fields = &mut worker.fields[slot];
                 match self.spec.symmetry {
                     Symmetry::MirrorY => unfold_rows(layer, block, which, input, fields),
-                    Symmetry::General => turn_rows(layer, block, which, input, fields),
+                    Symmetry::General | Symmetry::Line => {
+                        turn_rows(layer, block, which, input, fields);
+                    }
                 }
             }
         }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::case::{JUMP_AT, Ready};
-use crate::plan::{March, mesh_error};
+use crate::plan::{TimeDependence, mesh_error};
 use crate::scene::ContactKind;
 use crate::sim::{Frame, Simulation, Stage, Stats};
 
@@ -215,7 +215,7 @@ fn drive(
 
 /// Steps of the passage: a steady scene that nobody disturbs needs one.
 fn steps_wanted(ready: &Ready) -> u64 {
-    let steady = matches!(ready.plan.march, March::Steady { .. });
+    let steady = matches!(ready.plan.time_dependence, TimeDependence::Steady { .. });
     if steady && ready.jumps.is_empty() {
         1
     } else {

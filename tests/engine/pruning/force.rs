@@ -4,7 +4,7 @@
 //! scene that means the same and that the plan does not see through (waves of no height, an Eyring stress that no film
 //! reaches, oil too thin to carry anything). The rectangle stays the same.
 
-use asperity::plan::{March, Plan, Symmetry, TractionDeflection};
+use asperity::plan::{Plan, Symmetry, TimeDependence, TractionDeflection};
 use asperity::scene::{Lubricant, Rheology, Scene, Spread, Surface};
 
 /// A stage that may be left out.
@@ -112,10 +112,10 @@ impl Forced {
                 plan.traction_deflection = Some(TractionDeflection { mismatch_per_pa });
             }
             Self::TimeSteps => {
-                if !matches!(plan.march, March::Steady { .. }) {
+                if !matches!(plan.time_dependence, TimeDependence::Steady { .. }) {
                     return None;
                 }
-                plan.march = March::Transient;
+                plan.time_dependence = TimeDependence::Transient;
                 let steps = scene.time.passages * plan.steps_per_passage as f64;
                 plan.steps = steps.ceil() as u64;
             }
@@ -136,7 +136,7 @@ impl Forced {
                 let asked = Plan::new(&scene).ok()?;
                 // What nobody forces stays left out.
                 plan = Plan {
-                    march: plan.march,
+                    time_dependence: plan.time_dependence,
                     steps: plan.steps,
                     symmetry: plan.symmetry,
                     ..asked

@@ -14,9 +14,11 @@
 //! and the central film within 0.05 % of what they are after settling for 4 a in short steps (0.07 and 0.05 % after
 //! 2 a). Without the lead they are 1.3 % off at S = 0 (`tests/command_line/sweep.rs`, `a_warm_case_is_what_a_cold_one_is`).
 
-use super::drive::Drive;
-use super::simulation::{DEVELOP, Phase, Simulation};
-use super::{Knob, SimError, State};
+use super::Simulation;
+use crate::sim::drive::Drive;
+use crate::sim::sim_plan::DEVELOP;
+use crate::sim::state::Phase;
+use crate::sim::{Knob, SimError, State};
 
 /// Way at U, in a, in which what entered under the neighbour's conditions leaves all but the end of the contact.
 const FLUSH: f64 = 1.6;
@@ -42,7 +44,7 @@ impl Simulation {
     /// is as it was.
     pub fn follow(&mut self, neighbour: &State) -> Result<(), SimError> {
         self.take_over(neighbour)?;
-        let dt = self.stepping.usual() * self.plan.domain.dx_a();
+        let dt = self.plan.stepping.usual() * self.plan.decided.domain.dx_a();
         let goal = self.cold_ways(dt);
         for knob in FREE {
             let wanted = self.state.wanted.get(knob).target;
@@ -113,17 +115,14 @@ impl Simulation {
 
     /// Where a cold start would have both surfaces when the passage begins, in a.
     fn cold_ways(&self, dt: f64) -> [f64; 2] {
-        let smooth = self.smooth_way();
+        let smooth = self.plan.smooth_way();
         let steps = (DEVELOP / dt).ceil() as u64;
         let mut drive = self.state.wanted.clone();
         for knob in FREE {
             drive.jump(knob, 0.0);
             drive.aim(knob, self.state.wanted.get(knob).target);
         }
-        let developing = self.work.terrain.is_rough(0)
-            || self.work.terrain.is_rough(1)
-            || self.state.wanted.get(Knob::SlideRoll).target != 0.0;
-        let steps = if developing { steps } else { 0 };
+        let steps = if self.develops() { steps } else { 0 };
         ways(&drive, [smooth; 2], (steps, dt)).1
     }
 }

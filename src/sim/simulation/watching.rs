@@ -1,40 +1,35 @@
 //! What is looked at after each step: traction, stress, counts, life, scalars.
 
-use super::counting::contacts;
-use super::fatigue_stage::Now;
-use super::measure::{Fields, Measured, measure};
-use super::simulation::{Phase, Simulation};
-use super::stepping::Attempted;
-use super::yielded::Yielded;
-use super::{Follow, Knob, LifeEstimate};
+use super::Simulation;
 use crate::physics::cycles::BodyId;
+use crate::sim::counting::contacts;
+use crate::sim::fatigue_stage::Now;
+use crate::sim::measure::{Fields, Measured, measure};
+use crate::sim::state::Phase;
+use crate::sim::stepping::Attempted;
+use crate::sim::yielded::Yielded;
+use crate::sim::{Follow, Knob, LifeEstimate};
 
 impl Simulation {
     /// Traction, stress, life and scalars of the committed step.
     pub(super) fn watch(&mut self, attempted: &Attempted) {
         let before = self.state.watched;
         self.state.watched = self.state.motion.travelled;
-        let on_fine = self.work.solver.grid.nx == self.plan.domain.nodes;
+        let on_fine = self.work.solver.grid.nx == self.plan.decided.domain.nodes;
         let measured = self.measure();
         let size = self.size_now();
         let looks = on_fine && self.stage_has_stress();
         if looks && let Some(stress) = &mut self.work.stress {
             let (p, q) = (&self.state.contact.pressure, &self.work.traction);
-            self.pool.install(|| stress.slice(p, q, measured.friction));
-        }
-        if on_fine
-            && self.state.phase == Phase::Passage
-            && let Some(counting) = &mut self.state.counting
-        {
-            let travel = [0, 1].map(|body: usize| self.state.watched[body] - before[body]);
-            let pressure = &self.state.contact.pressure;
-            counting.step(
-                &self.work.solver.grid,
-                travel,
-                pressure,
-                self.work.stress.as_ref(),
-                size,
-            );
+            self.work
+                .pool
+                .install(|| stress.slice(p, q, measured.friction));
+            if self.state.phase == Phase::Passage
+                && let Some(counting) = &mut self.state.counting
+            {
+                let travel = [0, 1].map(|body: usize| self.state.watched[body] - before[body]);
+                counting.step(&self.work.solver.grid, travel, stress, size);
+            }
         }
         if looks {
             self.sample_life();
@@ -48,8 +43,8 @@ impl Simulation {
         let Some(stress) = &mut self.work.stress else {
             return;
         };
-        let every = self.plan.life.map_or(f64::INFINITY, |life| {
-            life.volume_every_steps as f64 * self.stepping.usual() * self.work.solver.grid.dx
+        let every = self.plan.decided.life.map_or(f64::INFINITY, |life| {
+            life.volume_every_steps as f64 * self.plan.stepping.usual() * self.work.solver.grid.dx
         });
         // By the way at the step's beginning, so that the first step of a passage is looked at.
         let due =
@@ -57,7 +52,7 @@ impl Simulation {
         let flushed = self.state.motion.is_flushed();
         let repeat = self.state.metrics.repeat;
         let counting = self.state.counting.as_ref();
-        self.pool.install(|| {
+        self.work.pool.install(|| {
             if let Some(life) = &mut self.state.life
                 && due
             {
@@ -65,7 +60,7 @@ impl Simulation {
                 if flushed {
                     life.judge(stress_error, repeat, counting);
                 }
-                self.state.stats.stress_volumes += u64::from(life.integrates());
+                self.stats.stress_volumes += u64::from(life.integrates());
                 self.state.next_volume = next_due(self.state.next_volume, self.state.way, every);
             }
         });
@@ -77,7 +72,7 @@ impl Simulation {
             return;
         };
         let depths = self.work.stress.as_ref().map_or(&[][..], |s| s.depths());
-        let away = |k: usize| (self.door.m_from_x(depths[k]) - follow.depth_m).abs();
+        let away = |k: usize| (self.plan.door.m_from_x(depths[k]) - follow.depth_m).abs();
         let nearest = (0..depths.len()).min_by(|&one, &two| away(one).total_cmp(&away(two)));
         let body = if follow.body == 2 {
             BodyId::Two
@@ -86,7 +81,7 @@ impl Simulation {
         };
         let x = follow
             .x_m
-            .map(|x_m| self.door.heading.sign() * x_m / self.door.a_m);
+            .map(|x_m| self.plan.door.heading.sign() * x_m / self.plan.door.a_m);
         counting.look_at(body, x, nearest.unwrap_or(0));
     }
 
@@ -102,7 +97,7 @@ impl Simulation {
                 }
             }
         }
-        let passage = self.plan.passage_a;
+        let passage = self.plan.decided.passage_a;
         if self.state.orbit.listen(frequencies, passage)
             && let Some(life) = &mut self.state.life
         {
@@ -118,14 +113,12 @@ impl Simulation {
                 &self.state.metrics,
             );
         }
-        let second_per_a = self.door.a_m / self.state.drive.get(Knob::EntrainmentMS).now;
+        let second_per_a = self.plan.door.a_m / self.state.drive.get(Knob::EntrainmentMS).now;
         self.state.metrics.repeat = Some(self.state.orbit.repeat(second_per_a));
     }
 
     pub(super) fn measure(&mut self) -> Measured {
-        let law = self
-            .regime
-            .law_now(&self.law, &self.door, &self.state.drive, &self.state.motion);
+        let law = self.plan.law_now(&self.state.drive);
         let scale = self.size_now();
         let state = &self.state.contact;
         self.work.traction.resize(self.work.solver.grid.len(), 0.0);
@@ -134,17 +127,17 @@ impl Simulation {
             law: &law,
             p: &state.pressure,
             h: &state.film,
-            ellipse: (scale, scale * self.door.b_over_a),
+            ellipse: (scale, scale * self.plan.door.b_over_a),
         };
         let (traction, rows) = (&mut self.work.traction, &mut self.work.row_sums);
-        self.pool.install(|| measure(&fields, traction, rows))
+        self.work.pool.install(|| measure(&fields, traction, rows))
     }
 
     pub(super) fn publish(&mut self, attempted: &Attempted, measured: &Measured) {
         self.publish_lubrication(measured);
         let has_stress = self.stage_has_stress();
-        let a_m = self.plan.hertz.a_m * self.size_now();
-        let door = &self.door;
+        let a_m = self.plan.decided.hertz.a_m * self.size_now();
+        let door = &self.plan.door;
         let m = &mut self.state.metrics;
         m.converged = attempted.converged;
         m.residual = attempted.residual;
@@ -155,8 +148,8 @@ impl Simulation {
         m.mass_error = attempted.mass_error;
         m.load_error = attempted.load_error;
         m.overlap_m = door.m_from_h(attempted.overlap);
-        let flow = self.regime.flow_now(door, &self.state.drive);
-        let tolerance = self.regime.tolerance(flow);
+        let flow = self.plan.flow_now(&self.state.drive);
+        let tolerance = self.plan.tolerance(flow);
         m.asked = [tolerance.pressure, tolerance.film];
         let load = door.load_knob();
         let (s, force) = (
@@ -176,7 +169,7 @@ impl Simulation {
             m.sigma_eff_max_x_m = Some(door.place_m(peak.x));
         }
         let n = contacts(
-            &self.plan,
+            &self.plan.decided,
             a_m,
             (m.entrainment_m_s, m.slide_roll),
             [m.amplitude_1_m, m.amplitude_2_m],

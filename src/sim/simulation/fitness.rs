@@ -4,12 +4,11 @@
 //! is what it says (so that no size is taken from the file), and that values lie where a run can bring them. Numbers
 //! are finite already: the file's format has no others.
 
-use super::setup::{COARSEST, grid_of};
-use super::simulation::{Phase, Simulation};
-use super::smooth::Conditions;
-use super::stress_stage::StressStage;
-use super::{Knob, SimError, State};
-use crate::plan::Plan;
+use super::Simulation;
+use crate::sim::smooth::Conditions;
+use crate::sim::state::Phase;
+use crate::sim::stress_stage::StressStage;
+use crate::sim::{Knob, SimError, State, Stats};
 
 /// Steps that no run makes.
 const MOST_STEPS: u64 = 1 << 52;
@@ -24,22 +23,14 @@ fn demand(holds: bool, what: &str) -> Result<(), SimError> {
     if holds { Ok(()) } else { Err(refuse(what)) }
 }
 
-/// Nodes per side of the grids that the start-up climbs through.
-pub(super) fn climb(plan: &Plan) -> impl Iterator<Item = usize> {
-    let finest = plan.domain.nodes;
-    std::iter::successors(Some(COARSEST.min(finest)), |n| Some(2 * (n - 1) + 1))
-        .take_while(move |n| *n <= finest)
-}
-
 impl Simulation {
     /// Whether the state is one of this scene's contact: its fields, its stages.
     pub(super) fn check(&self, state: &State) -> Result<(), SimError> {
         demand(
-            climb(&self.plan).any(|n| n == state.nodes),
+            self.plan.climb().any(|n| n == state.nodes),
             "its grid is not this scene's",
         )?;
-        let finest = self.plan.domain.nodes;
-        let grid = |nodes| grid_of(&self.plan, nodes, self.door.b_over_a);
+        let grid = |nodes| self.plan.grid(nodes);
         let unlike = self.work.solver.is_unlike();
         demand(
             state.contact.fits(grid(state.nodes).len(), unlike),
@@ -47,15 +38,14 @@ impl Simulation {
         )?;
         demand(state.contact.is_sound(), "its pressures are below zero")?;
         if let Some(smooth) = &state.smooth {
-            let known = climb(&self.plan).any(|n| n == smooth.nodes);
+            let known = self.plan.climb().any(|n| n == smooth.nodes);
             demand(
                 known && smooth.fits(grid(smooth.nodes).len(), unlike),
                 "its smooth contact does not fill a grid",
             )?;
         }
-        let fine = grid(finest);
         demand(
-            state.orbit.fits(fine.len()),
+            state.orbit.fits(self.plan.finest().len()),
             "its repeating period is damaged",
         )?;
         demand(
@@ -83,12 +73,22 @@ impl Simulation {
         Ok(())
     }
 
+    /// Whether a run can have counted so much.
+    pub(super) fn check_stats(stats: &Stats) -> Result<(), SimError> {
+        let counted = stats.all().into_iter().all(|n| n <= MOST_STEPS);
+        demand(counted, "its work counters are not valid")
+    }
+
     /// Whether a run of this scene can have come there.
     pub(super) fn check_course(&self, state: &State) -> Result<(), SimError> {
-        let start_up = self.state.start_up_steps.1.max(1);
-        let on_finest = state.nodes == self.plan.domain.nodes;
+        let start_up = self.plan.start_up_steps().max(1);
+        let on_finest = state.nodes == self.plan.decided.domain.nodes;
         let phase_fits = match state.phase {
-            Phase::Smooth { left } => left <= self.smooth_steps(state.nodes, self.plan.has_flow()),
+            Phase::Smooth { left } => {
+                left <= self
+                    .plan
+                    .smooth_steps(state.nodes, self.plan.decided.has_flow())
+            }
             Phase::Settle { coarse, fine } => {
                 on_finest && coarse.max(fine) <= LONGEST_SETTLING * start_up
             }
@@ -97,13 +97,12 @@ impl Simulation {
         };
         demand(phase_fits, "its start-up is not this scene's")?;
         let steps = [state.step, state.start_up_steps.0, state.start_up_steps.1];
-        let counted = steps.into_iter().chain(state.stats.all());
         demand(
-            counted.into_iter().all(|n| n <= MOST_STEPS) && state.way >= 0.0 && state.time_s >= 0.0,
+            steps.into_iter().all(|n| n <= MOST_STEPS) && state.way >= 0.0 && state.time_s >= 0.0,
             "its steps or times are not valid",
         )?;
         demand(
-            self.state.motion.fits(&state.motion) && state.pace.is_sound(),
+            state.motion.is_sound() && state.pace.is_sound(),
             "its motion does not fit the scene",
         )?;
         if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {
@@ -112,7 +111,7 @@ impl Simulation {
         let smooth = state.smooth.as_ref();
         demand(
             smooth.is_none_or(|smooth| {
-                smooth.left <= self.smooth_steps(smooth.nodes, true) && self.can_be(smooth.at)
+                smooth.left <= self.plan.smooth_steps(smooth.nodes, true) && self.can_be(smooth.at)
             }),
             "its smooth contact is not this scene's",
         )?;
@@ -133,7 +132,7 @@ impl Simulation {
     }
 
     fn can_be(&self, at: Conditions) -> bool {
-        self.can_stand_at(self.door.load_knob(), at.load)
+        self.can_stand_at(self.plan.door.load_knob(), at.load)
             && self.can_stand_at(Knob::EntrainmentMS, at.speed_m_s)
     }
 
@@ -142,8 +141,8 @@ impl Simulation {
         match knob {
             Knob::SlideRoll => value.abs() <= 2.0,
             Knob::ForceN | Knob::ForceNPerM => {
-                let most = self.plan.most_force_n() * (1.0 + 1e-9);
-                value > 0.0 && (knob != self.door.load_knob() || value <= most)
+                let most = self.plan.decided.most_force_n() * (1.0 + 1e-9);
+                value > 0.0 && (knob != self.plan.door.load_knob() || value <= most)
             }
             Knob::Amplitude1M => value >= 0.0 && (value == 0.0 || self.work.terrain.is_rough(0)),
             Knob::Amplitude2M => value >= 0.0 && (value == 0.0 || self.work.terrain.is_rough(1)),

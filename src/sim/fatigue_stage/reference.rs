@@ -1,44 +1,36 @@
 //! What lives are relative to: the smooth, frictionless contact at S = 0, at the load and speed of now.
 //!
 //! ```text
-//! I_ref(now)  = I_ref(where it was computed) r^g            r: ratio of Hertz half-widths, g: LifeModel::growth
+//! I_ref(now)  = I_ref(where it was computed) r^g            r: ratio of Hertz half-widths, g: LifeEquation::growth
 //! load_factor = [I_ref(base)/I_ref(now)]^{1/e}              both in the scene's units
 //! ```
-//! The start-up computes it for the load and speed that the scene begins with, the base, and [`super::smooth`] for
+//! The start-up computes it for the load and speed that the scene begins with, the base, and `smooth.rs` for
 //! others. On the way there it grows as Hertz contacts do.
 
-use serde::{Deserialize, Serialize};
-
-use super::fatigue_stage::LifeStage;
-use super::smooth::Conditions;
-use super::stress_stage::StressStage;
-use super::variant::Variant;
+use super::LifeStage;
 use crate::physics::cycles::BodyId;
 use crate::physics::life_models::calibrated_reference;
 use crate::scene::VolumeIntegral;
+use crate::sim::smooth::Conditions;
+use crate::sim::stress_stage::StressStage;
+use crate::sim::variant::Variant;
 use crate::solve::stress::Loading;
-
-/// Loading cycles of the smooth contact, where the scene gives a point of them.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Calibration {
-    /// Cycles of the point.
-    pub(super) cycles: f64,
-    /// p_cal/p_h.
-    pub(super) pressure_ratio: f64,
-    /// Life at the scene's survival over that at the point's.
-    pub(super) survival_ratio: f64,
-}
 
 impl LifeStage {
     /// Takes the smooth contact as the reference, and as the base.
-    pub(super) fn set_reference(&mut self, stress: &mut StressStage, at: Conditions) {
+    pub(in crate::sim) fn set_reference(&mut self, stress: &mut StressStage, at: Conditions) {
         (self.reference_size, self.reference_at) = (1.0, at);
         self.measure_reference(stress);
     }
 
     /// Takes the smooth contact of `size` times the scene's as the reference of now; the base, and what has been
     /// sampled, stay.
-    pub(super) fn move_reference(&mut self, stress: &mut StressStage, size: f64, at: Conditions) {
+    pub(in crate::sim) fn move_reference(
+        &mut self,
+        stress: &mut StressStage,
+        size: f64,
+        at: Conditions,
+    ) {
         let mut blank = self.clone();
         blank.reference_size = size;
         blank.measure_reference(stress);
@@ -59,7 +51,7 @@ impl LifeStage {
     }
 
     /// Begins with the base of a stage that [`Self::fits`], which is that of the conditions `at`.
-    pub(super) fn take_base(&mut self, other: &Self, at: Conditions) {
+    pub(in crate::sim) fn take_base(&mut self, other: &Self, at: Conditions) {
         for (own, other) in self.variants.iter_mut().zip(&other.variants) {
             own.take_base(other);
         }

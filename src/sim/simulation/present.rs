@@ -1,38 +1,36 @@
 //! What follows by closed forms from the knobs as they are now: size of the contact, film, λ, regime, mesh error, and the
 //! grounds of cautions.
 
-use super::measure::Measured;
-use super::setup::stress_error;
-use super::{Grounds, Knob, LubricationRegime, MeshErrors, Simulation};
+use super::Simulation;
 use crate::plan::{Domain, FilmPlan};
+use crate::sim::measure::Measured;
+use crate::sim::{Grounds, Knob, LubricationRegime, MeshErrors};
 use crate::solve::march::Flow;
 
 impl Simulation {
     /// a and p_h of the present load over those of the scene's.
     pub(super) fn size_now(&self) -> f64 {
-        let load = self.state.drive.get(self.door.load_knob()).now / self.plan.force_n;
-        self.door.size_ratio(load)
+        self.plan.size_now(&self.state.drive)
     }
 
     /// Relative error of stress by the mesh, of the bodies that are rough now.
     pub(super) fn stress_error_now(&self) -> f64 {
         let amplitudes = [Knob::Amplitude1M, Knob::Amplitude2M];
-        stress_error(
-            &self.plan,
-            amplitudes.map(|knob| self.state.drive.get(knob).now),
-        )
+        self.plan
+            .stress_error(amplitudes.map(|knob| self.state.drive.get(knob).now))
     }
 
     /// What was measured of the committed step, its regime and mesh error.
     pub(super) fn publish_lubrication(&mut self, measured: &Measured) {
-        let film = self.regime.film_now(&self.door, &self.state.drive);
-        let flows = self.regime.flow_now(&self.door, &self.state.drive) != Flow::Dry;
+        let film = self.plan.film_now(&self.state.drive);
+        let flows = self.plan.flow_now(&self.state.drive) != Flow::Dry;
         let errors = self.mesh_errors_now(film);
         let m = &mut self.state.metrics;
-        measured.publish(&self.door, m);
+        measured.publish(&self.plan.door, m);
         m.amplitude_1_m = self.state.drive.get(Knob::Amplitude1M).now;
         m.amplitude_2_m = self.state.drive.get(Knob::Amplitude2M).now;
-        let rq = (m.amplitude_1_m * self.composite[0]).hypot(m.amplitude_2_m * self.composite[1]);
+        let rq = (m.amplitude_1_m * self.plan.rms_shares[0])
+            .hypot(m.amplitude_2_m * self.plan.rms_shares[1]);
         m.lambda_ratio = film.and_then(|film| film.lambda(rq));
         m.film_to_roughness = (rq > 0.0).then(|| m.h_mean_m / rq);
         m.regime = LubricationRegime::of(flows, m.lambda_ratio, m.contact_load_ratio);
@@ -42,7 +40,11 @@ impl Simulation {
     /// Errors by the mesh that the start-up found, carried on to the present speed and load.
     fn mesh_errors_now(&self, film: Option<FilmPlan>) -> Option<MeshErrors> {
         let found = self.state.mesh_errors?;
-        let own = self.plan.film.map(|film| self.mesh_rule(&film, 1.0));
+        let own = self
+            .plan
+            .decided
+            .film
+            .map(|film| self.mesh_rule(&film, 1.0));
         let now = film.map(|film| self.mesh_rule(&film, self.size_now()));
         let films = own.zip(now).map_or(1.0, |(own, now)| now / own);
         Some(MeshErrors {
@@ -54,14 +56,14 @@ impl Simulation {
 
     /// The plan's rule for a contact of `size` times the scene's.
     fn mesh_rule(&self, film: &FilmPlan, size: f64) -> f64 {
-        let dx_a = self.plan.domain.dx_a() / size;
+        let dx_a = self.plan.decided.domain.dx_a() / size;
         film.truncation().mesh_error(dx_a)
     }
 
     /// What cautions rest on beside the scalars.
     pub(super) fn grounds(&self) -> Grounds {
-        let film = self.regime.film_now(&self.door, &self.state.drive);
-        let flows = self.regime.flow_now(&self.door, &self.state.drive) != Flow::Dry;
+        let film = self.plan.film_now(&self.state.drive);
+        let flows = self.plan.flow_now(&self.state.drive) != Flow::Dry;
         let size = self.size_now();
         let measured = self.state.metrics.errors.map(|errors| errors.h_central);
         let by_rule = film.map(|film| self.mesh_rule(&film, size));
@@ -78,7 +80,7 @@ impl Simulation {
             flows,
             mesh_film: mesh_film.filter(|_| flows),
             short_domain: film.filter(|_| flows).map(|film| {
-                let domain = &self.plan.domain;
+                let domain = &self.plan.decided.domain;
                 let seen = Domain {
                     x_min_a: domain.x_min_a / size,
                     y_half_b: domain.y_half_b / size,
@@ -86,7 +88,7 @@ impl Simulation {
                 };
                 film.truncation().error(&seen)
             }),
-            ..self.grounds
+            ..self.plan.grounds
         };
         self.state.totals.ground(&mut grounds);
         grounds

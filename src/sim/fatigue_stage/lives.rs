@@ -1,12 +1,12 @@
 //! Lives of both bodies by each count and integral, and the one that governs.
 
-use super::counting::Counting;
-use super::fatigue_stage::{LifeStage, Now};
-use super::variant::Variant;
+use super::{LifeStage, Now};
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeFactors;
 use crate::physics::life_models::CycleProfile;
 use crate::scene::{BodyChoice, CycleBasis, Spread, VolumeIntegral};
+use crate::sim::counting::Counting;
+use crate::sim::variant::Variant;
 use crate::solve::life::factors;
 
 impl LifeStage {

@@ -1,0 +1,37 @@
+//! What cautions rest on beside the scalars of a step.
+
+use crate::physics::strength::Strength;
+use crate::scene::StressMeasure;
+
+/// What cautions rest on beside the scalars of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Grounds {
+    /// Steps of the passage so far.
+    pub steps: u64,
+    /// Those that did not converge.
+    pub steps_not_converged: u64,
+    /// Greatest pressure of the last passage (or period), Pa.
+    pub p_max_greatest_pa: f64,
+    /// Greatest effective stress of it, Pa.
+    pub sigma_eff_greatest_pa: Option<f64>,
+    /// Measure of the effective stress; `None`: no stress is computed.
+    pub measure: Option<StressMeasure>,
+    /// What body 1 and 2 carry; `None`: not known.
+    pub strength: [Option<Strength>; 2],
+    /// Smooth central film by formula at the knobs' present values, m; `None`: no oil.
+    pub film_m: Option<f64>,
+    /// Whether oil flows.
+    pub flows: bool,
+    /// Relative error of the smooth central film by the mesh at those values; `None`: no flow.
+    pub mesh_film: Option<f64>,
+    /// The same by the edges of the domain.
+    pub short_domain: Option<f64>,
+    /// Whether the scene computes a life.
+    pub has_life: bool,
+    /// Whether cycles count by their damage.
+    pub by_damage: bool,
+    /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.
+    pub hardness_pa: Option<f64>,
+    /// Part of all that has flowed that did so in the last passage (or period); `None`: nothing has.
+    pub yielded_last_share: Option<f64>,
+}

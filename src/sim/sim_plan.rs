@@ -1,0 +1,288 @@
+//! What follows from the scene and is the same at every step: its plan, scales, laws and tolerances.
+
+use super::Grounds;
+use super::door::Door;
+use super::orbit::LONGEST;
+use super::pace::Stepping;
+use crate::math::grid::Grid;
+use crate::physics::fluid::ShearedFlow;
+use crate::physics::strength::{self, Strength};
+use crate::plan::Plan;
+use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
+use crate::solve::march::{Flow, Shape, Solver};
+use crate::solve::newton::Tolerance;
+use crate::solve::stress::Cut;
+use crate::solve::traction::{FilmShear, TractionLaw};
+
+/// Nodes per side of the first grid.
+const COARSEST: usize = 65;
+
+/// Time (a/U) to ramp sliding and roughness and to flush the contact once; also what a steady contact
+/// takes to be steady again after a knob moved.
+pub(super) const DEVELOP: f64 = 4.0;
+
+/// The plan of a scene, and what else follows from it.
+pub(super) struct SimPlan {
+    pub(super) scene: Scene,
+    pub(super) decided: Plan,
+    pub(super) door: Door,
+    pub(super) shape: Shape,
+    /// Flow of the films that are films.
+    pub(super) flow: Flow,
+    /// Of steps with flow and of steps without.
+    pub(super) tolerances: [Tolerance; 2],
+    /// Traction law of the scene's oil; its speed is the step's.
+    pub(super) law: TractionLaw,
+    /// η0/(p_h × film unit), s/m: shear stress of a Newtonian film per sliding speed; 0: no oil.
+    pub(super) shear_rate: f64,
+    /// What cautions rest on, as far as the scene gives it.
+    pub(super) grounds: Grounds,
+    pub(super) stepping: Stepping,
+    /// The planes that the scene asks for beside y = 0.
+    pub(super) cuts: Vec<Cut>,
+    /// Root-mean-square height over amplitude of both bodies.
+    pub(super) rms_shares: [f64; 2],
+    /// Hardness of the softer body over p_h; infinite: both are elastic.
+    pub(super) hardness: f64,
+}
+
+impl SimPlan {
+    /// What follows from `scene` by the plan that was made for it.
+    pub(super) fn new(scene: &Scene, decided: Plan) -> Self {
+        let door = Door::new(scene);
+        let flow = flow_of(scene);
+        let hardness = scene.hardness_pa();
+        Self {
+            scene: scene.clone(),
+            shape: shape_of(&decided, &door),
+            flow,
+            tolerances: [flow, Flow::Dry].map(|flow| tolerance_of(scene, flow, &door)),
+            shear_rate: scene.lubricant.as_ref().map_or(0.0, |oil| {
+                oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
+            }),
+            law: traction_law(scene, &door),
+            grounds: grounds_of(scene),
+            stepping: stepping_of(scene),
+            cuts: cuts(scene),
+            rms_shares: scene.surfaces().map(rms_share),
+            hardness: hardness.map_or(f64::INFINITY, |pa| door.p_from_pa(pa)),
+            decided,
+            door,
+        }
+    }
+
+    /// The grid of so many nodes per side.
+    pub(super) fn grid(&self, nodes: usize) -> Grid {
+        let domain = &self.decided.domain;
+        Grid::new(
+            nodes,
+            domain.x_min_a,
+            domain.x_max_a,
+            domain.y_half_b * self.door.b_over_a,
+            self.decided.symmetry,
+        )
+    }
+
+    /// The grid that the passage is solved on.
+    pub(super) fn finest(&self) -> Grid {
+        self.grid(self.decided.domain.nodes)
+    }
+
+    /// Nodes per side of the first grid of the start-up.
+    pub(super) fn first_nodes(&self) -> usize {
+        COARSEST.min(self.decided.domain.nodes)
+    }
+
+    /// Nodes per side of the grids that the start-up climbs through.
+    pub(super) fn climb(&self) -> impl Iterator<Item = usize> {
+        let finest = self.decided.domain.nodes;
+        std::iter::successors(Some(self.first_nodes()), |n| Some(2 * (n - 1) + 1))
+            .take_while(move |n| *n <= finest)
+    }
+
+    /// A solver on the grid of so many nodes per side.
+    pub(super) fn solver(&self, nodes: usize) -> Solver {
+        let usual = self.stepping.usual();
+        Solver::new(self.grid(nodes), &self.shape, usual, self.flow)
+    }
+
+    /// Steps that the summary may have to average over, at most.
+    pub(super) fn most_steps(&self) -> usize {
+        let longest = LONGEST.max(self.decided.passage_a);
+        (longest / (self.stepping.least() * self.decided.domain.dx_a())).ceil() as usize
+    }
+
+    /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, the
+    /// finer ones lose the error of interpolation. Without flow one solve is enough.
+    pub(super) fn smooth_steps(&self, nodes: usize, flows: bool) -> u64 {
+        if !flows {
+            return 2;
+        }
+        let length = self.length();
+        let share = if nodes == self.first_nodes() {
+            1.0
+        } else {
+            0.75
+        };
+        (share * length / self.usual_step(nodes)).ceil() as u64
+    }
+
+    /// Way of both bodies, in a, in the smooth part of the start-up.
+    pub(super) fn smooth_way(&self) -> f64 {
+        let flows = self.decided.has_flow();
+        self.climb()
+            .map(|nodes| {
+                let dx = self.length() / (nodes - 1) as f64;
+                self.smooth_steps(nodes, flows) as f64 * self.stepping.usual() * dx
+            })
+            .sum()
+    }
+
+    /// Steps of the start-up in all, where sliding or roughness come up.
+    pub(super) fn start_up_steps(&self) -> u64 {
+        let flows = self.decided.has_flow();
+        let smooth: u64 = self
+            .climb()
+            .map(|nodes| self.smooth_steps(nodes, flows))
+            .sum();
+        smooth + self.steps_of(DEVELOP)
+    }
+
+    /// Steps of the usual length in so much time (a/U) on the finest grid.
+    pub(super) fn steps_of(&self, time: f64) -> u64 {
+        (time / self.usual_step(self.decided.domain.nodes)).ceil() as u64
+    }
+
+    /// Length of the usual step on a grid of `nodes` per side, in a.
+    fn usual_step(&self, nodes: usize) -> f64 {
+        self.stepping.usual() * (self.length() / (nodes - 1) as f64)
+    }
+
+    /// Length of the domain along x, in a.
+    fn length(&self) -> f64 {
+        self.decided.domain.x_max_a - self.decided.domain.x_min_a
+    }
+
+    /// Relative error of stress by sampling: that of Hertz's edge, measured at 64 nodes a half-width (4e-4 of
+    /// the integral, a tenth of it in stress), and of the shortest wave, (2π/nodes)²/12 of a ripple as high as
+    /// the mean; of bodies without amplitude none. An estimate, not a bound.
+    pub(super) fn stress_error(&self, amplitudes_m: [f64; 2]) -> f64 {
+        let wave = |nodes: f64| (std::f64::consts::TAU / nodes).powi(2) / 12.0;
+        let rough = self.decided.waves.iter().zip(amplitudes_m);
+        let waves = rough.filter_map(|(wave, amplitude_m)| wave.filter(|_| amplitude_m > 0.0));
+        let worst = waves
+            .flat_map(|w| w.nodes)
+            .filter(|nodes| nodes.is_finite())
+            .map(wave)
+            .fold(0.0, f64::max);
+        4e-5 + 0.5 * worst
+    }
+}
+
+fn shape_of(plan: &Plan, door: &Door) -> Shape {
+    Shape {
+        kappa: door.kappa,
+        curvature_y: door.curvature_y,
+        b_over_a: door.b_over_a,
+        kappa_s: plan
+            .traction_deflection
+            .map_or(0.0, |t| door.kappa_s(t.mismatch_per_pa)),
+        order: plan.order,
+    }
+}
+
+fn stepping_of(scene: &Scene) -> Stepping {
+    let usual = scene.time.step_nodes;
+    match scene.time.tolerance {
+        None => Stepping::Fixed(usual),
+        Some(tolerance) => Stepping::Adaptive { tolerance, usual },
+    }
+}
+
+fn flow_of(scene: &Scene) -> Flow {
+    let oil = scene.lubricant.as_ref();
+    oil.map_or(Flow::Dry, |oil| match oil.cavitation {
+        Cavitation::Reynolds => Flow::Film,
+        Cavitation::Jfo => Flow::MassConserving,
+    })
+}
+
+/// Film, m, below which oil is no continuum: errors are judged against this film, not a thinner one.
+const LEAST_FILM_M: f64 = 1e-9;
+
+fn tolerance_of(scene: &Scene, flow: Flow, door: &Door) -> Tolerance {
+    let asked = scene.numerics.tolerance;
+    // A dry contact has no mass to balance; pressure and gap are judged by a tighter tolerance, which costs one
+    // iteration and leaves less than a picometre of overlap.
+    let by_flow = |wet: f64, dry: f64| if flow == Flow::Dry { dry } else { wet };
+    Tolerance {
+        pressure: by_flow(asked, 1e-3 * asked),
+        // What a step leaves of its film equation the next one takes over, so it need not be small against
+        // the pressure's tolerance: a hundredth of the film, at 1e-3. Films of one step are then within 5e-6
+        // (`tests/engine/converged_step.rs`), lives of a passage the same to five digits from 1e-2 to 1e-4 (accuracy study).
+        film: by_flow(10.0 * asked, 1e-3 * asked),
+        mass: by_flow(0.1 * asked, f64::INFINITY),
+        least_film: door.h_from_m(LEAST_FILM_M),
+        load: 1e-5,
+        max_iterations: scene.numerics.max_iterations,
+    }
+}
+
+/// The planes that the scene asks for beside y = 0.
+fn cuts(scene: &Scene) -> Vec<Cut> {
+    let Some(stress) = &scene.stress else {
+        return Vec::new();
+    };
+    [
+        stress.plane_x_a.map(Cut::X),
+        stress.plane_y_a.map(Cut::Y),
+        stress.plane_z_a.map(Cut::Z),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// What the scene says of the grounds of cautions.
+fn grounds_of(scene: &Scene) -> Grounds {
+    Grounds {
+        measure: scene.stress.as_ref().map(|stress| stress.measure),
+        strength: [&scene.body_1, &scene.body_2].map(|body| match body.hardness_pa {
+            Some(hardness_pa) if hardness_pa.is_finite() => Some(Strength::of(hardness_pa)),
+            _ => strength::by_young(body.young_pa),
+        }),
+        hardness_pa: scene.hardness_pa(),
+        has_life: scene.life.is_some(),
+        by_damage: (scene.life.as_ref()).is_some_and(|life| life.cycles == CycleBasis::Damage),
+        ..Grounds::default()
+    }
+}
+
+/// Root-mean-square height over amplitude; 0 for a surface without height.
+fn rms_share(surface: &Surface) -> f64 {
+    if surface.amplitude_m() > 0.0 {
+        surface.rq_m() / surface.amplitude_m()
+    } else {
+        0.0
+    }
+}
+
+fn traction_law(scene: &Scene, door: &Door) -> TractionLaw {
+    let film = scene.lubricant.as_ref().map(|oil| FilmShear {
+        rate: 0.0,
+        eyring: (oil.rheology == crate::scene::Rheology::Eyring)
+            .then_some(oil.eyring_stress_pa / door.p_hertz_pa),
+        limit: oil.limiting_shear_ratio,
+        steepness: match door.medium(1.0, 0.0).sheared {
+            ShearedFlow::AlongAcross { steepness, .. } => steepness,
+            ShearedFlow::Secant => 0.0,
+        },
+    });
+    TractionLaw {
+        film,
+        viscosity: door.medium(1.0, 0.0).viscosity,
+        boundary: scene.friction.boundary,
+        contact_film: door.h_from_m(scene.friction.contact_film_m),
+        direction: 0.0,
+    }
+}

@@ -1,0 +1,102 @@
+//! The summary of a run so far.
+
+use super::Simulation;
+use super::fill::place_m;
+use crate::physics::cycles::BodyId;
+use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
+use crate::sim::caution;
+use crate::sim::fatigue_stage::LifeStage;
+use crate::sim::summary::PitStart;
+use crate::sim::{LifeEstimate, Summary};
+
+impl Simulation {
+    /// Result so far. What only its run knows (name, clock, steps planned, discretisation error) is left out.
+    pub fn summary(&self) -> Summary {
+        let m = self.metrics();
+        let size = self.size_now();
+        let hertz = &self.plan.decided.hertz;
+        let life = with_life(self.life_estimate().as_ref(), self.state.life.as_ref());
+        let known = Summary {
+            steps: self.passage_steps(),
+            a_m: hertz.a_m * size,
+            p_hertz_pa: hertz.p_max_pa * size,
+            cautions: caution::list(m, &self.grounds()),
+            counters: self.stats,
+            pit_body_1: pit(self, BodyId::One),
+            pit_body_2: pit(self, BodyId::Two),
+            cycles_end_depth_1_m: cycles_end(self, BodyId::One),
+            cycles_end_depth_2_m: cycles_end(self, BodyId::Two),
+            a_iso: a_iso(self),
+            ..life
+        };
+        self.state.totals.summary(m, known)
+    }
+}
+
+/// What a summary says of the life.
+fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary {
+    Summary {
+        i_ref: life.map(|l| l.i_ref),
+        i_mean: life.map(|l| l.i_mean),
+        cycle_factor: life.map(|l| l.cycle_factor),
+        stress_factor: life.map(|l| l.stress_factor),
+        peak_factor: life.map(|l| l.peak_factor),
+        traction_factor: life.map(|l| l.traction_factor),
+        load_factor: life.map(|l| l.load_factor),
+        life_relative: life.map(|l| l.life_relative),
+        life_relative_low: life.map(|l| l.life_relative_low),
+        life_relative_high: life.map(|l| l.life_relative_high),
+        survival_ratio: stage.map(LifeStage::survival_ratio),
+        life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
+        life_count: stage.map(LifeStage::count_text),
+        life_basis: stage.map(LifeStage::basis_text),
+        life_body: life.map(|l| l.detail.body),
+        life_body_1: life.and_then(|l| l.detail.life_body[0]),
+        life_body_2: life.and_then(|l| l.detail.life_body[1]),
+        life_system: life.and_then(|l| l.detail.life_system),
+        life_global: life.and_then(|l| l.detail.life_global),
+        life_damage: life.and_then(|l| l.detail.life_damage),
+        life_snapshot: life.and_then(|l| l.detail.life_snapshot),
+        life_swept: life.and_then(|l| l.detail.life_swept),
+        life_models_low: life.map(|l| l.detail.spread_low),
+        life_models_high: life.map(|l| l.detail.spread_high),
+        life_models: life.map(|l| l.detail.variants),
+        life_cycles: life.and_then(|l| l.detail.cycles),
+        life_cycles_low: life
+            .and_then(|l| Some(l.detail.cycles? * l.life_relative_low / l.life_relative)),
+        life_cycles_high: life
+            .and_then(|l| Some(l.detail.cycles? * l.life_relative_high / l.life_relative)),
+        ..Summary::default()
+    }
+}
+
+/// Where the pit of a body starts.
+fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
+    let counting = sim.state.counting.as_ref()?;
+    let size = sim.size_now();
+    let pit = counting.pit(body, size)?;
+    let depth = *sim.work.stress.as_ref()?.depths().get(pit.depth)?;
+    let length = counting.map(body, size)?.0.spec().length;
+    Some(PitStart {
+        depth_m: sim.plan.door.m_from_x(depth),
+        place_m: place_m(sim, pit.place, length),
+        damage: pit.damage,
+    })
+}
+
+/// Depth from which on a crossing counts less than 1.5 cycles of signed shear.
+fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
+    let counts = sim.state.counting.as_ref()?.shear_counts(body)?;
+    let depths = sim.work.stress.as_ref()?.depths();
+    let last = counts.iter().rposition(|count| *count >= 1.5);
+    let k = last.map_or(0, |k| (k + 1).min(depths.len() - 1));
+    Some(sim.plan.door.m_from_x(depths[k]))
+}
+
+/// a_ISO beside the result, from λ and e_C C_u/P at the load P of now.
+fn a_iso(sim: &Simulation) -> Option<f64> {
+    let m = sim.metrics();
+    let load_ratio =
+        sim.plan.scene.life.as_ref()?.iso_load_ratio? * sim.plan.decided.force_n / m.load_n;
+    a_iso_radial_ball(kappa_from_lambda(m.lambda_ratio?), load_ratio)
+}

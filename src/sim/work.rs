@@ -1,0 +1,131 @@
+//! What steps are solved with: solvers, rough surfaces on the grid, stress engines, buffers, threads.
+//!
+//! None of it is remembered from step to step in a way that a result could feel: [`super::Simulation::renew_work`] throws
+//! it away between any two steps, and every frame is the same bit for bit (`tests/records/workspace.rs`).
+
+use std::sync::Arc;
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::SimError;
+use super::measure::RowSums;
+use super::sim_plan::SimPlan;
+use super::stress_stage::StressStage;
+use super::terrain::Terrain;
+use crate::math::grid::Grid;
+use crate::scene::Surface;
+use crate::solve::march::Solver;
+use crate::solve::stress::Purpose;
+
+/// Workspace of a simulation.
+pub(super) struct Work {
+    pub(super) pool: Arc<ThreadPool>,
+    pub(super) solver: Solver,
+    pub(super) terrain: Terrain,
+    pub(super) stress: Option<StressStage>,
+    pub(super) traction: Vec<f64>,
+    pub(super) row_sums: Vec<RowSums>,
+    /// Of the smooth contact beside the run, while there is one.
+    pub(super) smooth: Option<SmoothWork>,
+}
+
+impl Work {
+    /// Made by the plan, with the solver on the grid of `nodes` nodes per side.
+    ///
+    /// # Errors
+    /// [`SimError::Stress`] when the stress engine refuses the plan.
+    pub(super) fn new(
+        plan: &SimPlan,
+        nodes: usize,
+        pool: Arc<ThreadPool>,
+    ) -> Result<Self, SimError> {
+        let fine = plan.finest();
+        let stress = pool.install(|| stress_stage(plan, &fine))?;
+        Ok(Self {
+            solver: pool.install(|| plan.solver(nodes)),
+            terrain: terrain(plan, &fine),
+            stress,
+            traction: vec![0.0; fine.len()],
+            row_sums: vec![RowSums::default(); fine.ny],
+            smooth: None,
+            pool,
+        })
+    }
+
+    /// Makes the solver for a grid of so many nodes per side, if it is for another one.
+    pub(super) fn solve_on(&mut self, plan: &SimPlan, nodes: usize) {
+        if nodes != self.solver.grid.nx {
+            self.solver = self.pool.install(|| plan.solver(nodes));
+        }
+    }
+
+    /// What solves the smooth contact on a grid of so many nodes per side: what there is, or made anew.
+    pub(super) fn take_smooth(&mut self, plan: &SimPlan, nodes: usize) -> SmoothWork {
+        let there = self.smooth.take();
+        there
+            .filter(|work| work.solver.grid.nx == nodes)
+            .unwrap_or_else(|| self.pool.install(|| SmoothWork::new(plan, nodes)))
+    }
+}
+
+/// Solver of the smooth contact beside a run.
+pub(super) struct SmoothWork {
+    pub(super) solver: Solver,
+    pub(super) terrain: Terrain,
+}
+
+impl SmoothWork {
+    fn new(plan: &SimPlan, nodes: usize) -> Self {
+        let smooth = Surface::Smooth {};
+        let (grid, door) = (plan.grid(nodes), &plan.door);
+        Self {
+            solver: plan.solver(nodes),
+            terrain: Terrain::new(&grid, [&smooth, &smooth], door.a_m, door.heading),
+        }
+    }
+}
+
+/// `threads` workers of a simulation's own.
+///
+/// # Errors
+/// [`SimError::Threads`] when they cannot be started.
+pub(super) fn thread_pool(threads: usize) -> Result<Arc<ThreadPool>, SimError> {
+    ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .thread_name(|i| format!("asperity-{i}"))
+        .build()
+        .map(Arc::new)
+        .map_err(|error| SimError::Threads {
+            threads,
+            reason: error.to_string(),
+        })
+}
+
+/// Both surfaces, with room for what flows of those that yield.
+fn terrain(plan: &SimPlan, grid: &Grid) -> Terrain {
+    let (scene, door) = (&plan.scene, &plan.door);
+    let mut terrain = Terrain::new(grid, scene.surfaces(), door.a_m, door.heading);
+    if plan.hardness.is_finite() {
+        for body in [0, 1].into_iter().filter(|&body| scene.softer()[body]) {
+            terrain.make_heights(grid, body);
+        }
+    }
+    terrain
+}
+
+fn stress_stage(plan: &SimPlan, grid: &Grid) -> Result<Option<StressStage>, SimError> {
+    let scene = &plan.scene;
+    let Some((asked, planned)) = scene.stress.as_ref().zip(plan.decided.stress.as_ref()) else {
+        return Ok(None);
+    };
+    let depths = (planned.depths, planned.depth_max_m / plan.door.a_m);
+    let poisson = [scene.body_1.poisson, scene.body_2.poisson];
+    let purpose = if scene.life.is_some() {
+        Purpose::Volumes
+    } else {
+        Purpose::Slices
+    };
+    StressStage::new(grid, poisson, depths, asked.measure, purpose)
+        .map(Some)
+        .map_err(|error| SimError::Stress(error.to_string()))
+}

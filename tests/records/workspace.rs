@@ -1,0 +1,144 @@
+//! The workspace of a simulation may be thrown away between any two steps: every field of every frame, the summary and
+//! the work that is counted are the same as of the run that kept it.
+//!
+//! Seen to fail with a warm start planted in the solver (the last attempt's pressure as the first guess of the next one in
+//! place of the state's): all three tests end at the second step.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use crate::restart_matrix::{lengthen, scene_smooth};
+use asperity::plan::Plan;
+use asperity::scene::{ContactKind, Override, Scene, presets};
+use asperity::sim::{Frame, Knob, Simulation};
+
+/// A preset on few nodes, its waves as long as those resolve.
+fn small(preset: &str, sets: &[&str]) -> Scene {
+    let all = ["grid.nodes=33", "record=none"];
+    let sets: Vec<Override> = (all.iter().chain(sets))
+        .map(|s| s.parse().unwrap())
+        .collect();
+    let mut scene = Scene::load_with(preset, &sets).unwrap();
+    if let Some(stress) = &mut scene.stress {
+        stress.depths = 8;
+    }
+    for surface in [&mut scene.body_1.surface, &mut scene.body_2.surface] {
+        lengthen(
+            surface,
+            8.0 * Plan::new(&scene_smooth(preset)).unwrap().dx_m,
+        );
+    }
+    scene
+}
+
+/// What tells -0 from 0: the bits of the fields, and the scalars as Debug prints them, with as many digits as tell them
+/// apart.
+fn bits(frame: &Frame) -> (Vec<u32>, String) {
+    let fields = [
+        &frame.pressure_pa,
+        &frame.film_m,
+        &frame.roughness_1_m,
+        &frame.roughness_2_m,
+        &frame.traction_pa,
+    ];
+    let slices = [&frame.slice, &frame.slice_2].into_iter().flatten();
+    let slices = slices.flat_map(|slice| [&slice.effective_pa, &slice.tau_xz_pa]);
+    let all = fields.into_iter().chain(slices).flatten();
+    let scalars = (&frame.metrics, &frame.grounds, &frame.material_point);
+    (all.map(|v| v.to_bits()).collect(), format!("{scalars:?}"))
+}
+
+/// Runs `scene` with its workspace and without, as far as that many steps of the passage, the load turned to `load` of
+/// itself at the second of them; gives the frames that were compared.
+fn compared(name: &str, scene: &Scene, steps: u64, load: f64) -> usize {
+    let made = || Simulation::new(scene, Plan::new(scene).unwrap(), 1).unwrap();
+    let (mut kept, mut renewed) = (made(), made());
+    let (mut one, mut two) = (Frame::default(), Frame::default());
+    let mut count = 0;
+    let mut turned = load == 1.0;
+    while kept.passage_steps() < steps {
+        if !turned && kept.passage_steps() == 2 {
+            turned = true;
+            let knob = match scene.kind() {
+                ContactKind::Point => Knob::ForceN,
+                ContactKind::Line => Knob::ForceNPerM,
+            };
+            for sim in [&mut kept, &mut renewed] {
+                sim.set(knob, load * scene.force_n()).unwrap();
+            }
+        }
+        for is_after in [false, true] {
+            if is_after {
+                kept.step().unwrap();
+                renewed.step().unwrap();
+            } else {
+                renewed.renew_work().unwrap();
+            }
+            kept.fill(&mut one);
+            renewed.fill(&mut two);
+            let same = one == two && bits(&one) == bits(&two);
+            assert!(same, "{name}, frame {count}, after the step: {is_after}");
+            count += 1;
+        }
+    }
+    assert_eq!(kept.summary(), renewed.summary(), "{name}");
+    assert_eq!(kept.stats(), renewed.stats(), "{name}");
+    count
+}
+
+#[test]
+fn presets_are_the_same_without_their_workspace() {
+    for preset in presets::all() {
+        let count = compared(preset.name, &small(preset.name, &[]), 6, 1.0);
+        println!("{}: {count} frames", preset.name);
+        assert!(count >= 12);
+    }
+}
+
+#[test]
+fn every_kind_of_contact_is_the_same_without_its_workspace() {
+    let kinds: [(&str, &str, &[&str]); 8] = [
+        ("unlike", "demonstration", &["body_2.young_pa=7e10"]),
+        (
+            "unlike and dry",
+            "demonstration",
+            &["body_2.young_pa=7e10", "lubricant=none"],
+        ),
+        (
+            "yielding",
+            "demonstration",
+            &["body_1.hardness_pa=1e9", "body_2.hardness_pa=1e9"],
+        ),
+        ("dry", "demonstration", &["lubricant=none"]),
+        (
+            "mass-conserving",
+            "demonstration",
+            &["lubricant.cavitation=jfo"],
+        ),
+        ("line", "fzg_point_b", &["life.spread=models"]),
+        (
+            "adaptive",
+            "demonstration",
+            &["time.tolerance=0.03", "life.cycles=peaks"],
+        ),
+        (
+            "unmirrored",
+            "demonstration",
+            &["body_2.surface.angle_deg=20"],
+        ),
+    ];
+    for (name, preset, sets) in kinds {
+        let count = compared(name, &small(preset, sets), 8, 1.0);
+        println!("{name}: {count} frames");
+    }
+}
+
+/// Three grids of the start-up, and the smooth contact beside the run whose load is turned.
+#[test]
+fn grids_and_references_are_the_same_without_the_workspace() {
+    let sets: Vec<Override> = ["grid.nodes=129", "stress.depths=8", "record=none"]
+        .map(|s| s.parse().unwrap())
+        .to_vec();
+    let climbs = Scene::load_with("demonstration", &sets).unwrap();
+    println!("climbing: {} frames", compared("climbing", &climbs, 2, 1.0));
+    let turned = small("demonstration", &[]);
+    println!("turned: {} frames", compared("turned", &turned, 70, 0.8));
+}
