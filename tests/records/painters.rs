@@ -6,7 +6,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::recording::Contents;
+use super::recording::{Contents, event};
 use crate::common::tui_fixture::{setup_planned, theme};
 use asperity::observe::rerun::Recorder;
 use asperity::observe::{Began, Export, Format, Observer, Overwrite, RunContext};
@@ -228,11 +228,12 @@ const SMOOTH: f64 = 0.012;
 /// stores eleven bits.
 const ALIKE: u8 = 12;
 
-fn compare(scene: &Scene) -> Compared {
+/// All three get that scene, the exported picture one that ranges of its own may come from.
+fn compare(scene: &Scene, of_export: &Scene) -> Compared {
     let frames = frames(scene);
     let last = &frames[1];
     let folder = tempfile::tempdir().unwrap();
-    let context = RunContext {
+    let context = |scene: &Scene| RunContext {
         scene: Arc::new(scene.clone()),
         scene_toml: scene.to_toml(),
         plan_text: String::new(),
@@ -247,8 +248,8 @@ fn compare(scene: &Scene) -> Compared {
     let mut app = App::new(setup, Vec::new(), theme(ColorDepth::True, Glyphs::Unicode));
     app.set_pixels(Pixels::Kitty);
     app.apply(Action::Zoom);
-    recorder.begin(&context).unwrap();
-    export.begin(&context).unwrap();
+    recorder.begin(&context(scene)).unwrap();
+    export.begin(&context(of_export)).unwrap();
     for frame in &frames {
         recorder.frame(frame).unwrap();
         export.frame(frame).unwrap();
@@ -334,6 +335,16 @@ fn over_time(contents: &Contents, frames: &[Arc<Frame>], app: &mut App) {
     }
 }
 
+/// The comparison is sharp: one painter to whom a load is announced that the others know nothing of is found.
+#[test]
+#[should_panic(expected = "picture [")]
+fn a_painter_with_another_range_is_found() {
+    let scene = scene("demonstration", &["grid.nodes=65"]);
+    let mut announced = scene.clone();
+    announced.events = vec![event("load.force_n", 8.0 * 800.0)];
+    compare(&scene, &announced);
+}
+
 #[test]
 fn two_presets_a_line_contact_and_a_dry_scene_look_alike_in_all_painters() {
     const SMALL: &str = "grid.nodes=65";
@@ -345,7 +356,7 @@ fn two_presets_a_line_contact_and_a_dry_scene_look_alike_in_all_painters() {
         scene("mtm_ball_on_disc", &[SMALL]),
         dry,
     ];
-    let compared: Vec<Compared> = scenes.iter().map(compare).collect();
+    let compared: Vec<Compared> = scenes.iter().map(|scene| compare(scene, scene)).collect();
     for (scene, compared) in scenes.iter().zip(&compared) {
         println!(
             "{}: {} places, {} in contact, {} above the range",

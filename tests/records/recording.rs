@@ -292,7 +292,7 @@ fn record_scene(path: &Path, scene: Scene, frames: &[Arc<Frame>]) -> ObserverRep
 }
 
 /// A scripted change.
-fn event(key: &str, value: f64) -> Event {
+pub(super) fn event(key: &str, value: f64) -> Event {
     Event {
         at_s: 1e-3,
         set: [(key.to_owned(), value)].into(),

@@ -39,6 +39,7 @@ pub(super) struct Kymograph {
     values: Vec<f32>,
     /// Where bodies touch; empty where that is not marked.
     touches: Vec<u8>,
+    row_bytes: usize,
     rows: usize,
     rows_logged: usize,
     most_rows: usize,
@@ -91,10 +92,13 @@ impl Kymograph {
         } else {
             Vec::new()
         };
+        // Two of a value, one of what lies over it.
+        let row_bytes = (2 + usize::from(look.marks_contact)) * geometry.nx;
         Ok(Self {
             entity,
             subject,
             look,
+            row_bytes,
             geometry,
             raster: Raster::new(stream, entity, look, pixels, &plot, Height::Growing)?,
             touches,
@@ -107,7 +111,7 @@ impl Kymograph {
             axes_for: 0,
             step_s,
             first_step: None,
-            spare_rows: (ON_THE_WAY * budget_bytes / (2 * geometry.nx) as f64) as usize,
+            spare_rows: (ON_THE_WAY * budget_bytes / row_bytes as f64) as usize,
         })
     }
 
@@ -119,7 +123,7 @@ impl Kymograph {
 
     /// Bytes of the picture when it is full.
     pub(super) fn full_bytes(&self) -> usize {
-        2 * self.geometry.nx * self.most_rows
+        self.row_bytes * self.most_rows
     }
 
     pub(super) fn plot(&self) -> &PlotBox {

@@ -8,6 +8,7 @@ use super::super::stream::Stream;
 use super::{BODIES, FILM, POINT, SLICE, SPACE, SPOTS, Space, steel};
 use crate::math::number::{GPA, MM, plain, ticks};
 use crate::observe::ObserveError;
+use crate::picture::CONTACT;
 
 impl Space {
     pub(super) fn log_static(&mut self, stream: &Stream) -> Result<(), ObserveError> {
@@ -37,7 +38,7 @@ impl Space {
     fn log_dots(&self, stream: &Stream) -> Result<(), ObserveError> {
         let spots = Points3D::update_fields()
             .with_radii([Radius::new_scene_units((0.55 * self.geometry.dx) as f32)])
-            .with_colors([Color::from([90, 255, 250])]);
+            .with_colors([Color::from(CONTACT)]);
         stream.log_static(SPOTS, &spots)?;
         let point = Points3D::update_fields()
             .with_radii([0.075, 0.055, 0.0].map(|r| (r * self.geometry.a) as f32))
