@@ -62,7 +62,7 @@ impl Map {
 /// The maps that change.
 pub(super) struct Maps {
     geometry: Geometry,
-    maps: Vec<Map>,
+    shown: Vec<Map>,
     interferogram: Interferogram,
     contact: ClassImage,
     film: Look,
@@ -76,12 +76,12 @@ impl Maps {
         geometry: Geometry,
         ranges: &Ranges,
     ) -> Result<Self, ObserveError> {
-        let shown = MAPS.into_iter().filter(|(_, subject)| match subject {
+        let listed = MAPS.into_iter().filter(|(_, subject)| match subject {
             Subject::Roughness1 => ranges.rough[0],
             Subject::Roughness2 => ranges.rough[1],
             _ => true,
         });
-        let maps = shown.map(|(entity, subject)| {
+        let shown = listed.map(|(entity, subject)| {
             let look = Look::of(subject, ranges);
             let (pixels, plot) = (pixels(geometry), plot_box(geometry));
             let raster = Raster::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
@@ -93,7 +93,7 @@ impl Maps {
         });
         let maps = Self {
             geometry,
-            maps: maps.collect::<Result<_, _>>()?,
+            shown: shown.collect::<Result<_, _>>()?,
             interferogram: Interferogram::new(stream, geometry)?,
             contact: stream.class_image(CONTACT),
             film: Look::of(Subject::Film, ranges),
@@ -109,7 +109,7 @@ impl Maps {
 
     /// The images, for the notes in the recording and for what is told of them.
     pub(super) fn rasters(&self) -> impl Iterator<Item = (&'static str, &Raster)> {
-        self.maps.iter().map(|map| (map.entity, &map.raster))
+        self.shown.iter().map(|map| (map.entity, &map.raster))
     }
 
     /// Widens the ranges from now on; what has changed, with its tops before and after.
@@ -120,7 +120,7 @@ impl Maps {
     ) -> Result<Vec<Widened>, ObserveError> {
         self.film = Look::of(Subject::Film, ranges);
         let mut widened = Vec::new();
-        for map in &mut self.maps {
+        for map in &mut self.shown {
             let look = Look::of(map.subject, ranges);
             let tops = map.raster.reach(stream, look)?;
             widened.extend(tops.map(|tops| (map.entity, tops, look.unit.name)));
@@ -136,7 +136,7 @@ impl Maps {
     pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
         let nx = self.geometry.nx;
         self.hertz.log_ring(stream, HERTZ, frame)?;
-        for map in self.maps.iter().filter(|map| map.is_first()) {
+        for map in self.shown.iter().filter(|map| map.is_first()) {
             map.log(stream, frame)?;
         }
         let mut films = frame.film_m.chunks_exact(nx);
@@ -154,7 +154,7 @@ impl Maps {
 
     /// Logs what stands beside them in a tab of its own: interferogram, shear, roughness.
     pub(super) fn log_beside(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        for map in self.maps.iter().filter(|map| !map.is_first()) {
+        for map in self.shown.iter().filter(|map| !map.is_first()) {
             map.log(stream, frame)?;
         }
         self.interferogram.log(stream, frame)
