@@ -6,7 +6,7 @@
 //! ## Floors
 //! Imports go downward only (`tests/house/main.rs` reads them):
 //!
-//! `files < math < physics < scene < plan < solve < sim < observe < run < sweep < study < tui < cli/main`
+//! `files < math < physics < scene < plan < solve < sim < picture < observe < run < sweep < study < tui < cli/main`
 //!
 //! * [`files`]: plain files read, whole files written, digests, which program wrote them.
 //! * [`math`]: grids, fixed-order sums, planned FFTs, convolution. No contact words.
@@ -15,6 +15,7 @@
 //! * [`plan`]: what that scene needs, and why each stage that is left out is left out.
 //! * [`solve`]: one equation per file, dimensionless.
 //! * [`sim`]: the simulation loop: `step`, `set`, `fill`.
+//! * [`picture`]: frame and subject to values, axes, range, colours and legend, once for all who paint.
 //! * [`observe`]: what watches a run: latest frame, bounded queue, table, Rerun recording.
 //! * [`run`]: a session: threads, commands, outcome.
 //! * [`sweep`]: life maps and operating paths over many scenes, cases run beside the explorer.
@@ -40,6 +41,7 @@ pub mod guide;
 pub mod math;
 pub mod observe;
 pub mod physics;
+pub mod picture;
 pub mod plan;
 pub mod run;
 pub mod scene;

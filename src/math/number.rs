@@ -24,11 +24,14 @@ pub fn sig(value: f64, digits: i32) -> String {
 /// A number on an axis: three figures at most, and no zeros that say nothing.
 pub fn tick(value: f64) -> String {
     let text = sig(value, 3);
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
+    let (digits, power) = text
+        .find('e')
+        .map_or((text.as_str(), ""), |at| text.split_at(at));
+    if !digits.contains('.') {
+        return text;
     }
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    format!("{digits}{power}")
 }
 
 /// A number that is known or not.
@@ -66,18 +69,67 @@ pub fn bytes(count: u64) -> String {
     }
 }
 
+/// Of what [`nice_ceiling`] gives, the leading digits.
+const NICE: [f64; 10] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+
 /// The least of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not below `value`.
 pub fn nice_ceiling(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
     }
     let decade = 10_f64.powf(value.log10().floor());
-    let steps = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
-    let chosen = steps
+    // The slack lets a value that is nice up to rounding stay where it is.
+    let step = NICE
         .into_iter()
-        .find(|step| step * decade >= value * (1.0 - 1e-9));
-    chosen.unwrap_or(10.0) * decade
+        .find(|step| step * decade >= value * (1.0 - 1e-12));
+    step.unwrap_or(10.0) * decade
 }
+
+/// Equal parts of [0, top], where top is one of [`nice_ceiling`]'s: three to five, ends included.
+pub fn divisions(top: f64) -> Vec<f64> {
+    let leading = top / 10_f64.powf((top.log10() + 1e-9).floor());
+    let parts = match (leading * 10.0).round() as u32 {
+        15 | 30 | 60 => 3,
+        25 | 50 => 5,
+        _ => 4,
+    };
+    (0..=parts)
+        .map(|k| top * f64::from(k) / f64::from(parts))
+        .collect()
+}
+
+/// Round positions in [low, high], about `about` of them.
+pub fn ticks(low: f64, high: f64, about: usize) -> Vec<f64> {
+    let raw = (high - low) / about.max(1) as f64;
+    if !(raw.is_finite() && raw > 0.0) {
+        return vec![low];
+    }
+    let decade = 10_f64.powf(raw.log10().floor());
+    let step = [1.0, 2.0, 2.5, 5.0, 10.0]
+        .into_iter()
+        .map(|step| step * decade)
+        .find(|&step| step >= raw * (1.0 - 1e-9))
+        .unwrap_or(raw);
+    let first = (low / step - 1e-9).ceil() as i64;
+    let last = (high / step + 1e-9).floor() as i64;
+    (first..=last).map(|k| k as f64 * step).collect()
+}
+
+/// A number to a millionth without needless digits: what is set, and places on an axis.
+pub fn plain(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    // Minus zero reads badly on an axis.
+    format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
+}
+
+/// Metres to millimetres.
+pub const MM: f64 = 1.0e3;
+/// Of pressure and stress.
+pub const GPA: Unit = Unit::new("GPa", 1e-9);
+/// Of shear.
+pub const MPA: Unit = Unit::new("MPa", 1e-6);
+/// Of films and heights.
+pub const UM: Unit = Unit::new("µm", 1e6);
 
 /// A unit: its name, and how many of it make one SI unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,6 +141,11 @@ pub struct Unit {
 }
 
 impl Unit {
+    /// A unit of that name, so many to one SI unit.
+    pub const fn new(name: &'static str, per_si: f64) -> Self {
+        Self { name, per_si }
+    }
+
     /// `value` (SI) in this unit.
     pub fn of(self, value: f64) -> f64 {
         value * self.per_si
@@ -139,6 +196,8 @@ mod tests {
             (500.0, "500"),
             (0.0, "0"),
             (-0.3, "-0.3"),
+            (2e-7, "2e-7"),
+            (2.5e-7, "2.5e-7"),
         ];
         for (value, shown) in table {
             assert_eq!(tick(value), shown);
@@ -146,12 +205,41 @@ mod tests {
     }
 
     #[test]
-    fn ceilings_are_round_and_not_below() {
+    fn ceilings_are_round_and_not_too_far() {
+        assert_eq!(nice_ceiling(1.0), 1.0);
         assert_eq!(nice_ceiling(1.73), 2.0);
-        assert_eq!(nice_ceiling(2.0), 2.0);
-        assert!((nice_ceiling(8.2e-7) - 1e-6).abs() < 1e-15);
+        assert!((nice_ceiling(0.39) - 0.4).abs() < 1e-12);
+        assert_eq!(nice_ceiling(8.5e3), 1.0e4);
         assert_eq!(nice_ceiling(0.0), 1.0);
         assert_eq!(nice_ceiling(f64::NAN), 1.0);
+        for k in 1..2000 {
+            let value = 1.7e-9 * 1.02_f64.powi(k);
+            let top = nice_ceiling(value);
+            assert!(top >= value * (1.0 - 1e-9) && top <= 1.51 * value);
+        }
+    }
+
+    #[test]
+    fn divisions_are_round_and_hold_both_ends() {
+        for top in NICE.into_iter().chain([0.5, 1500.0]) {
+            let parts = divisions(top);
+            assert_eq!((parts.first(), parts.last()), (Some(&0.0), Some(&top)));
+            assert!((4..=6).contains(&parts.len()));
+            assert!(
+                parts.iter().all(|&value| plain(value).len() <= 5),
+                "{parts:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn ticks_cover_the_axis() {
+        let at = ticks(-1.18, 0.71, 4);
+        assert_eq!(at, vec![-1.0, -0.5, 0.0, 0.5]);
+        assert_eq!(ticks(0.0, 1.0, 4), vec![0.0, 0.25, 0.5, 0.75, 1.0]);
+        assert_eq!(ticks(1.0, 1.0, 4), vec![1.0]);
+        assert_eq!(plain(-0.0), "0");
+        assert_eq!(plain(0.1 + 0.2), "0.3");
     }
 
     #[test]

@@ -11,16 +11,12 @@
 pub(crate) mod cells;
 pub(crate) mod chart;
 mod export;
-#[cfg(any(feature = "rerun", feature = "tui"))]
-pub(crate) mod interferogram;
 mod latest;
 mod placed;
 mod pool;
 mod queue;
-mod ramp;
 #[cfg(feature = "rerun")]
 pub mod rerun;
-pub(crate) mod scales;
 mod table;
 
 use std::sync::Arc;

@@ -5,6 +5,7 @@
 
 use std::collections::VecDeque;
 
+use crate::picture::Subject;
 use crate::sim::{Frame, Stage};
 use crate::tui::replay::Replay;
 
@@ -18,6 +19,7 @@ struct KymographRow {
     passages: f64,
     pressure: Vec<f32>,
     film: Vec<f32>,
+    contact: Vec<u8>,
 }
 
 /// Rows of a run, the newest last.
@@ -26,26 +28,23 @@ pub(crate) struct Kymograph {
     rows: VecDeque<KymographRow>,
 }
 
-/// Which field.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Field {
-    Pressure,
-    Film,
+/// The nodes of y = 0.
+fn middle<'a, T>(field: &'a [T], frame: &Frame) -> Option<&'a [T]> {
+    let start = frame.ny / 2 * frame.nx;
+    field.get(start..start + frame.nx)
 }
 
-/// The nodes of y = 0.
-fn middle(field: &[f32], frame: &Frame) -> Option<Vec<f32>> {
-    let start = frame.ny / 2 * frame.nx;
-    field.get(start..start + frame.nx).map(<[f32]>::to_vec)
-}
+/// Values along y = 0, SI, and where bodies touch.
+pub(crate) type CentreValues<'a> = (&'a [f32], &'a [u8]);
 
 impl Kymograph {
     /// Takes a frame of the passage.
     pub(crate) fn push(&mut self, frame: &Frame) {
         let newest = self.rows.back().map_or(f64::MIN, |row| row.passages);
-        let (Some(pressure), Some(film)) = (
+        let (Some(pressure), Some(film), Some(contact)) = (
             middle(&frame.pressure_pa, frame),
             middle(&frame.film_m, frame),
+            middle(&frame.contact, frame),
         ) else {
             return;
         };
@@ -57,8 +56,9 @@ impl Kymograph {
         }
         self.rows.push_back(KymographRow {
             passages: frame.passages,
-            pressure,
-            film,
+            pressure: pressure.to_vec(),
+            film: film.to_vec(),
+            contact: contact.to_vec(),
         });
     }
 
@@ -82,24 +82,24 @@ pub(crate) enum Span<'a> {
 }
 
 impl Span<'_> {
-    /// The centre line so many passages before the frame; `None`: before the first.
-    pub(crate) fn line(&self, field: Field, ago: f64) -> Option<&[f32]> {
+    /// Pressure or film of the centre line so many passages before the frame; `None`: before the first.
+    pub(crate) fn line(&self, subject: Subject, ago: f64) -> Option<CentreValues<'_>> {
         match self {
             Self::Run { kept, passages } => {
                 let row = kept.row(passages - ago)?;
-                Some(match field {
-                    Field::Pressure => &row.pressure,
-                    Field::Film => &row.film,
-                })
+                let values = match subject {
+                    Subject::Film => &row.film,
+                    _ => &row.pressure,
+                };
+                Some((values, &row.contact))
             }
             Self::Orbit(replay) => {
                 let frame = replay.before(ago);
-                let values = match field {
-                    Field::Pressure => &frame.pressure_pa,
-                    Field::Film => &frame.film_m,
+                let values = match subject {
+                    Subject::Film => &frame.film_m,
+                    _ => &frame.pressure_pa,
                 };
-                let start = frame.ny / 2 * frame.nx;
-                values.get(start..start + frame.nx)
+                middle(values, frame).zip(middle(&frame.contact, frame))
             }
         }
     }
@@ -117,6 +117,7 @@ mod tests {
             ny: 1,
             pressure_pa: vec![passages as f32; 2],
             film_m: vec![-passages as f32; 2],
+            contact: vec![0; 2],
             ..Frame::default()
         }
     }
@@ -136,14 +137,16 @@ mod tests {
             passages: newest,
         };
         let at = |ago: f64| {
-            span.line(Field::Pressure, ago)
-                .map(|line| f64::from(line[0]))
+            span.line(Subject::Pressure, ago)
+                .map(|(line, _)| f64::from(line[0]))
         };
         assert_eq!(at(0.0), Some(newest));
         assert_eq!(at(0.5), Some(newest - 1.0));
         assert_eq!(at(ROWS as f64 - 1.0), Some(ROWS as f64));
         assert_eq!(at(ROWS as f64), None);
-        let film = span.line(Field::Film, 1.0).map(|line| f64::from(line[1]));
+        let film = span
+            .line(Subject::Film, 1.0)
+            .map(|(line, _)| f64::from(line[1]));
         assert_eq!(film, Some(1.0 - newest));
     }
 }

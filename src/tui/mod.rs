@@ -11,6 +11,7 @@
 
 pub mod action;
 pub mod app;
+mod canvas;
 pub mod choice;
 pub mod dial;
 pub mod estimate;
@@ -42,7 +43,8 @@ use crate::scene::Scene;
 use crate::sweep::Background;
 use action::lookup;
 use app::{App, Effect, ErrandKind};
-use pixels::{Canvas, Pixels};
+use canvas::Canvas;
+use pixels::Pixels;
 use terminal::{Input, Panics, Stage};
 use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{

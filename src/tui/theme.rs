@@ -8,8 +8,8 @@ mod ramp;
 
 use ratatui::style::{Color, Modifier, Style};
 
-pub use ramp::Ramp;
-use ramp::{map_index, map_rgb, nearest_index};
+use crate::picture::Ramp;
+use ramp::{map_index, nearest_index};
 
 /// How many colours the terminal shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -238,12 +238,7 @@ impl Theme {
         if self.capabilities.depth == ColorDepth::Indexed {
             return Color::Indexed(map_index(ramp, t));
         }
-        self.rgb(map_rgb(ramp, t))
-    }
-
-    /// A colour of a map with white mixed in: lines drawn over it.
-    pub fn map_color_lit(self, ramp: Ramp, t: f32, white: f32) -> Color {
-        self.rgb(ramp.lit(t, white))
+        self.rgb(ramp.colour(t, 1.0))
     }
 
     /// A character of a map, `t` from 0 to 1.

@@ -1,5 +1,6 @@
 //! Three systems of units for people; how a number is written is [`crate::math::number`].
 
+use crate::math::number::{GPA, MPA, UM};
 use crate::scene::ContactKind;
 use crate::sim::{Dimension, Frame, Quantity};
 
@@ -56,64 +57,60 @@ impl Units {
     /// Pressure and stress.
     pub fn pressure(self) -> Unit {
         match self {
-            Self::Gpa => unit("GPa", 1e-9),
-            Self::Mpa => unit("MPa", 1e-6),
-            Self::Shop => unit("ksi", 1.0 / 6.894_757_293_168e6),
+            Self::Gpa => GPA,
+            Self::Mpa => MPA,
+            Self::Shop => Unit::new("ksi", 1.0 / 6.894_757_293_168e6),
         }
     }
 
     /// Film thickness.
     pub fn film(self) -> Unit {
         match self {
-            Self::Gpa => unit("nm", 1e9),
-            Self::Mpa => unit("µm", 1e6),
-            Self::Shop => unit("µin", 1e6 / 0.0254),
+            Self::Gpa => Unit::new("nm", 1e9),
+            Self::Mpa => UM,
+            Self::Shop => Unit::new("µin", 1e6 / 0.0254),
         }
     }
 
     /// Roughness height.
     pub fn height(self) -> Unit {
         match self {
-            Self::Gpa | Self::Mpa => unit("µm", 1e6),
-            Self::Shop => unit("µin", 1e6 / 0.0254),
+            Self::Gpa | Self::Mpa => UM,
+            Self::Shop => Unit::new("µin", 1e6 / 0.0254),
         }
     }
 
     /// Size of the contact.
     pub fn length(self) -> Unit {
         match self {
-            Self::Gpa | Self::Mpa => unit("µm", 1e6),
-            Self::Shop => unit("mil", 1e3 / 0.0254),
+            Self::Gpa | Self::Mpa => UM,
+            Self::Shop => Unit::new("mil", 1e3 / 0.0254),
         }
     }
 
     /// Load.
     pub fn force(self) -> Unit {
         match self {
-            Self::Gpa | Self::Mpa => unit("N", 1.0),
-            Self::Shop => unit("lbf", 1.0 / 4.448_221_615_260_5),
+            Self::Gpa | Self::Mpa => Unit::new("N", 1.0),
+            Self::Shop => Unit::new("lbf", 1.0 / 4.448_221_615_260_5),
         }
     }
 
     /// Load of a line.
     pub fn force_per_length(self) -> Unit {
         match self {
-            Self::Gpa | Self::Mpa => unit("N/m", 1.0),
-            Self::Shop => unit("lbf/in", 0.0254 / 4.448_221_615_260_5),
+            Self::Gpa | Self::Mpa => Unit::new("N/m", 1.0),
+            Self::Shop => Unit::new("lbf/in", 0.0254 / 4.448_221_615_260_5),
         }
     }
 
     /// Speed.
     pub fn speed(self) -> Unit {
         match self {
-            Self::Gpa | Self::Mpa => unit("m/s", 1.0),
-            Self::Shop => unit("in/s", 1.0 / 0.0254),
+            Self::Gpa | Self::Mpa => Unit::new("m/s", 1.0),
+            Self::Shop => Unit::new("in/s", 1.0 / 0.0254),
         }
     }
-}
-
-const fn unit(name: &'static str, per_si: f64) -> Unit {
-    Unit { name, per_si }
 }
 
 #[cfg(test)]

@@ -10,9 +10,9 @@ mod provenance;
 use std::path::Path;
 
 /// From the cellar to the roof. A file may import its own floor and those before it.
-const FLOORS: [&str; 13] = [
-    "files", "math", "physics", "scene", "plan", "solve", "sim", "observe", "run", "sweep",
-    "study", "tui", "cli",
+const FLOORS: [&str; 14] = [
+    "files", "math", "physics", "scene", "plan", "solve", "sim", "picture", "observe", "run",
+    "sweep", "study", "tui", "cli",
 ];
 /// Crates and the only folder that may name them.
 const ROOMS: [(&str, &str); 4] = [

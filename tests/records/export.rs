@@ -69,6 +69,7 @@ fn pictures_are_drawn_of_every_map_and_of_the_centre_line() {
     for name in [
         "pressure",
         "film",
+        "interferogram",
         "traction",
         "roughness_1",
         "roughness_2",

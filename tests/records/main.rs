@@ -5,6 +5,7 @@ mod common;
 mod damaged;
 mod export;
 mod live;
+mod painters;
 mod recording;
 mod repeat;
 mod restart;

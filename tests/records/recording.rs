@@ -25,7 +25,7 @@ const STEPS: u64 = 12;
 
 /// A file's messages, up to where it can be read.
 #[derive(Default)]
-struct Contents {
+pub(super) struct Contents {
     data: Vec<Chunk>,
     layout: Vec<Chunk>,
     activations: usize,
@@ -33,7 +33,7 @@ struct Contents {
 }
 
 impl Contents {
-    fn read(path: &Path) -> Self {
+    pub(super) fn read(path: &Path) -> Self {
         let mut contents = Self::default();
         let reader = std::io::BufReader::new(std::fs::File::open(path).unwrap());
         for message in DecoderApp::decode_eager(reader).unwrap() {
@@ -102,7 +102,7 @@ impl Contents {
     }
 
     /// Bytes of an entity's pictures, by step.
-    fn pictures(&self, entity: &str) -> BTreeMap<i64, Vec<u8>> {
+    pub(super) fn pictures(&self, entity: &str) -> BTreeMap<i64, Vec<u8>> {
         let buffers = [
             rerun::DepthImage::descriptor_buffer(),
             rerun::SegmentationImage::descriptor_buffer(),
@@ -124,7 +124,7 @@ impl Contents {
     }
 
     /// Values of an entity's pictures, by step: IEEE 754 binary16.
-    fn values(&self, entity: &str) -> BTreeMap<i64, Vec<f64>> {
+    pub(super) fn values(&self, entity: &str) -> BTreeMap<i64, Vec<f64>> {
         let value = |pair: &[u8]| {
             let half = u16::from_le_bytes([pair[0], pair[1]]);
             let (exponent, digits) = (i32::from((half >> 10) & 0x1f), f64::from(half & 0x3ff));
@@ -143,7 +143,7 @@ impl Contents {
     }
 
     /// The upper end of an entity's colour range.
-    fn top(&self, entity: &str) -> f64 {
+    pub(super) fn top(&self, entity: &str) -> f64 {
         let component = rerun::DepthImage::descriptor_depth_range().component;
         let of_entity = |chunk: &&Chunk| chunk.entity_path().to_string() == format!("/{entity}");
         let chunks = self.data.iter().filter(of_entity);
@@ -292,7 +292,7 @@ fn record_scene(path: &Path, scene: Scene, frames: &[Arc<Frame>]) -> ObserverRep
 }
 
 /// A scripted change.
-fn event(key: &str, value: f64) -> Event {
+pub(super) fn event(key: &str, value: f64) -> Event {
     Event {
         at_s: 1e-3,
         set: [(key.to_owned(), value)].into(),

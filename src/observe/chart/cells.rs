@@ -4,7 +4,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::{BELOW, BESIDE, Chart, Drawn, FONT, SIZE, Scale, told};
-use crate::observe::ramp::Ramp;
+use crate::picture::Ramp;
 
 /// Width of the bar with its numbers, pixels.
 const BAR: u32 = 150;
@@ -159,7 +159,7 @@ mod tests {
         };
         let text = map.svg().unwrap().unwrap();
         assert!(
-            text.contains("#E6E6E6") && text.contains("#440154"),
+            text.contains("#E6E6E6") && text.contains("#470155"),
             "{text:.2000}"
         );
         let none = Cells {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 
-use crate::observe::scales::ticks;
+use crate::math::number::{tick, ticks};
 
 /// Linear or logarithmic. A *place* is what is drawn: the value, or its decimal logarithm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,27 +24,12 @@ impl Scale {
         }
     }
 
-    /// The number at a place, short.
+    /// The number at a place.
     pub(crate) fn label(self, place: f64) -> String {
-        let value = match self {
+        tick(match self {
             Self::Linear => place,
             Self::Log => 10_f64.powf(place),
-        };
-        let size = value.abs();
-        if size < 1e-12 {
-            return "0".to_owned();
-        }
-        if !(0.01..1e4).contains(&size) {
-            let text = format!("{value:.1e}");
-            return text.replace(".0e", "e");
-        }
-        let digits = (2 - size.log10().floor() as i32).clamp(0, 4) as usize;
-        let text = format!("{value:.digits$}");
-        if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        }
+        })
     }
 
     /// Places of round numbers within `low` and `high` (places): of a logarithmic axis the decades, with 2 and 5
@@ -112,16 +97,6 @@ impl Ranged for Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn labels_are_short() {
-        let label = |v: f64| Scale::Linear.label(v);
-        assert_eq!(label(0.3), "0.3");
-        assert_eq!(label(1500.0), "1500");
-        assert_eq!(label(2.5e-7), "2.5e-7");
-        assert_eq!(label(2e-7), "2e-7");
-        assert_eq!(Scale::Log.label(-1.0), "0.1");
-    }
 
     #[test]
     fn marks_are_round_numbers_within_the_axis() {

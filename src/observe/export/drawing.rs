@@ -7,9 +7,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use crate::math::number::{MM, plain};
 use crate::observe::chart::{FONT, font};
-use crate::observe::ramp::Ramp;
-use crate::observe::scales::{divisions, number};
+use crate::picture::{NodeAxis, Picture};
 
 /// Width of a picture's axes, pixels.
 const WIDE: u32 = 720;
@@ -20,11 +20,6 @@ const BELOW: u32 = 58;
 const RIGHT: u32 = 116;
 /// The axes' titles stand on their left edge.
 const EDGE: u32 = 18;
-/// Where bodies touch.
-const CONTACT: [u8; 3] = [60, 230, 240];
-/// Values above the range, where they would drown the rest.
-const BEYOND: [u8; 3] = [206, 208, 212];
-
 type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
 /// A picture to draw.
@@ -33,26 +28,6 @@ pub(super) struct Drawing<'a> {
     pub(super) title: String,
     /// Below the title.
     pub(super) state: String,
-}
-
-/// A field on a rectangle.
-pub(super) struct Map {
-    pub(super) columns: usize,
-    /// In the bar's unit, row by row from the top.
-    pub(super) values: Vec<f32>,
-    /// Marked values; empty: none.
-    pub(super) marks: Vec<bool>,
-    pub(super) x: [f64; 2],
-    /// Lower and upper edge.
-    pub(super) y: [f64; 2],
-    /// Upper end of the colour range; the lower is 0, or its negative for a diverging map.
-    pub(super) top: f64,
-    pub(super) ramp: Ramp,
-    pub(super) bar: String,
-    pub(super) y_title: String,
-    /// Half-axes of Hertz's contact.
-    pub(super) ellipse: Option<[f64; 2]>,
-    pub(super) grey_above: bool,
 }
 
 /// Curves over x with an axis at each side.
@@ -83,13 +58,17 @@ impl Drawing<'_> {
     ///
     /// # Errors
     /// What went wrong, in words.
-    pub(super) fn map(&self, map: &Map) -> Result<(), String> {
-        let tall = f64::from(WIDE) * (map.y[1] - map.y[0]) / (map.x[1] - map.x[0]);
-        let tall = (tall.round() as u32).clamp(120, 4 * WIDE);
+    pub(super) fn map(&self, picture: &Picture) -> Result<(), String> {
+        let [wide, high] = [picture.x, picture.y].map(|axis| {
+            let [from, to] = axis.ends();
+            to - from
+        });
+        let tall = (f64::from(WIDE) * high / wide).round() as u32;
+        let tall = tall.clamp(120, 4 * WIDE);
         let root = self.begin(WIDE + LEFT + RIGHT, tall + ABOVE + BELOW)?;
         let (left, right) = root.split_horizontally(WIDE + LEFT);
-        draw_map(&left, map).map_err(|error| error.to_string())?;
-        draw_bar(&right, map, tall).map_err(|error| error.to_string())?;
+        draw_map(&left, picture).map_err(|error| error.to_string())?;
+        draw_bar(&right, picture, tall).map_err(|error| error.to_string())?;
         root.present().map_err(|error| error.to_string())
     }
 
@@ -122,97 +101,111 @@ impl Drawing<'_> {
 type DrawingResult<'a> =
     Result<(), DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>>;
 
-fn draw_map<'a>(area: &Area<'a>, map: &Map) -> DrawingResult<'a> {
+fn draw_map<'a>(area: &Area<'a>, picture: &Picture) -> DrawingResult<'a> {
+    let [x, y] = [picture.x, picture.y].map(|axis| axis.ends().map(|end| end * MM));
+    // Depths are drawn downwards.
+    let y = if picture.is_below { [-y[1], -y[0]] } else { y };
     let mut chart = ChartBuilder::on(area)
         .margin_top(ABOVE)
         .margin_left(EDGE)
         .x_label_area_size(BELOW)
         .y_label_area_size(LEFT - EDGE)
-        .build_cartesian_2d(map.x[0]..map.x[1], map.y[0]..map.y[1])?;
+        .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
     let size = chart.plotting_area().dim_in_pixel();
-    let corner = (map.x[0], map.y[1]);
-    if let Some(image) = BitMapElement::with_owned_buffer(corner, size, map.paint(size)) {
+    let bytes = paint(picture, size);
+    if let Some(image) = BitMapElement::with_owned_buffer((x[0], y[1]), size, bytes) {
         chart.plotting_area().draw(&image)?;
     }
-    if let Some([a, b]) = map.ellipse {
+    if !picture.is_below {
+        let (_, [a, b]) = picture.hertz;
         let points = (0..=180).map(|k| {
             let angle = std::f64::consts::TAU * f64::from(k) / 180.0;
-            (a * angle.cos(), b * angle.sin())
+            (a * MM * angle.cos(), b * MM * angle.sin())
         });
         let inside: Vec<_> = points
-            .filter(|(_, y)| (map.y[0]..=map.y[1]).contains(y))
+            .filter(|(_, at)| (y[0]..=y[1]).contains(at))
             .collect();
         chart.draw_series(LineSeries::new(inside, RGBColor(150, 155, 165)))?;
     }
+    let y_title = if picture.is_below {
+        "depth z, mm"
+    } else {
+        "y, mm"
+    };
     chart
         .configure_mesh()
         .disable_mesh()
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 16))
         .x_desc("x, mm (rolling direction to the right)")
-        .y_desc(map.y_title.as_str())
+        .y_desc(y_title)
         .x_labels(8)
         .y_labels(8)
-        .x_label_formatter(&|x| number(*x))
-        // Depths are drawn downwards.
-        .y_label_formatter(&|y| number(if map.ellipse.is_some() { *y } else { -y }))
+        .x_label_formatter(&|x| plain(*x))
+        .y_label_formatter(&|y| plain(if picture.is_below { -y } else { *y }))
         .draw()
 }
 
-impl Map {
-    fn low(&self) -> f64 {
-        if self.ramp == Ramp::Diverging {
-            -self.top
-        } else {
-            0.0
-        }
-    }
-
-    fn colour(&self, value: f64) -> [u8; 3] {
-        if self.grey_above && value > self.top {
-            return BEYOND;
-        }
-        let share = (value - self.low()) / (self.top - self.low());
-        self.ramp.colour(share as f32, 1.0)
-    }
-
-    /// Pixels, three bytes each: values interpolated between their places.
-    fn paint(&self, (wide, tall): (u32, u32)) -> Vec<u8> {
-        let rows = self.values.len() / self.columns.max(1);
-        let place = |pixel: u32, pixels: u32, n: usize| {
-            let at = f64::from(pixel) / f64::from(pixels.max(2) - 1) * (n.max(1) - 1) as f64;
-            let low = (at as usize).min(n.saturating_sub(2));
-            (low, (low + 1).min(n - 1), at - low as f64)
-        };
-        let mut bytes = Vec::with_capacity(3 * (wide * tall) as usize);
-        for row in 0..tall {
-            let (j0, j1, v) = place(row, tall, rows);
-            for column in 0..wide {
-                let (i0, i1, u) = place(column, wide, self.columns);
-                let near =
-                    (if v < 0.5 { j0 } else { j1 }) * self.columns + if u < 0.5 { i0 } else { i1 };
-                if self.marks.get(near) == Some(&true) {
-                    bytes.extend(CONTACT);
-                    continue;
-                }
-                let at = |j: usize, i: usize| f64::from(self.values[j * self.columns + i]);
-                let upper = at(j0, i0) * (1.0 - u) + at(j0, i1) * u;
-                let lower = at(j1, i0) * (1.0 - u) + at(j1, i1) * u;
-                bytes.extend(self.colour(upper * (1.0 - v) + lower * v));
+/// Pixels, three bytes each: values interpolated between their nodes; the first and the last pixel of both sides lie on
+/// nodes.
+fn paint(picture: &Picture, (wide, tall): (u32, u32)) -> Vec<u8> {
+    let places = |axis: NodeAxis, [from, to]: [f64; 2], pixels: u32, off: f64| -> Vec<f64> {
+        let last = f64::from(pixels.max(2) - 1);
+        let at = |pixel: u32| from + (to - from) * (f64::from(pixel) + off) / last;
+        (0..pixels).map(|pixel| axis.place(at(pixel))).collect()
+    };
+    let (x_ends, [first, last]) = (picture.x.ends(), picture.y.ends());
+    let down = if picture.is_below {
+        [first, last]
+    } else {
+        [last, first]
+    };
+    let across = |off| places(picture.x, x_ends, wide, off);
+    let rows = |off| places(picture.y, down, tall, off);
+    let mut bytes = Vec::with_capacity(3 * (wide * tall) as usize);
+    if let Some(film) = picture.film() {
+        let xs: Vec<_> = across(-0.5).into_iter().zip(across(0.5)).collect();
+        for (y_0, y_1) in rows(-0.5).into_iter().zip(rows(0.5)) {
+            for (x_0, x_1) in &xs {
+                bytes.extend(film.cell([*x_0, *x_1], [y_0, y_1]));
             }
         }
-        bytes
+        return bytes;
     }
+    let xs = across(0.0);
+    for y in rows(0.0) {
+        for x in &xs {
+            let touches = picture.touches(x.round() as usize, y.round() as usize);
+            let tint = picture.look.tint(between(picture, *x, y), touches);
+            bytes.extend(picture.look.paint(tint).unwrap_or([255; 3]));
+        }
+    }
+    bytes
+}
+
+/// A value between nodes, SI.
+fn between(picture: &Picture, x: f64, y: f64) -> f64 {
+    let near = |place: f64, nodes: usize| {
+        let low = (place as usize).min(nodes.saturating_sub(2));
+        (low, (low + 1).min(nodes - 1), place - low as f64)
+    };
+    let (i_0, i_1, u) = near(x, picture.x.nodes());
+    let (j_0, j_1, v) = near(y, picture.y.nodes());
+    let row =
+        |j: usize| f64::from(picture.at(i_0, j)) * (1.0 - u) + f64::from(picture.at(i_1, j)) * u;
+    row(j_0) * (1.0 - v) + row(j_1) * v
 }
 
 /// The colour bar with its unit.
-fn draw_bar<'a>(area: &Area<'a>, map: &Map, tall: u32) -> DrawingResult<'a> {
+fn draw_bar<'a>(area: &Area<'a>, picture: &Picture, tall: u32) -> DrawingResult<'a> {
     let (left, wide) = (18, 24);
     let (top, bottom) = (ABOVE as i32, (ABOVE + tall) as i32);
-    let (low, span) = (map.low(), map.top - map.low());
+    let look = &picture.look;
+    let [low, high] = look.range;
+    let span = high - low;
     for y in top..bottom {
-        let value = map.top - span * f64::from(y - top) / f64::from(bottom - top);
-        let [r, g, b] = map.colour(value);
+        let value = high - span * f64::from(y - top) / f64::from(bottom - top);
+        let [r, g, b] = look.paint(look.tint(value, false)).unwrap_or([255; 3]);
         let row = Rectangle::new(
             [(left, y), (left + wide, y + 1)],
             RGBColor(r, g, b).filled(),
@@ -220,18 +213,16 @@ fn draw_bar<'a>(area: &Area<'a>, map: &Map, tall: u32) -> DrawingResult<'a> {
         area.draw(&row)?;
     }
     let style = TextStyle::from((FONT, 15)).pos(Pos::new(HPos::Left, VPos::Center));
-    let values = if low < 0.0 {
-        [-1.0, -0.5, 0.0, 0.5, 1.0].map(|t| t * map.top).to_vec()
-    } else {
-        divisions(map.top)
-    };
-    for value in values {
+    for value in look.divisions() {
         let y = bottom - (f64::from(bottom - top) * (value - low) / span) as i32;
-        let text = Text::new(number(value), (left + wide + 8, y), style.clone());
+        let text = Text::new(look.number(value), (left + wide + 8, y), style.clone());
         area.draw(&text)?;
     }
+    if let Some(note) = look.note() {
+        area.draw(&Text::new(note, (left, bottom + 18), style))?;
+    }
     let title = TextStyle::from((FONT, 16));
-    area.draw(&Text::new(map.bar.clone(), (left - 8, top - 28), title))
+    area.draw(&Text::new(look.title(), (left - 8, top - 28), title))
 }
 
 fn draw_figure<'a>(area: &Area<'a>, figure: &Figure) -> DrawingResult<'a> {
@@ -253,15 +244,15 @@ fn draw_figure<'a>(area: &Area<'a>, figure: &Figure) -> DrawingResult<'a> {
         .axis_desc_style((FONT, 16))
         .x_desc("x, mm (rolling direction to the right)")
         .y_desc(figure.left_title.as_str())
-        .x_label_formatter(&|x| number(*x))
-        .y_label_formatter(&|y| number(*y))
+        .x_label_formatter(&|x| plain(*x))
+        .y_label_formatter(&|y| plain(*y))
         .draw()?;
     chart
         .configure_secondary_axes()
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 16))
         .y_desc(figure.right.title.as_str())
-        .y_label_formatter(&|y| number(*y))
+        .y_label_formatter(&|y| plain(*y))
         .draw()?;
     for curve in &figure.left {
         let style = style(curve);
@@ -311,31 +302,32 @@ fn inside(points: &[(f64, f64)], top: f64) -> Vec<Vec<(f64, f64)>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn map() -> Map {
-        Map {
-            columns: 2,
-            values: vec![0.0, 1.0, 2.0, 3.0],
-            marks: vec![false, true, false, false],
-            x: [0.0, 1.0],
-            y: [0.0, 1.0],
-            top: 2.0,
-            ramp: Ramp::Inferno,
-            bar: "p, GPa".into(),
-            y_title: "y, mm".into(),
-            ellipse: None,
-            grey_above: true,
-        }
-    }
+    use crate::picture::{self, Ramp, Ranges, Subject};
+    use crate::sim::Frame;
 
     #[test]
-    fn pixels_are_the_values_colours_with_marks_and_what_is_beyond() {
-        let bytes = map().paint((2, 2));
+    fn pixels_are_the_values_colours_with_marks_and_what_is_above() {
+        let frame = Frame {
+            nx: 2,
+            ny: 2,
+            dx_m: 1.0,
+            dy_m: 1.0,
+            film_m: vec![2.0, 3.0, 0.0, 1.0],
+            contact: vec![0, 0, 0, 1],
+            ..Frame::default()
+        };
+        let ranges = Ranges {
+            film_m: 2.0,
+            ..Ranges::default()
+        };
+        let picture = Picture::of(&frame, Subject::Film, &ranges).expect("a film");
+        let bytes = paint(&picture, (2, 2));
         let pixel = |at: usize| [bytes[3 * at], bytes[3 * at + 1], bytes[3 * at + 2]];
-        assert_eq!(pixel(0), Ramp::Inferno.colour(0.0, 1.0));
-        assert_eq!(pixel(1), CONTACT);
-        assert_eq!(pixel(2), Ramp::Inferno.colour(1.0, 1.0));
-        assert_eq!(pixel(3), BEYOND);
+        // y upwards: the frame's last row comes first.
+        assert_eq!(pixel(0), Ramp::Viridis.colour(0.0, 1.0));
+        assert_eq!(pixel(1), picture::CONTACT);
+        assert_eq!(pixel(2), Ramp::Viridis.colour(1.0, 1.0));
+        assert_eq!(pixel(3), picture::ABOVE);
     }
 
     #[test]

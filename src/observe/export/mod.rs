@@ -99,9 +99,9 @@ impl Export {
 
     fn draw(&mut self, frame: &Frame) -> Result<u64, ObserveError> {
         let mut bytes = 0;
-        for (subject, path) in Pictures::files(frame, &self.folder) {
+        for (page, path) in Pictures::files(frame, &self.folder) {
             self.overwrite.write_by(&path, |at| {
-                let drawn = self.pictures.draw(frame, subject, at);
+                let drawn = self.pictures.draw(frame, page, at);
                 drawn.map_err(std::io::Error::other)
             })?;
             bytes += std::fs::metadata(&path).map_or(0, |data| data.len());

@@ -5,6 +5,8 @@
 //!        padded with spaces to a multiple of 64 and a newline | values
 //! .zip   local header, array, ... | central directory | end record        (PKWARE APPNOTE 6.3, sizes below 4 GB)
 //! ```
+//! The crate `npyz` was measured in its place: it would save 110 lines, and its archives bring 65 crates, 31 of them
+//! new to this program (bzip2 and zstd in C among them), 55 CPU seconds of the first build.
 
 use std::io::{Error, ErrorKind, Result, Write};
 
@@ -84,7 +86,7 @@ impl<W: Write> Npz<W> {
         for field in [20_u16, 0, 0, 0, 0x21] {
             common.extend(field.to_le_bytes());
         }
-        for field in [crc32(&self.array), size, size] {
+        for field in [crc32fast::hash(&self.array), size, size] {
             common.extend(field.to_le_bytes());
         }
         for field in [name.len() as u16, 0] {
@@ -130,44 +132,9 @@ impl<W: Write> Npz<W> {
     }
 }
 
-/// CRC-32 of ISO 3309: polynomial 0xEDB88320 (reflected), start and end inverted.
-fn crc32(bytes: &[u8]) -> u32 {
-    const TABLE: [u32; 256] = table();
-    !bytes.iter().fold(u32::MAX, |crc, &byte| {
-        (crc >> 8) ^ TABLE[((crc ^ u32::from(byte)) & 0xff) as usize]
-    })
-}
-
-const fn table() -> [u32; 256] {
-    let mut table = [0; 256];
-    let mut at = 0;
-    while at < 256 {
-        let mut value = at as u32;
-        let mut bit = 0;
-        while bit < 8 {
-            value = if value & 1 == 1 {
-                (value >> 1) ^ 0xEDB8_8320
-            } else {
-                value >> 1
-            };
-            bit += 1;
-        }
-        table[at] = value;
-        at += 1;
-    }
-    table
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_checksum_is_the_standards() {
-        // The check value of the catalogue of CRC algorithms.
-        assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
-        assert_eq!(crc32(b""), 0);
-    }
 
     #[test]
     fn arrays_lie_where_their_headers_say() {

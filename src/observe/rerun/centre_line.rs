@@ -8,12 +8,11 @@ use super::geometry::Geometry;
 use super::plot::{PlotBox, points, ticks_at};
 use super::stream::{Holds, Stream};
 use super::waiting::Curves;
+use crate::math::number::{GPA, MM, UM, divisions, ticks};
 use crate::observe::ObserveError;
-use crate::observe::scales::{GPA, MM, divisions, ticks};
 use crate::sim::Frame;
 
 pub(super) const CENTRE_LINE: &str = "centre_line_y0";
-const UM: f64 = 1e6;
 
 /// The figure.
 pub(super) struct CentreLine {
@@ -73,7 +72,7 @@ impl CentreLine {
     ) -> Result<(), ObserveError> {
         let height = -self.plot.y[0];
         let up = |top: f64| move |value: f64| -height * value / top;
-        let (p_top, h_top) = (pressure_top_pa * GPA.1, film_top_m * UM);
+        let (p_top, h_top) = (GPA.of(pressure_top_pa), UM.of(film_top_m));
         self.plot.left_ticks = ticks_at(&divisions(p_top), up(p_top));
         self.plot.right_ticks = ticks_at(&divisions(h_top), up(h_top));
         (self.pressure_top_pa, self.film_top_m) = (pressure_top_pa, film_top_m);

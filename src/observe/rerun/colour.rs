@@ -4,7 +4,7 @@
 
 use rerun::Color;
 
-pub(super) use crate::observe::ramp::Ramp;
+pub(super) use crate::picture::Ramp;
 
 /// Lines and text.
 pub(super) const ORANGE: [u8; 3] = [230, 159, 0];

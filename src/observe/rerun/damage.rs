@@ -5,20 +5,20 @@
 //! material has crossed; what of it has not crossed yet is no number and is not drawn, and its share is told. Block
 //! and picture are stretched to one size, whose axes carry the lengths; a row for each of the solver's depths.
 
-use rerun::components::{Colormap, ImageFormat, MagnificationFilter};
+use rerun::components::{ImageFormat, MagnificationFilter};
 use rerun::{AnnotationContext, AsComponents, ChannelDatatype, DepthImage, Points2D, Radius};
 use rerun::{Rgba32, SegmentationImage};
 
 use super::colour::{BACKGROUND, GREEN, WHITE, faded};
 use super::depths::Depths;
-use super::picture::{Field, Pixels, Scale, Sign};
+use super::picture::{Field, Pixels};
 use super::plot::{PlotBox, ticks_at};
 use super::raster::{Height, Raster};
 use super::stream::Stream;
 use super::waiting::ClassImage;
-use crate::math::number::sig;
+use crate::math::number::{UM, Unit, sig, ticks};
 use crate::observe::ObserveError;
-use crate::observe::scales::ticks;
+use crate::picture::{Look, Ramp};
 use crate::sim::{DamageBlock, Frame};
 
 /// Entities of body 1 and 2.
@@ -34,7 +34,6 @@ const HEIGHT: f64 = 1.5;
 const DEPTH: f64 = 1.5;
 /// Damage less than this many powers of ten below the reference is as good as none.
 const LEAST: f32 = -12.0;
-const UM: f64 = 1e6;
 
 /// The damage maps of both bodies.
 #[derive(Default)]
@@ -96,7 +95,7 @@ impl Block {
         if damage.columns == 0 || damage.damage.len() != damage.columns * damage.depths_m.len() {
             return Ok(None);
         }
-        let length = damage.length_m * UM;
+        let length = UM.of(damage.length_m);
         let plot = PlotBox {
             x_ticks: ticks_at(&ticks(0.0, length, 5), |x| WIDTH * x / length),
             left_ticks: depths.ticks(HEIGHT),
@@ -111,12 +110,14 @@ impl Block {
             first: size.map(|side| 0.5 * side),
             size,
         };
-        let scale = Scale {
-            unit: "powers of ten",
-            per_si: 1.0,
-            top: DECADES,
-            sign: Sign::Both,
-            colours: Colormap::Magma,
+        let look = Look {
+            range: [-DECADES, DECADES],
+            ..Look::up_to(
+                "log10 D",
+                Unit::new("powers of ten", 1.0),
+                DECADES,
+                Ramp::Magma,
+            )
         };
         let style = Points2D::update_fields()
             .with_radii([Radius::new_ui_points(0.0), Radius::new_ui_points(5.0)])
@@ -124,8 +125,7 @@ impl Block {
             .with_show_labels(true)
             .with_draw_order(26.0);
         stream.log_static(worst_point(entity), &style)?;
-        let title = ("log10 D", Height::Fixed);
-        let raster = Raster::new(stream, entity, scale, pixels, &plot, title)?;
+        let raster = Raster::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
         // What is no number must not colour its neighbours.
         let sharp =
             DepthImage::update_fields().with_magnification_filter(MagnificationFilter::Nearest);
@@ -179,7 +179,7 @@ impl Block {
         let label = format!(
             "worst: D = {}, {} µm deep{not_yet}",
             sig(damage.pit_damage, 3),
-            sig(damage.pit_depth_m * UM, 3),
+            sig(UM.of(damage.pit_depth_m), 3),
         );
         // In the middle below, where it hides little and is not cut off. A worst point below the picture has no dot.
         let label_at = [0.5 * WIDTH, 0.84 * HEIGHT].map(|v| v as f32);

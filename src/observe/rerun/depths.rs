@@ -6,11 +6,10 @@
 use std::sync::Arc;
 
 use super::plot::Tick;
-use crate::observe::scales::number;
+use crate::math::number::{UM, plain};
 use crate::sim::StressSlice;
 
 /// Metres to micrometres.
-const UM: f64 = 1e6;
 /// Ticks are at least so far apart, as a share of the picture's height: a label takes 17 points of 150.
 const APART: f64 = 0.115;
 
@@ -78,12 +77,12 @@ impl Depths {
         let mut ticks = vec![(0.0, "0".to_owned())];
         let mut last = 0.0;
         for depth_um in decades {
-            let Some(share) = self.share(depth_um / UM) else {
+            let Some(share) = self.share(depth_um / UM.per_si) else {
                 continue;
             };
             if share >= last + APART {
                 last = share;
-                ticks.push((height * share, number(depth_um)));
+                ticks.push((height * share, plain(depth_um)));
             }
         }
         ticks

@@ -1,6 +1,6 @@
 //! Where things are, in millimetres: the unit of every picture in the recording.
 
-use crate::observe::scales::MM;
+use crate::math::number::MM;
 use crate::scene::ContactKind;
 use crate::sim::Frame;
 

@@ -1,4 +1,4 @@
-//! The film as an optical rig shows it ([`crate::observe::interferogram`] has the colours).
+//! The film as an optical rig shows it ([`crate::picture::interferogram`] has the colours).
 //!
 //! Fringes are narrower than the solver's nodes where the film is steep, so the film is interpolated
 //! (bilinearly) to [`FINER`] pixels per node before it is coloured; only the surroundings of the
@@ -19,9 +19,9 @@ use super::picture::{Pixels, log_styled};
 use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES, ticks_at};
 use super::stream::Stream;
 use super::waiting::ClassImage;
+use crate::math::number::{plain, ticks};
 use crate::observe::ObserveError;
-use crate::observe::interferogram::{LIGHTS_NM, REFRACTIVE_INDEX, colour};
-use crate::observe::scales::{number, ticks};
+use crate::picture::interferogram::{LIGHTS_NM, REFRACTIVE_INDEX, TOP_M, colour};
 use crate::sim::Frame;
 
 pub(super) const INTERFEROGRAM: &str = "maps/film_interferogram";
@@ -29,8 +29,6 @@ pub(super) const INTERFEROGRAM: &str = "maps/film_interferogram";
 const FINER: usize = 2;
 /// Most nodes per direction that are drawn so fine; larger windows get one pixel per node.
 const MOST_NODES: usize = 110;
-/// Thickest film that is told from a thicker one, m.
-const TOP_M: f32 = 1e-6;
 /// Classes of films that rise little over a pixel; the first is no film. Class 0 is left out because viewers may
 /// draw it transparent.
 const SHARP: u8 = 200;
@@ -218,11 +216,7 @@ impl Interferogram {
         let top = f64::from(TOP_M) * 1e6;
         for value in ticks(0.0, top, 5) {
             let y = plot.y[1] - h * value / top;
-            labels.add(
-                [left + 0.115 * w, y - HALF_LABEL * h],
-                &number(value),
-                WHITE,
-            );
+            labels.add([left + 0.115 * w, y - HALF_LABEL * h], &plain(value), WHITE);
         }
         labels.add([left + 0.05 * w, plot.y[0] - TITLES * h], "h, µm", WHITE);
         labels.log(stream, &format!("{INTERFEROGRAM}/legend/labels"))

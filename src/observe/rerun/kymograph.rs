@@ -6,16 +6,19 @@
 //! the end), so its cost stays a small part of the file. A run that goes on beyond its scene's end gets a time axis of
 //! twice the length, and every other row, as often as it takes: the picture always shows all of it.
 
-use rerun::components::Colormap;
+use rerun::components::{ImageBuffer, ImageFormat};
+use rerun::{ChannelDatatype, SegmentationImage};
 
+use super::classes;
 use super::colour::WHITE;
 use super::geometry::Geometry;
-use super::picture::{Pixels, Scale, Sign};
+use super::picture::{Pixels, log_styled};
 use super::plot::{PlotBox, ticks_at};
 use super::raster::{Height, Raster};
 use super::stream::{Holds, Stream};
+use crate::math::number::ticks;
 use crate::observe::ObserveError;
-use crate::observe::scales::{GPA, UM, ticks};
+use crate::picture::{Look, Ranges, Subject};
 use crate::sim::Frame;
 
 pub(super) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
@@ -25,59 +28,18 @@ const ROWS: usize = 512;
 /// Part of the recording's budget for the picture as it grows; its last state comes at the end.
 const ON_THE_WAY: f64 = 0.05;
 
-/// What a kymograph shows.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Shown {
-    /// Pressure up to a top, Pa.
-    Pressure { top_pa: f64 },
-    /// Film up to a top, m.
-    Film { top_m: f64 },
-}
-
-impl Shown {
-    fn entity(self) -> &'static str {
-        match self {
-            Self::Pressure { .. } => PRESSURE,
-            Self::Film { .. } => FILM,
-        }
-    }
-
-    fn title(self) -> &'static str {
-        match self {
-            Self::Pressure { .. } => "p, GPa",
-            Self::Film { .. } => "h, µm",
-        }
-    }
-
-    /// The same tops and colours as the maps.
-    fn scale(self) -> Scale {
-        match self {
-            Self::Pressure { top_pa } => {
-                let top = top_pa * 0.999;
-                Scale::up_to(top, GPA, Sign::Positive, Colormap::Inferno)
-            }
-            Self::Film { top_m } => {
-                let top = top_m * 0.999;
-                Scale::up_to(top, UM, Sign::Positive, Colormap::Viridis)
-            }
-        }
-    }
-
-    fn field(self, frame: &Frame) -> &[f32] {
-        match self {
-            Self::Pressure { .. } => &frame.pressure_pa,
-            Self::Film { .. } => &frame.film_m,
-        }
-    }
-}
-
 /// One kymograph.
 pub(super) struct Kymograph {
-    shown: Shown,
+    entity: &'static str,
+    subject: Subject,
+    look: Look,
     geometry: Geometry,
     raster: Raster,
     plot: PlotBox,
     values: Vec<f32>,
+    /// Where bodies touch; empty where that is not marked.
+    touches: Vec<u8>,
+    row_bytes: usize,
     rows: usize,
     rows_logged: usize,
     most_rows: usize,
@@ -95,7 +57,8 @@ impl Kymograph {
     pub(super) fn new(
         stream: &Stream,
         geometry: Geometry,
-        shown: Shown,
+        (entity, subject): (&'static str, Subject),
+        ranges: &Ranges,
         expected_steps: f64,
         step_s: f64,
         budget_bytes: f64,
@@ -120,11 +83,25 @@ impl Kymograph {
             first: [geometry.x_min, 0.5 * row_height],
             size: [geometry.dx, row_height],
         };
-        let title = (shown.title(), Height::Growing);
+        let look = Look::of(subject, ranges);
+        let touches = if look.marks_contact {
+            let place = over_of(entity);
+            log_styled(stream, &place, &classes::styled(), &pixels)?;
+            stream.log_static(place, &classes::context())?;
+            vec![0; geometry.nx * rows]
+        } else {
+            Vec::new()
+        };
+        // Two of a value, one of what lies over it.
+        let row_bytes = (2 + usize::from(look.marks_contact)) * geometry.nx;
         Ok(Self {
-            shown,
+            entity,
+            subject,
+            look,
+            row_bytes,
             geometry,
-            raster: Raster::new(stream, shown.entity(), shown.scale(), pixels, &plot, title)?,
+            raster: Raster::new(stream, entity, look, pixels, &plot, Height::Growing)?,
+            touches,
             plot,
             values: vec![0.0; geometry.nx * rows],
             rows: 0,
@@ -134,20 +111,19 @@ impl Kymograph {
             axes_for: 0,
             step_s,
             first_step: None,
-            spare_rows: (ON_THE_WAY * budget_bytes / (2 * geometry.nx) as f64) as usize,
+            spare_rows: (ON_THE_WAY * budget_bytes / row_bytes as f64) as usize,
         })
     }
 
-    /// Colours up to the top of `shown` from now on, as in the maps.
-    pub(super) fn reach(&mut self, stream: &Stream, shown: Shown) -> Result<(), ObserveError> {
-        self.shown = shown;
-        let top_si = shown.scale().top / shown.scale().per_si;
-        self.raster.reach(stream, 0.999 * top_si).map(drop)
+    /// Colours of these ranges from now on, as in the maps.
+    pub(super) fn reach(&mut self, stream: &Stream, ranges: &Ranges) -> Result<(), ObserveError> {
+        self.look = Look::of(self.subject, ranges);
+        self.raster.reach(stream, self.look).map(drop)
     }
 
     /// Bytes of the picture when it is full.
     pub(super) fn full_bytes(&self) -> usize {
-        2 * self.geometry.nx * self.most_rows
+        self.row_bytes * self.most_rows
     }
 
     pub(super) fn plot(&self) -> &PlotBox {
@@ -168,9 +144,20 @@ impl Kymograph {
         }
         let nx = self.geometry.nx;
         let from = self.geometry.centre_row() * nx;
-        let values = &self.shown.field(frame)[from..from + nx];
-        for row in self.values[self.rows * nx..rows * nx].chunks_exact_mut(nx) {
-            row.copy_from_slice(values);
+        let Some(field) = self.subject.field(frame) else {
+            return;
+        };
+        let new = self.rows * nx..rows * nx;
+        for row in self.values[new.clone()].chunks_exact_mut(nx) {
+            row.copy_from_slice(&field[from..from + nx]);
+        }
+        for row in self
+            .touches
+            .get_mut(new)
+            .into_iter()
+            .flat_map(|rows| rows.chunks_exact_mut(nx))
+        {
+            row.copy_from_slice(&frame.contact[from..from + nx]);
         }
         self.rows = rows;
     }
@@ -180,8 +167,11 @@ impl Kymograph {
         let nx = self.geometry.nx;
         let kept = self.rows.div_ceil(2);
         for row in 1..kept {
-            self.values
-                .copy_within(2 * row * nx..(2 * row + 1) * nx, row * nx);
+            let from = 2 * row * nx..(2 * row + 1) * nx;
+            if !self.touches.is_empty() {
+                self.touches.copy_within(from.clone(), row * nx);
+            }
+            self.values.copy_within(from, row * nx);
         }
         (self.rows, self.rows_logged) = (kept, 0);
         self.every = self.every.saturating_mul(2);
@@ -210,11 +200,30 @@ impl Kymograph {
             let span_ms = self.step_s * 1e3 * self.most_rows as f64 * self.every as f64;
             let height = self.plot.y[1];
             self.plot.left_ticks = ticks_at(&ticks(0.0, span_ms, 5), |t| height * t / span_ms);
-            let axes = format!("{}/axes", self.shown.entity());
+            let axes = format!("{}/axes", self.entity);
             self.plot.log_that(stream, &axes, Holds::FromNow)?;
         }
         self.rows_logged = self.rows;
-        let values = &self.values[..self.rows * self.geometry.nx];
-        self.raster.log_upper(stream, values)
+        let nodes = self.rows * self.geometry.nx;
+        if !self.touches.is_empty() {
+            self.log_over(stream, nodes)?;
+        }
+        self.raster.log_upper(stream, &self.values[..nodes])
     }
+
+    /// Contact and what is above the range, in the colours that they have in the map.
+    fn log_over(&self, stream: &Stream, nodes: usize) -> Result<(), ObserveError> {
+        let mut over = vec![0; nodes];
+        classes::of_row(&self.look, &self.touches, &self.values, &mut over);
+        let resolution = [self.geometry.nx as u32, self.rows as u32];
+        let image = SegmentationImage::update_fields()
+            .with_buffer(ImageBuffer::from(over))
+            .with_format(ImageFormat::segmentation(resolution, ChannelDatatype::U8));
+        stream.log(&over_of(self.entity), &image)
+    }
+}
+
+/// What lies over the picture of that entity.
+fn over_of(entity: &str) -> String {
+    format!("{entity}/over")
 }

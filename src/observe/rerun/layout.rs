@@ -30,6 +30,7 @@ use super::stream::{APPLICATION, Stream};
 use super::text;
 use super::trace::TRACE;
 use crate::observe::ObserveError;
+use crate::picture::Subject;
 use crate::scene::ContactKind;
 
 /// What the first frame tells the layout.
@@ -102,9 +103,9 @@ fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         upper.push(views.space("Contact cut open at y = 0", camera));
         shares.push(1.25);
     }
-    upper.push(views.map("Pressure", maps::PRESSURE, &[], &shown.map));
+    upper.push(views.map(Subject::Pressure.title(), maps::PRESSURE, &[], &shown.map));
     upper.push(views.map(
-        "Film (cyan: contact, dark: above the range)",
+        Subject::Film.title(),
         maps::FILM,
         &[maps::CONTACT],
         &shown.map,
@@ -158,19 +159,19 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     let map = &shown.map;
     let mut all = vec![
         views.map(
-            "Film as an interferogram",
+            Subject::Interferogram.title(),
             INTERFEROGRAM,
             &[],
             &shown.interferogram,
         ),
-        views.map("Shear traction on body 1", maps::TRACTION, &[], map),
+        views.map(Subject::Traction.title(), maps::TRACTION, &[], map),
     ];
-    for (rough, name, entity) in [
-        (shown.rough[0], "Roughness of body 1", maps::ROUGHNESS_1),
-        (shown.rough[1], "Roughness of body 2", maps::ROUGHNESS_2),
+    for (rough, subject, entity) in [
+        (shown.rough[0], Subject::Roughness1, maps::ROUGHNESS_1),
+        (shown.rough[1], Subject::Roughness2, maps::ROUGHNESS_2),
     ] {
         if rough {
-            all.push(views.map(name, entity, &[], map));
+            all.push(views.map(subject.title(), entity, &[], map));
         }
     }
     if let Some(plot) = &shown.slice {

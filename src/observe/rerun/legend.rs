@@ -3,18 +3,17 @@
 use rerun::ChannelDatatype;
 use rerun::components::ImageFormat;
 
-use super::colour::WHITE;
-use super::picture::{Pixels, Scale, Sign, log_styled, range, styled};
+use super::colour::{GREY, WHITE};
+use super::picture::{Pixels, log_styled, range, stored, styled};
 use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES};
 use super::stream::{Holds, Stream};
 use crate::observe::ObserveError;
-use crate::observe::scales::{divisions, number};
+use crate::picture::Look;
 
 /// The colour bar of a picture.
 #[derive(Debug, Clone)]
 pub(super) struct Legend {
     entity: String,
-    title: String,
     /// The plot beside which it stands.
     plot: PlotBox,
 }
@@ -26,13 +25,11 @@ impl Legend {
     pub(super) fn new(
         stream: &Stream,
         entity: String,
-        scale: &Scale,
+        look: &Look,
         plot: &PlotBox,
-        title: &str,
     ) -> Result<Self, ObserveError> {
         let legend = Self {
             entity,
-            title: title.to_owned(),
             plot: plot.clone(),
         };
         let (w, height) = (legend.width(), legend.height() / Self::ROWS as f64);
@@ -44,7 +41,7 @@ impl Legend {
             size: [wide, height],
         };
         let format = ImageFormat::depth(pixels.resolution(), ChannelDatatype::F16);
-        let image = styled(scale).with_format(format);
+        let image = styled(look).with_format(format);
         log_styled(stream, &legend.bar(), &image, &pixels)?;
         Ok(legend)
     }
@@ -62,32 +59,26 @@ impl Legend {
     }
 
     /// Logs the range: the bar's values and the numbers beside it.
-    pub(super) fn log(&self, stream: &Stream, scale: &Scale) -> Result<(), ObserveError> {
+    pub(super) fn log(&self, stream: &Stream, look: &Look) -> Result<(), ObserveError> {
         let (w, h, upper) = (self.width(), self.height(), self.plot.y[0]);
-        let span = scale.top - scale.low();
-        let ramp: [f32; Self::ROWS] = std::array::from_fn(|row| {
-            let value = scale.top - span * (row as f64 + 0.5) / Self::ROWS as f64;
-            (value / scale.per_si) as f32
-        });
-        let image = range(scale).with_buffer(scale.stored(&ramp).0);
+        let [low, top] = look.range;
+        let span = top - low;
+        let ramp: [f32; Self::ROWS] =
+            std::array::from_fn(|row| (top - span * (row as f64 + 0.5) / Self::ROWS as f64) as f32);
+        let image = range(look).with_buffer(stored(look, &ramp));
         stream.log(&self.bar(), &image)?;
 
         let mut labels = Labels::default();
-        let values = match scale.sign {
-            Sign::Positive => divisions(scale.top),
-            Sign::Both => [-1.0, -0.5, 0.0, 0.5, 1.0].map(|t| t * scale.top).to_vec(),
-        };
         let right = self.plot.x[1];
-        for value in values {
-            let y = upper + h * (scale.top - value) / span;
-            let text = if (value - scale.top).abs() < 1e-9 * span {
-                format!("≥{}", number(value))
-            } else {
-                number(value)
-            };
-            labels.add([right + 0.155 * w, y - HALF_LABEL * h], &text, WHITE);
+        for value in look.divisions() {
+            let y = upper + h * (top - value) / span;
+            let at = [right + 0.155 * w, y - HALF_LABEL * h];
+            labels.add(at, &look.number(value), WHITE);
         }
-        labels.add([right + 0.09 * w, upper - TITLES * h], &self.title, WHITE);
+        labels.add([right + 0.09 * w, upper - TITLES * h], &look.title(), WHITE);
+        if let Some(note) = look.note() {
+            labels.add([right + 0.12 * w, self.plot.y[1] + 0.04 * h], &note, GREY);
+        }
         labels.log_that(stream, &format!("{}/labels", self.entity), Holds::FromNow)
     }
 }

@@ -12,6 +12,7 @@
 mod bound;
 mod cadence;
 mod centre_line;
+mod classes;
 mod colour;
 mod damage;
 mod depths;

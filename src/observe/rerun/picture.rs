@@ -1,78 +1,48 @@
-//! What pictures hold: values in half precision, their scale and colours, and where their pixels lie in a view.
+//! What images hold: values in half precision, and where their pixels lie in a view.
 
 use rerun::components::{Colormap, ImageBuffer, MagnificationFilter};
 use rerun::{AsComponents, DepthImage, Transform3D};
 
 use super::stream::Stream;
+use crate::math::number::nice_ceiling;
 use crate::observe::ObserveError;
-use crate::observe::scales::nice_up;
+use crate::picture::{Look, Ramp};
 
 /// Greatest number in half precision.
 pub(super) const MOST: f32 = 65_504.0;
 
-/// Values of which sign an image holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sign {
-    /// Zero and above.
-    Positive,
-    /// Both: the colour range is symmetrical about zero.
-    Both,
+/// The viewer's map of those colours.
+fn colormap(ramp: Ramp) -> Colormap {
+    match ramp {
+        Ramp::Inferno => Colormap::Inferno,
+        Ramp::Magma => Colormap::Magma,
+        Ramp::Viridis => Colormap::Viridis,
+        Ramp::Diverging => Colormap::CyanToYellow,
+    }
 }
 
-/// What numbers mean and how they are coloured.
-#[derive(Debug, Clone)]
-pub(super) struct Scale {
-    /// Unit of the values, as in the entity's name.
-    pub(super) unit: &'static str,
-    /// From SI to the unit.
-    pub(super) per_si: f64,
-    /// Upper end of the colour range, in the unit.
-    pub(super) top: f64,
-    pub(super) sign: Sign,
-    pub(super) colours: Colormap,
+/// Upper end of a look's range, in its unit.
+pub(super) fn top(look: &Look) -> f64 {
+    // To SI and back a round number may lose its last bit.
+    nice_ceiling(look.unit.of(look.range[1]))
 }
 
-impl Scale {
-    /// A scale whose top is the next round number above `value_si`.
-    pub(super) fn up_to(
-        value_si: f64,
-        (unit, per_si): (&'static str, f64),
-        sign: Sign,
-        colours: Colormap,
-    ) -> Self {
-        Self {
-            unit,
-            per_si,
-            top: nice_up(value_si * per_si),
-            sign,
-            colours,
-        }
-    }
+/// Adds SI values in a look's unit and half precision, little-endian as the viewer wants them; what lies beyond.
+pub(super) fn store(look: &Look, field: Field, halves: &mut Vec<u16>) -> Beyond {
+    let (factor, top) = (look.unit.per_si as f32, top(look) as f32);
+    let mut beyond = Beyond::default();
+    field.write_to(halves, |row, halves| {
+        beyond.add(store_row(row, factor, top, halves), row, factor);
+    });
+    beyond
+}
 
-    pub(super) fn low(&self) -> f64 {
-        match self.sign {
-            Sign::Positive => 0.0,
-            Sign::Both => -self.top,
-        }
-    }
-
-    /// Adds SI values in half precision, little-endian as the viewer wants them; what lies beyond.
-    pub(super) fn store(&self, field: Field, halves: &mut Vec<u16>) -> Beyond {
-        let (factor, top) = (self.per_si as f32, self.top as f32);
-        let mut beyond = Beyond::default();
-        field.write_to(halves, |row, halves| {
-            beyond.add(store_row(row, factor, top, halves), row, factor);
-        });
-        beyond
-    }
-
-    /// Same as bytes of their own.
-    pub(super) fn stored(&self, values_si: &[f32]) -> (ImageBuffer, Beyond) {
-        let mut halves = Vec::with_capacity(values_si.len());
-        let beyond = self.store(Field::TopDown(values_si), &mut halves);
-        let bytes: Vec<u8> = halves.into_iter().flat_map(u16::to_ne_bytes).collect();
-        (ImageBuffer::from(bytes), beyond)
-    }
+/// Same as bytes of their own.
+pub(super) fn stored(look: &Look, values_si: &[f32]) -> ImageBuffer {
+    let mut halves = Vec::with_capacity(values_si.len());
+    store(look, Field::TopDown(values_si), &mut halves);
+    let bytes: Vec<u8> = halves.into_iter().flat_map(u16::to_ne_bytes).collect();
+    ImageBuffer::from(bytes)
 }
 
 /// What of a picture lies beyond its ranges.
@@ -210,28 +180,31 @@ pub(super) fn log_styled(
     stream.log_static(entity, &[style, &pixels.transform()])
 }
 
-pub(super) fn styled(scale: &Scale) -> DepthImage {
+pub(super) fn styled(look: &Look) -> DepthImage {
     DepthImage::update_fields()
         .with_meter(1.0)
-        .with_colormap(scale.colours)
+        .with_colormap(colormap(look.ramp()))
         .with_magnification_filter(MagnificationFilter::Linear)
 }
 
-pub(super) fn range(scale: &Scale) -> DepthImage {
-    DepthImage::update_fields().with_depth_range([scale.low(), scale.top])
+pub(super) fn range(look: &Look) -> DepthImage {
+    let top = top(look);
+    let low = if look.range[0] < 0.0 { -top } else { 0.0 };
+    DepthImage::update_fields().with_depth_range([low, top])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::number::{GPA, Unit};
 
-    fn scale(sign: Sign) -> Scale {
-        Scale::up_to(1.9e9, ("GPa", 1e-9), sign, Colormap::Inferno)
+    fn look(unit: Unit) -> Look {
+        Look::up_to("p", unit, 2e9, Ramp::Diverging)
     }
 
-    fn stored(scale: &Scale, values: &[f32]) -> (Vec<f64>, Beyond) {
+    fn stored(look: &Look, values: &[f32]) -> (Vec<f64>, Beyond) {
         let mut halves = Vec::new();
-        let beyond = scale.store(Field::TopDown(values), &mut halves);
+        let beyond = store(look, Field::TopDown(values), &mut halves);
         let values = halves.into_iter().map(u16::from_le).map(value_of);
         (values.collect(), beyond)
     }
@@ -260,12 +233,12 @@ mod tests {
 
     #[test]
     fn values_come_back_to_eleven_bits() {
-        let scale = scale(Sign::Both);
-        assert!((scale.top - 2.0).abs() < 1e-12);
+        let look = look(GPA);
+        assert!((top(&look) - 2.0).abs() < 1e-12);
         let values: Vec<f32> = (0..3800)
             .map(|k| 1.0e2 * 1.007_f32.powi(k) * if k % 2 == 0 { 1.0 } else { -1.0 })
             .collect();
-        let (back, beyond) = stored(&scale, &values);
+        let (back, beyond) = stored(&look, &values);
         assert_eq!(back.len(), values.len());
         for (back, value) in back.into_iter().zip(&values) {
             let value = f64::from(*value) * 1e-9;
@@ -283,9 +256,9 @@ mod tests {
 
     #[test]
     fn what_cannot_be_stored_takes_the_end_and_is_counted() {
-        let unit = Scale {
-            per_si: 1.0,
-            ..scale(Sign::Both)
+        let unit = Look {
+            range: [-2.0, 2.0],
+            ..look(Unit::new("Pa", 1.0))
         };
         let (back, beyond) = stored(&unit, &[0.0, 7e4, -1e5, 65_504.0, 1.0]);
         assert_eq!(back, [0.0, 65_504.0, -65_504.0, 65_504.0, 1.0]);

@@ -7,9 +7,8 @@ use rerun::{Color, LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREY, WHITE, faded, for_text};
 use super::stream::{Holds, Stream};
-use crate::math::number::sig;
+use crate::math::number::{MM, plain, sig};
 use crate::observe::ObserveError;
-use crate::observe::scales::{MM, number};
 use crate::scene::ContactKind;
 use crate::sim::Frame;
 
@@ -261,6 +260,6 @@ pub(super) fn points(strip: &[[f64; 2]]) -> Vec<[f32; 2]> {
 pub(super) fn ticks_at(values: &[f64], place: impl Fn(f64) -> f64) -> Vec<Tick> {
     values
         .iter()
-        .map(|&value| (place(value), number(value)))
+        .map(|&value| (place(value), plain(value)))
         .collect()
 }

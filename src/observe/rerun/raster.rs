@@ -11,12 +11,12 @@ use rerun::components::ImageFormat;
 use rerun::{ChannelDatatype, DepthImage};
 
 use super::legend::Legend;
-use super::picture::{Beyond, Field, Pixels, Scale, log_styled, range, styled};
+use super::picture::{Beyond, Field, Pixels, log_styled, range, store, stored, styled, top};
 use super::plot::PlotBox;
 use super::stream::Stream;
 use super::waiting::LevelImage;
 use crate::observe::ObserveError;
-use crate::observe::scales::nice_up;
+use crate::picture::Look;
 
 /// Whether a picture has all its rows from the beginning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +32,7 @@ pub(super) enum Height {
 pub(super) struct Raster {
     entity: String,
     image: LevelImage,
-    scale: Scale,
+    look: Look,
     legend: Legend,
     columns: usize,
     /// Of the picture that was logged last, and of all.
@@ -46,26 +46,26 @@ impl Raster {
     pub(super) fn new(
         stream: &Stream,
         entity: &str,
-        scale: Scale,
+        look: Look,
         pixels: Pixels,
         plot: &PlotBox,
-        (title, height): (&str, Height),
+        height: Height,
     ) -> Result<Self, ObserveError> {
         let place = format!("{entity}/image");
         let format = ImageFormat::depth(pixels.resolution(), ChannelDatatype::F16);
         match height {
             Height::Fixed => {
-                log_styled(stream, &place, &styled(&scale).with_format(format), &pixels)?;
+                log_styled(stream, &place, &styled(&look).with_format(format), &pixels)?;
                 plot.log(stream, &format!("{entity}/axes"))?;
             }
             // What is logged once holds for ever, so the size of a growing picture and its axes may not be.
-            Height::Growing => log_styled(stream, &place, &styled(&scale), &pixels)?,
+            Height::Growing => log_styled(stream, &place, &styled(&look), &pixels)?,
         }
-        let legend = Legend::new(stream, format!("{entity}/legend"), &scale, plot, title)?;
+        let legend = Legend::new(stream, format!("{entity}/legend"), &look, plot)?;
         let raster = Self {
             image: stream.level_image(place.as_str()),
             entity: place,
-            scale,
+            look,
             legend,
             columns: pixels.columns,
             last: Cell::default(),
@@ -75,31 +75,30 @@ impl Raster {
         Ok(raster)
     }
 
-    /// Gives it another range from now on, up to the next round number above `value_si`; the old and the new top where they differ.
+    /// Gives it another range from now on; the old and the new top, in its unit, where they differ.
     pub(super) fn reach(
         &mut self,
         stream: &Stream,
-        value_si: f64,
+        look: Look,
     ) -> Result<Option<[f64; 2]>, ObserveError> {
-        let top = nice_up(value_si * self.scale.per_si);
-        let before = std::mem::replace(&mut self.scale.top, top);
-        if before == top {
+        let before = std::mem::replace(&mut self.look, look);
+        if before == look {
             return Ok(None);
         }
         self.log_range(stream)?;
-        Ok(Some([before, top]))
+        Ok(Some([top(&before), top(&look)]))
     }
 
     fn log_range(&self, stream: &Stream) -> Result<(), ObserveError> {
-        stream.log(&self.entity, &range(&self.scale))?;
-        self.legend.log(stream, &self.scale)
+        stream.log(&self.entity, &range(&self.look))?;
+        self.legend.log(stream, &self.look)
     }
 
     /// One frame's values in SI.
     pub(super) fn log(&self, stream: &Stream, field: Field) -> Result<(), ObserveError> {
         let mut beyond = Beyond::default();
         stream.log_levels(self.image, |halves| {
-            beyond = self.scale.store(field, halves);
+            beyond = store(&self.look, field, halves);
         })?;
         self.last.set(beyond);
         self.all.set(self.all.get().with(beyond));
@@ -111,9 +110,8 @@ impl Raster {
         let rows = values_si.len() / self.columns.max(1);
         let resolution = [self.columns as u32, rows as u32];
         // Its samples are those of the maps, where they are counted.
-        let (buffer, _) = self.scale.stored(values_si);
         let data = DepthImage::update_fields()
-            .with_buffer(buffer)
+            .with_buffer(stored(&self.look, values_si))
             .with_format(ImageFormat::depth(resolution, ChannelDatatype::F16));
         stream.log(&self.entity, &data)
     }
@@ -128,8 +126,8 @@ impl Raster {
         self.all.get()
     }
 
-    /// What its numbers mean.
-    pub(super) fn scale(&self) -> &Scale {
-        &self.scale
+    /// What its numbers and colours mean.
+    pub(super) fn look(&self) -> &Look {
+        &self.look
     }
 }

@@ -3,19 +3,19 @@
 //! To scale it is drawn in the 3-D view; here the rows that crowd below the surface, where pits start, have room
 //! ([`Depths`]), and each holds what the solver computed.
 
-use rerun::components::Colormap;
 use rerun::{LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREEN, WHITE, faded};
 use super::depths::Depths;
 use super::geometry::Geometry;
-use super::picture::{Field, Pixels, Scale, Sign};
+use super::picture::{Field, Pixels};
 use super::plot::{Hertz, PlotBox, ticks_at};
 use super::raster::{Height, Raster};
 use super::stream::Stream;
 use super::text::Widened;
+use crate::math::number::{MM, ticks};
 use crate::observe::ObserveError;
-use crate::observe::scales::{GPA, MM, Ranges, ticks};
+use crate::picture::{Look, Ranges, Subject};
 use crate::sim::Frame;
 
 pub(super) const EFFECTIVE: &str = "slice_y0/effective_stress_GPa";
@@ -56,9 +56,6 @@ impl Slice {
         let Some(depths) = Depths::down_to(&slice.depths_m, f64::INFINITY) else {
             return Ok(None);
         };
-        let (positive, both) = (Sign::Positive, Sign::Both);
-        let effective = Scale::up_to(ranges.effective_pa, GPA, positive, Colormap::Magma);
-        let tau_xz = Scale::up_to(ranges.shear_pa, GPA, both, Colormap::CyanToYellow);
         let plot = plot_box(geometry, &depths);
         let row_height = plot.y[1] / depths.len() as f64;
         let pixels = Pixels {
@@ -68,13 +65,14 @@ impl Slice {
             size: [geometry.dx, row_height],
         };
         log_dots(stream)?;
-        let image = |entity, scale, title| {
-            Raster::new(stream, entity, scale, pixels, &plot, (title, Height::Fixed))
+        let image = |entity, subject| {
+            let look = Look::of(subject, ranges);
+            Raster::new(stream, entity, look, pixels, &plot, Height::Fixed)
         };
         Ok(Some(Self {
             geometry,
-            effective: image(EFFECTIVE, effective, "σ, GPa")?,
-            tau_xz: image(TAU_XZ, tau_xz, "τxz, GPa")?,
+            effective: image(EFFECTIVE, Subject::EffectiveStress)?,
+            tau_xz: image(TAU_XZ, Subject::ShearStress)?,
             depths,
             plot,
             hertz: Hertz::default(),
@@ -93,19 +91,15 @@ impl Slice {
         ranges: &Ranges,
     ) -> Result<Vec<Widened>, ObserveError> {
         let mut widened = Vec::new();
-        for (entity, raster, top_si) in [
-            (EFFECTIVE, &mut self.effective, ranges.effective_pa),
-            (TAU_XZ, &mut self.tau_xz, ranges.shear_pa),
+        for (entity, raster, subject) in [
+            (EFFECTIVE, &mut self.effective, Subject::EffectiveStress),
+            (TAU_XZ, &mut self.tau_xz, Subject::ShearStress),
         ] {
-            let tops = raster.reach(stream, top_si)?;
-            widened.extend(tops.map(|tops| (entity, tops, raster.scale().unit)));
+            let look = Look::of(subject, ranges);
+            let tops = raster.reach(stream, look)?;
+            widened.extend(tops.map(|tops| (entity, tops, look.unit.name)));
         }
         Ok(widened)
-    }
-
-    /// Upper end of the colour range of the effective stress, Pa.
-    pub(super) fn effective_top_pa(&self) -> f64 {
-        self.effective.scale().top / GPA.1
     }
 
     /// The images, for the notes in the recording and for what is told of them.

@@ -16,9 +16,8 @@ use super::geometry::Geometry;
 use super::mesh::{COARSE, FINE, Window};
 use super::stream::Stream;
 use super::waiting::Sheet;
-use crate::math::number::sig;
+use crate::math::number::{GPA, MM, plain, sig};
 use crate::observe::ObserveError;
-use crate::observe::scales::{GPA, MM, number};
 use crate::sim::{Frame, Metrics};
 
 pub(super) const SPACE: &str = "contact_3d";
@@ -159,7 +158,7 @@ impl Space {
             "In the 3-D view heights of film and roughness are drawn {} times too high against \
              lengths and depths, the film is cut off at {:.2} µm, and the bodies are drawn apart. \
              The film is grey-blue where it carries less than 6 % of the colour range.",
-            number(self.exaggeration),
+            plain(self.exaggeration),
             1e3 * self.levels.film_cap / self.exaggeration
         )
     }
@@ -274,7 +273,7 @@ impl Space {
             let stress = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
             // Rim, dot, and what carries the label in a colour that can be read.
             colours = [GREEN, stress, for_text(GREEN)].map(Color::from).to_vec();
-            let label = format!("{} GPa", sig(point.effective_pa * GPA.1, 3));
+            let label = format!("{} GPa", sig(GPA.of(point.effective_pa), 3));
             labels = vec![String::new(), String::new(), label];
         }
         let dot = Points3D::update_fields()

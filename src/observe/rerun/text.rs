@@ -6,12 +6,12 @@ use rerun::components::MediaType;
 use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
 
 use super::note::Note;
-use super::picture::{Beyond, Scale};
+use super::picture::{Beyond, top};
 use super::series::by_itself;
 use super::stream::Stream;
-use crate::math::number::{counted, seconds, sig, sig_or_dash};
-use crate::observe::scales::number;
+use crate::math::number::{counted, plain, seconds, sig, sig_or_dash};
 use crate::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
+use crate::picture::Look;
 use crate::scene::ContactKind;
 use crate::sim::{Caution, CautionCode, Frame, LifeEstimate};
 
@@ -69,7 +69,7 @@ pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), O
 /// How numbers are stored.
 pub(super) fn log_notes<'a>(
     stream: &Stream,
-    scales: impl Iterator<Item = (&'static str, &'a Scale)>,
+    looks: impl Iterator<Item = (&'static str, &'a Look)>,
     cadence: &str,
     exaggeration: &str,
 ) -> Result<(), ObserveError> {
@@ -78,18 +78,18 @@ pub(super) fn log_notes<'a>(
          roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in \
          half precision (0.05 %), in the unit of the entity's name. Colours have one range: what can come by the scene's \
          script. A knob turned by hand beyond the script widens it from then on: the legends change, the log tells, and \
-         below stand the widest. Values above the range take the top colour and are told under *Now*; none is cut \
+         below stand the widest. Values above the range take the top colour and are told under *Now*, but film takes a dark one of its own, in the map and over time; none is cut \
          off in the file below 65 504 units. The slice below body 1 and the damage maps have a row for each depth \
          that was computed; the depths are in the axis. Damage that has not been counted yet is no number (NaN).\n\n\
          | entity | colours up to |\n|---|---|\n"
     );
-    for (entity, scale) in scales {
+    for (entity, look) in looks {
         // Writing to a string cannot fail.
         let _ = writeln!(
             notes,
             "| `{entity}` | {} {} |",
-            number(scale.top),
-            scale.unit
+            plain(top(look)),
+            look.unit.name
         );
     }
     stream.log_static(NOTES, &TextDocument::from_markdown(notes))?;
@@ -103,7 +103,7 @@ pub(super) type Widened = (&'static str, [f64; 2], &'static str);
 /// Ranges that hold from now on.
 pub(super) fn log_widened(stream: &Stream, widened: &[Widened]) -> Result<(), ObserveError> {
     for (entity, [before, after], unit) in widened {
-        let [before, after] = [before, after].map(|top| number(*top));
+        let [before, after] = [before, after].map(|top| plain(*top));
         let line = format!(
             "a knob was turned beyond the scene's script: the colours of {entity} reach {after} {unit} from here on, before {before}"
         );

@@ -9,9 +9,8 @@ use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
 use super::stream::{Holds, Stream};
 use super::waiting::Curves;
-use crate::math::number::{counted, sig};
+use crate::math::number::{GPA, MM, counted, divisions, sig, ticks};
 use crate::observe::ObserveError;
-use crate::observe::scales::{GPA, MM, divisions, ticks};
 use crate::sim::{Frame, MaterialPoint};
 
 pub(super) const TRACE: &str = "material_point/trace";
@@ -158,7 +157,7 @@ impl Trace {
             *y *= share;
         }
         (self.shown, self.peaks.logged) = (ShownCurve::NotYet, None);
-        let (top, lower) = (pressure_top_pa * GPA.1, self.plot.y[0]);
+        let (top, lower) = (GPA.of(pressure_top_pa), self.plot.y[0]);
         self.plot.left_ticks = ticks_at(&divisions(top), |p| lower * p / top);
         let axes = format!("{TRACE}/axes");
         self.plot.log_that(stream, &axes, Holds::FromNow)

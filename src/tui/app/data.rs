@@ -57,15 +57,14 @@ pub struct Pinned {
     pub p_hertz_pa: f64,
 }
 
-/// The upper ends of the colour bars and axes; they only grow, so that frames can be compared.
+/// The upper ends of the curves' axes, which have few rows: what was reached. They only grow, so that frames can be
+/// compared. Maps have the ranges of all pictures ([`crate::picture::Ranges`]).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Ranges {
+pub struct Reached {
     /// Pressure, Pa.
     pub pressure_pa: f64,
     /// Film, m.
     pub film_m: f64,
-    /// Height of roughness to either side, m.
-    pub height_m: f64,
     /// Effective stress, Pa.
     pub stress_pa: f64,
     /// Shear of the material point to either side, Pa.

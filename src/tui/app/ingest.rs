@@ -4,10 +4,11 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::physics::estimate::OperatingPoint;
+use crate::picture::Scope;
 use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
-use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges, Trouble};
+use crate::tui::app::{App, Effect, LifeSample, Pace, Reached, Trouble};
 use crate::tui::dial::{Dial, knob_target};
 use crate::tui::units::nice_ceiling;
 
@@ -33,11 +34,12 @@ impl App {
             .is_some_and(|last| last.stage != frame.stage)
         {
             // What the start-up reached is no measure of the passage.
-            self.ranges = Ranges::default();
+            self.reached = Reached::default();
             self.rate.clear();
         }
         self.take_knobs(&frame);
-        grow(&mut self.ranges, &frame);
+        self.take_ranges(&frame);
+        grow(&mut self.reached, &frame);
         if let Some(point) = &frame.material_point
             && self.replay.is_none()
         {
@@ -87,6 +89,17 @@ impl App {
                 _ => {}
             }
         }
+    }
+
+    /// Ranges are those of the passage as it begins, as in recordings; a start-up has no measure of its own.
+    fn take_ranges(&mut self, frame: &Frame) {
+        let scene = Some(self.setup.scene.as_ref());
+        let began = self.past.back().map(|last| last.stage);
+        let scope = match &mut self.scope {
+            Some(scope) if began == Some(Stage::Passage) && frame.stage == Stage::Passage => scope,
+            scope => scope.insert(Scope::of(scene, frame)),
+        };
+        scope.grows(scene, &frame.metrics);
     }
 
     fn take_rate(&mut self, frame: &Frame) {
@@ -174,29 +187,26 @@ impl App {
     }
 }
 
-fn grow(ranges: &mut Ranges, frame: &Frame) {
+fn grow(reached: &mut Reached, frame: &Frame) {
     let grow = |old: &mut f64, value: f64| {
         if value.is_finite() && value > *old {
             *old = nice_ceiling(value);
         }
     };
     let greatest = |field: &[f32]| {
-        f64::from(
-            field
-                .iter()
-                .fold(0.0_f32, |most, value| most.max(value.abs())),
-        )
+        let most = field
+            .iter()
+            .fold(0.0_f32, |most, value| most.max(value.abs()));
+        f64::from(most)
     };
-    grow(&mut ranges.pressure_pa, frame.p_hertz_pa);
-    grow(&mut ranges.pressure_pa, greatest(&frame.pressure_pa));
-    grow(&mut ranges.film_m, film_inside(frame));
-    let heights = greatest(&frame.roughness_1_m) + greatest(&frame.roughness_2_m);
-    grow(&mut ranges.height_m, heights);
+    grow(&mut reached.pressure_pa, frame.p_hertz_pa);
+    grow(&mut reached.pressure_pa, greatest(&frame.pressure_pa));
+    grow(&mut reached.film_m, film_inside(frame));
     if let Some(slice) = &frame.slice {
-        grow(&mut ranges.stress_pa, greatest(&slice.effective_pa));
+        grow(&mut reached.stress_pa, greatest(&slice.effective_pa));
     }
     if let Some(point) = &frame.material_point {
-        grow(&mut ranges.shear_pa, point.tau_xz_pa.abs());
+        grow(&mut reached.shear_pa, point.tau_xz_pa.abs());
     }
 }
 

@@ -1,5 +1,7 @@
 //! What the screen can be switched to.
 
+use crate::picture::Subject;
+
 /// What is drawn over the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MapKind {
@@ -47,6 +49,23 @@ impl MapKind {
             Self::PressureWaves => "pressure x-t",
             Self::FilmWaves => "film x-t",
         }
+    }
+
+    /// What it shows.
+    pub fn subject(self) -> Subject {
+        match self {
+            Self::Pressure | Self::PressureWaves => Subject::Pressure,
+            Self::Film | Self::FilmWaves => Subject::Film,
+            Self::Fringes => Subject::Interferogram,
+            Self::Contact => Subject::Contact,
+            Self::Roughness => Subject::RoughnessOfBoth,
+            Self::Stress => Subject::EffectiveStress,
+        }
+    }
+
+    /// Whether rows are moments of the centre line.
+    pub(crate) fn is_over_time(self) -> bool {
+        matches!(self, Self::PressureWaves | Self::FilmWaves)
     }
 
     /// Whether it shows the plane of the contact: x and y.

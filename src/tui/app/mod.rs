@@ -15,6 +15,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::physics::estimate::{Anchor, Estimate, EstimateBasis, Loaded, OperatingPoint};
+use crate::picture::{Ranges, Scope};
 use crate::run::Settled;
 use crate::scene::Scene;
 use crate::sim::{Frame, Knob, LifeEstimate};
@@ -31,7 +32,7 @@ use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
 use crate::tui::wiring::{Health, RunStatus, Setup};
 use curve::MeanFriction;
-pub use data::{Effect, ErrandKind, LifeSample, Pinned, Ranges, Trouble, Unconverged};
+pub use data::{Effect, ErrandKind, LifeSample, Pinned, Reached, Trouble, Unconverged};
 pub use held::PointNow;
 pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 
@@ -57,7 +58,9 @@ pub struct App {
     pub(crate) probe: Option<(f64, f64)>,
     pub(crate) pinned: Option<Pinned>,
     pub(crate) status: RunStatus,
-    pub(crate) ranges: Ranges,
+    /// What the ranges of pictures come from.
+    scope: Option<Scope>,
+    pub(crate) reached: Reached,
     pub(crate) trace: Trace,
     pub(crate) history: VecDeque<LifeSample>,
     /// Pressure and film of the last steps along the centre line.
@@ -132,7 +135,8 @@ impl App {
             probe: None,
             pinned: None,
             status: RunStatus::default(),
-            ranges: Ranges::default(),
+            scope: None,
+            reached: Reached::default(),
             trace: Trace::default(),
             history: VecDeque::new(),
             waves: Kymograph::default(),
@@ -164,6 +168,14 @@ impl App {
             dials,
             setup,
         }
+    }
+
+    /// The ranges of pictures; none before the first frame.
+    pub(crate) fn ranges(&self) -> Ranges {
+        self.scope
+            .as_ref()
+            .map(|scope| scope.ranges)
+            .unwrap_or_default()
     }
 
     /// Says how late it is, counted from the start.

@@ -8,17 +8,17 @@
 
 use std::io::Write as _;
 
-use super::Picture;
+use super::Bitmap;
 
 /// Bytes of base64 in a piece.
 const PIECE: usize = 4096;
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Takes the picture away.
-pub(super) const REMOVE: &[u8] = b"\x1b_Ga=d,d=I,i=7001,q=2\x1b\\";
+pub(in crate::tui) const REMOVE: &[u8] = b"\x1b_Ga=d,d=I,i=7001,q=2\x1b\\";
 
 /// The bytes that draw a picture where the cursor is.
-pub(super) fn encode(picture: &Picture) -> Vec<u8> {
+pub(in crate::tui) fn encode(picture: &Bitmap) -> Vec<u8> {
     let text = base64(&picture.rgba);
     let mut out = Vec::with_capacity(text.len() + text.len() / 64 + 128);
     let pieces = text.chunks(PIECE).count();
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn pieces_follow_each_other_and_the_last_says_so() {
-        let picture = Picture {
+        let picture = Bitmap {
             area: Rect::new(0, 0, 10, 5),
             width: 40,
             height: 50,

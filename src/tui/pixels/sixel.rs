@@ -7,14 +7,14 @@
 
 use std::fmt::Write as _;
 
-use super::Picture;
+use super::Bitmap;
 
 /// Colours at most.
 const REGISTERS: usize = 256;
 const ROWS: usize = 6;
 
 /// The bytes that draw a picture where the cursor is.
-pub(super) fn encode(picture: &Picture) -> Vec<u8> {
+pub(in crate::tui) fn encode(picture: &Bitmap) -> Vec<u8> {
     let (palette, places) = palette(picture);
     let mut text = format!("\x1bP0;1q\"1;1;{};{}", picture.width, picture.height);
     for (n, color) in palette.iter().enumerate() {
@@ -31,7 +31,7 @@ pub(super) fn encode(picture: &Picture) -> Vec<u8> {
 }
 
 fn draw_band(
-    picture: &Picture,
+    picture: &Bitmap,
     places: &[Option<u8>],
     colors: usize,
     top: usize,
@@ -68,7 +68,7 @@ fn draw_band(
 }
 
 /// The colours, as finely told apart as the registers allow, and each pixel's; `None`: not drawn.
-fn palette(picture: &Picture) -> (Vec<[u8; 3]>, Vec<Option<u8>>) {
+fn palette(picture: &Bitmap) -> (Vec<[u8; 3]>, Vec<Option<u8>>) {
     for bits in (3..=5).rev() {
         let coarse = |c: u8| c >> (8 - bits) << (8 - bits);
         let mut palette: Vec<[u8; 3]> = Vec::new();
@@ -170,7 +170,7 @@ mod tests {
             let opacity = if (x + y) % 7 == 0 { 0 } else { 255 };
             rgba.extend([(x / 5 * 50) as u8, (y / 4 * 60) as u8, 90, opacity]);
         }
-        let picture = Picture {
+        let picture = Bitmap {
             area: Rect::default(),
             width,
             height,
@@ -202,7 +202,7 @@ mod tests {
             let (x, y) = (place % width, place / width);
             [4 * x as u8, 4 * y as u8, (2 * (x + y)) as u8, 255]
         });
-        let picture = Picture {
+        let picture = Bitmap {
             area: Rect::default(),
             width,
             height,

@@ -58,7 +58,7 @@ fn x_range(app: &App, frame: &Frame) -> [f64; 2] {
 fn curves(app: &App, frame: &Frame, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
     let theme = app.theme;
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
-    let hertz = frame.p_hertz_pa / app.ranges.pressure_pa.max(1.0);
+    let hertz = frame.p_hertz_pa / app.reached.pressure_pa.max(1.0);
     let mut chart = Chart::new(plot, x, [0.0, 1.0]);
     let fine = usize::from(plot.width) * 2;
     chart.scatter(
@@ -68,9 +68,9 @@ fn curves(app: &App, frame: &Frame, plot: Rect, x: [f64; 2], buffer: &mut Buffer
         }),
         pen(Role::Hertz, '.'),
     );
-    let film = row(frame, &frame.film_m, app.ranges.film_m);
+    let film = row(frame, &frame.film_m, app.reached.film_m);
     chart.line(film, pen(Role::Film, 'h'));
-    let pressure = row(frame, &frame.pressure_pa, app.ranges.pressure_pa);
+    let pressure = row(frame, &frame.pressure_pa, app.reached.pressure_pa);
     chart.line(pressure, pen(Role::Pressure, 'p'));
     if let Some(point) = &frame.material_point {
         chart.upright(point.x_m / frame.a_m, pen(Role::Dim, ':'));
@@ -111,14 +111,14 @@ fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
     };
     let foot = plot.height - 1;
     for (row, part) in ticks(plot.height) {
-        let p = tick(pressure.of(app.ranges.pressure_pa * part));
+        let p = tick(pressure.of(app.reached.pressure_pa * part));
         put_right(
             left,
             row,
             &Line::styled(p, theme.style(Role::Pressure)),
             buffer,
         );
-        let h = tick(film.of(app.ranges.film_m * part));
+        let h = tick(film.of(app.reached.film_m * part));
         put(
             right,
             row,

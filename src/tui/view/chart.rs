@@ -1,4 +1,8 @@
 //! Curves in a rectangle of cells: two by four Braille dots each, or one character without them.
+//!
+//! Ratatui's `Canvas` and `Chart` have colours only: no weight of a pen and no dashes, by which curves are told apart
+//! without colours, and one character for all curves of a layer. With a shape for the dashes a `Canvas` would save 40 lines
+//! of 180.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

@@ -1,4 +1,7 @@
 //! Large figures, three columns by three rows of half blocks each.
+//!
+//! The crate `tui-big-text` was measured in its place: ten new crates, 24 CPU seconds, for 60 lines; its figures are eight
+//! pixels wide, so "0.0123" takes 48 columns in half blocks for the 21 here, more than the panel at 80 × 24 has.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

@@ -12,15 +12,16 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
+use crate::picture::{Picture, Subject};
 use crate::sim::Frame;
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, Zoom};
-use crate::tui::kymograph::{Field, SHOWN};
-use crate::tui::pixels::Picture;
+use crate::tui::kymograph::SHOWN;
+use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, title};
 use motion::motion;
-use paint::{Mark, Tint, color_bar, look, paint};
+use paint::{Mark, Pixel, color_bar, look, paint};
 use raster::{Raster, Window, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
@@ -78,7 +79,7 @@ pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
 }
 
 /// The map in pixels, so many for a cell.
-pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Picture> {
+pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitmap> {
     let frame = app.frame()?;
     let area = room(app, areas)?;
     let (picture, _) = split(areas, inside(areas, areas.map));
@@ -89,9 +90,9 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Pictu
     let raster = picture_of(app, frame, &window, (width, height))?;
     let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
     let rgba = places
-        .flat_map(|place| Tint::of(&look, &raster, &window, app.map, place).rgba(&look))
+        .flat_map(|place| Pixel::of(&look, &raster, &window, app.map, place).rgba(&look))
         .collect();
-    let mut picture = Picture {
+    let mut picture = Bitmap {
         area,
         width,
         height,
@@ -111,22 +112,15 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Pictu
 
 /// The pixels of the map; `None` where the frame does not hold it.
 fn picture_of(app: &App, frame: &Frame, window: &Window, pixels: (usize, usize)) -> Option<Raster> {
-    let Some(field) = waves_of(app.map) else {
-        return rasterize(frame, app.map, window, pixels.0, pixels.1);
-    };
-    let span = app.waves()?;
-    rasterize_lines(frame, window, pixels, |passages| {
-        span.line(field, -passages)
-    })
-}
-
-/// The field of a map over time.
-fn waves_of(map: MapKind) -> Option<Field> {
-    match map {
-        MapKind::PressureWaves => Some(Field::Pressure),
-        MapKind::FilmWaves => Some(Field::Film),
-        _ => None,
+    let subject = app.map.subject();
+    let picture = Picture::of(frame, subject, &app.ranges())?;
+    if !app.map.is_over_time() {
+        return rasterize(&picture, window, pixels);
     }
+    let span = app.waves()?;
+    rasterize_lines(&picture, window, pixels, |passages| {
+        span.line(subject, -passages)
+    })
 }
 
 /// A press on the picture reads it there.
@@ -204,7 +198,7 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
     let (columns, pixels) = (f64::from(picture.width), 2.0 * f64::from(picture.height));
     let x_end = frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m;
     let domain = [frame.x_min_m / frame.a_m, x_end / frame.a_m];
-    if waves_of(app.map).is_some() {
+    if app.map.is_over_time() {
         let x = match app.zoom {
             Zoom::Contact => [domain[0].max(-1.6), domain[1].min(1.4)],
             Zoom::Domain => domain,
@@ -250,7 +244,8 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
     };
     Window {
         x,
-        y: [-across, across],
+        // y points up, as in all pictures.
+        y: [across, -across],
     }
 }
 
@@ -259,7 +254,7 @@ fn image_area(map: MapKind, window: &Window, picture: Rect) -> Rect {
     if !map.is_plane() || picture.is_empty() {
         return picture;
     }
-    let (along, across) = (window.x[1] - window.x[0], window.y[1] - window.y[0]);
+    let (along, across) = (window.x[1] - window.x[0], window.y[0] - window.y[1]);
     let scale = (along / f64::from(picture.width)).max(across / (2.0 * f64::from(picture.height)));
     let width = ((along / scale).round() as u16).clamp(1, picture.width);
     let height = ((0.5 * across / scale).round() as u16).clamp(1, picture.height);
@@ -317,8 +312,8 @@ fn place(
 fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
     let span = app.waves()?;
     let i = raster::node_at(frame, x)?;
-    let value = |field| span.line(field, ago)?.get(i).copied();
-    value(Field::Pressure).zip(value(Field::Film))
+    let value = |subject| span.line(subject, ago)?.0.get(i).copied();
+    value(Subject::Pressure).zip(value(Subject::Film))
 }
 
 /// The values at the probe, on the last row of the picture.
@@ -333,7 +328,7 @@ fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), buffer: &mut 
             h.show(f64::from(film), 3)
         )
     };
-    let text = if waves_of(app.map).is_some() {
+    let text = if app.map.is_over_time() {
         waves_at(app, frame, x, -y).map(|values| {
             let values = pressure_and_film(values);
             format!("x {x:.2} a  {:.2} a ago  {values}", -4.0 * y)

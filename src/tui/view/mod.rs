@@ -24,7 +24,7 @@ use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, Overlay};
-use crate::tui::pixels::Picture;
+use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 
 /// Least size of the screen, columns and rows.
@@ -183,7 +183,7 @@ pub fn picture_area(app: &App, screen: Rect) -> Option<Rect> {
 }
 
 /// The picture for them, with cells of so many pixels.
-pub fn picture(app: &App, screen: Rect, cell: (u16, u16)) -> Option<Picture> {
+pub fn picture(app: &App, screen: Rect, cell: (u16, u16)) -> Option<Bitmap> {
     map::pixels(app, &picture_areas(app, screen)?, cell)
 }
 
@@ -336,6 +336,8 @@ fn ascii_text(theme: Theme, text: &str) -> String {
             '→' => plain.push_str("->"),
             '–' | '−' => plain.push('-'),
             '≈' => plain.push('~'),
+            '≥' => plain.push_str(">="),
+            '≤' => plain.push_str("<="),
             '±' => plain.push_str("+-"),
             '·' => plain.push('.'),
             '…' => plain.push_str("..."),

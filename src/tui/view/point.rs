@@ -215,12 +215,12 @@ const X_RANGE: [f64; 2] = [-1.5, 1.5];
 
 fn range(app: &App) -> [f64; 2] {
     match app.quantity {
-        PointQuantity::Pressure => [0.0, app.ranges.pressure_pa.max(1.0)],
+        PointQuantity::Pressure => [0.0, app.reached.pressure_pa.max(1.0)],
         PointQuantity::Shear => {
-            let most = app.ranges.shear_pa.max(1.0);
+            let most = app.reached.shear_pa.max(1.0);
             [-most, most]
         }
-        PointQuantity::Effective => [0.0, app.ranges.stress_pa.max(1.0)],
+        PointQuantity::Effective => [0.0, app.reached.stress_pa.max(1.0)],
     }
 }
 

@@ -18,7 +18,7 @@ use super::super::trace::Trace;
 use super::super::weight::TEXT;
 use crate::math::number::sig;
 use crate::observe::ObserveError;
-use crate::observe::scales::Scope;
+use crate::picture::{Scope, Subject};
 use crate::scene::{Record, Scene};
 use crate::sim::Frame;
 
@@ -60,16 +60,17 @@ impl Views {
                 "the first frame's fields have not the sizes of its grid",
             ));
         }
-        let maps = Maps::new(stream, geometry, &scope.ranges)?;
-        let slice = Slice::new(stream, geometry, first, &scope.ranges)?;
+        let ranges = scope.ranges;
+        let maps = Maps::new(stream, geometry, &ranges)?;
+        let slice = Slice::new(stream, geometry, first, &ranges)?;
         let tops = Tops {
-            pressure_pa: maps.pressure_top_pa(),
-            effective_pa: slice.as_ref().map(Slice::effective_top_pa),
-            rough: maps.rough(),
+            pressure_pa: ranges.pressure_pa,
+            effective_pa: slice.as_ref().map(|_| ranges.effective_pa),
+            rough: ranges.rough,
             roughness_m: scope.to_come.amplitude_m.iter().sum(),
         };
         let space = Space::new(stream, geometry, first, tops)?;
-        let centre_line = CentreLine::new(stream, geometry, tops.pressure_pa, maps.film_top_m())?;
+        let centre_line = CentreLine::new(stream, geometry, ranges.pressure_pa, ranges.film_m)?;
         let trace = first
             .material_point
             .map(|_| Trace::new(stream, geometry, tops.pressure_pa))
@@ -79,14 +80,11 @@ impl Views {
         let step_s = scene.map_or(0.0, |scene| {
             scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
         });
-        let kymograph = |shown| Kymograph::new(stream, geometry, shown, steps, step_s, budget);
+        let kymograph =
+            |shown| Kymograph::new(stream, geometry, shown, &ranges, steps, step_s, budget);
         let kymographs = [
-            kymograph(kymograph::Shown::Pressure {
-                top_pa: tops.pressure_pa,
-            })?,
-            kymograph(kymograph::Shown::Film {
-                top_m: maps.film_top_m(),
-            })?,
+            kymograph((kymograph::PRESSURE, Subject::Pressure))?,
+            kymograph((kymograph::FILM, Subject::Film))?,
         ];
         // Both are written once more at the end.
         let last: usize = kymographs.iter().map(Kymograph::full_bytes).sum();
@@ -116,10 +114,10 @@ impl Views {
 
     fn log_notes(&self, stream: &Stream) -> Result<(), ObserveError> {
         let exaggeration = self.space.as_ref().map(Space::note).unwrap_or_default();
-        let scales = self
+        let looks = self
             .rasters()
-            .map(|(entity, raster)| (entity, raster.scale()));
-        text::log_notes(stream, scales, &self.cadence.note(), &exaggeration)
+            .map(|(entity, raster)| (entity, raster.look()));
+        text::log_notes(stream, looks, &self.cadence.note(), &exaggeration)
     }
 
     /// Widens the ranges where a knob was turned beyond what they were made for. All that is drawn to them changes with the
@@ -134,12 +132,12 @@ impl Views {
             return Ok(());
         }
         let ranges = &self.scope.ranges;
+        let (pressure_pa, film_m) = (ranges.pressure_pa, ranges.film_m);
         let mut widened = self.maps.reach(stream, ranges)?;
         if let Some(slice) = &mut self.slice {
             widened.extend(slice.reach(stream, ranges)?);
         }
-        let (pressure_pa, film_m) = (self.maps.pressure_top_pa(), self.maps.film_top_m());
-        let effective_pa = self.slice.as_ref().map(Slice::effective_top_pa);
+        let effective_pa = self.slice.as_ref().map(|_| ranges.effective_pa);
         self.centre_line.reach(stream, pressure_pa, film_m)?;
         if let Some(space) = &mut self.space {
             space.reach(stream, pressure_pa, effective_pa)?;
@@ -147,10 +145,9 @@ impl Views {
         if let Some(trace) = &mut self.trace {
             trace.reach(stream, pressure_pa)?;
         }
-        let [pressure, film] = &mut self.kymographs;
-        let top_pa = pressure_pa;
-        pressure.reach(stream, kymograph::Shown::Pressure { top_pa })?;
-        film.reach(stream, kymograph::Shown::Film { top_m: film_m })?;
+        for kymograph in &mut self.kymographs {
+            kymograph.reach(stream, ranges)?;
+        }
         text::log_widened(stream, &widened)?;
         self.log_notes(stream)
     }
@@ -166,7 +163,7 @@ impl Views {
             trace: self.trace.as_ref().map(|trace| trace.plot().clone()),
             kymograph: self.kymographs[0].plot().clone(),
             camera: self.space.as_ref().map(Space::camera),
-            rough: self.maps.rough(),
+            rough: self.scope.ranges.rough,
             damaged: self.damaged,
             life: first.metrics.life.is_some(),
             yields: first.metrics.yielded_m3.is_some(),
@@ -182,7 +179,8 @@ impl Views {
     /// What of the last pictures lay beyond their ranges. The bath around the contact is no news.
     pub(super) fn beyond(&self) -> Vec<text::Above> {
         let rasters = self.rasters().filter(|(entity, _)| *entity != maps::FILM);
-        let above = rasters.map(|(entity, raster)| (entity, raster.beyond(), raster.scale().unit));
+        let above =
+            rasters.map(|(entity, raster)| (entity, raster.beyond(), raster.look().unit.name));
         above.filter(|(_, beyond, _)| beyond.above > 0).collect()
     }
 
@@ -194,7 +192,7 @@ impl Views {
                 clipped_by,
                 ..
             } = raster.beyond_in_all();
-            let unit = raster.scale().unit;
+            let unit = raster.look().unit.name;
             let by = sig(clipped_by.into(), 3);
             (clipped > 0).then(|| {
                 (

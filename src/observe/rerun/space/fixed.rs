@@ -6,8 +6,9 @@ use super::super::colour::{GREY, Ramp, WHITE, faded};
 use super::super::mesh::{Window, triangles};
 use super::super::stream::Stream;
 use super::{BODIES, FILM, POINT, SLICE, SPACE, SPOTS, Space, steel};
+use crate::math::number::{GPA, MM, plain, ticks};
 use crate::observe::ObserveError;
-use crate::observe::scales::{GPA, MM, number, ticks};
+use crate::picture::CONTACT;
 
 impl Space {
     pub(super) fn log_static(&mut self, stream: &Stream) -> Result<(), ObserveError> {
@@ -37,7 +38,7 @@ impl Space {
     fn log_dots(&self, stream: &Stream) -> Result<(), ObserveError> {
         let spots = Points3D::update_fields()
             .with_radii([Radius::new_scene_units((0.55 * self.geometry.dx) as f32)])
-            .with_colors([Color::from([90, 255, 250])]);
+            .with_colors([Color::from(CONTACT)]);
         stream.log_static(SPOTS, &spots)?;
         let point = Points3D::update_fields()
             .with_radii([0.075, 0.055, 0.0].map(|r| (r * self.geometry.a) as f32))
@@ -108,7 +109,7 @@ impl Space {
         )
         .with_radii([Radius::new_scene_units(0.0)])
         .with_colors([Color::from(WHITE)])
-        .with_labels(depths.iter().map(|&z| format!("{} mm", number(z))))
+        .with_labels(depths.iter().map(|&z| format!("{} mm", plain(z))))
         .with_show_labels(true);
         stream.log_static(format!("{SPACE}/cut/depths"), &labels)
     }
@@ -156,13 +157,13 @@ impl Space {
     pub(super) fn log_tops(&self, stream: &Stream) -> Result<(), ObserveError> {
         let (a, [_, right]) = (self.geometry.a, self.bar_edges());
         for (name, _, (top_pa, title), [low, high]) in self.legends() {
-            let top = top_pa * GPA.1;
+            let top = GPA.of(top_pa);
             // Over the numbers too, and clear of the slice's corner.
             let mut at = vec![[right + 0.05 * a, 0.0, high + 0.27 * a]];
             let mut texts = vec![title.to_owned()];
             for value in [0.0, 0.5 * top, top] {
                 at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
-                texts.push(number(value));
+                texts.push(plain(value));
             }
             let labels = Points3D::new(at.iter().map(|at| at.map(|v| v as f32)))
                 .with_radii([Radius::new_scene_units(0.0)])
@@ -178,7 +179,7 @@ impl Space {
     fn log_labels(&self, stream: &Stream) -> Result<(), ObserveError> {
         let g = self.geometry;
         let right = 1.0 * g.a;
-        let factor = number(self.exaggeration);
+        let factor = plain(self.exaggeration);
         let texts = [
             (self.levels.body_2 + 0.2 * g.a, "body 2 (above)".to_owned()),
             (

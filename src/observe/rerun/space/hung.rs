@@ -10,8 +10,8 @@ use super::super::mesh::triangles;
 use super::super::stream::Stream;
 use super::super::waiting;
 use super::{SPACE, Space};
+use crate::math::number::MM;
 use crate::observe::ObserveError;
-use crate::observe::scales::MM;
 use crate::sim::{DamageBlock, Frame};
 
 /// Depth that is shown, in a: damage by crests lies near the surface.

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::raster::Window;
-use crate::observe::scales::ticks;
+use crate::math::number::ticks;
 use crate::sim::Frame;
 use crate::tui::app::{App, MapKind};
 use crate::tui::theme::Role;
@@ -91,7 +91,11 @@ fn downwards(
     let ends = window.y.map(|y| y * scale.per_window);
     let about = usize::from(image.height / 3).clamp(1, 5);
     let mut free_from = 0;
-    for value in ticks(ends[0].min(ends[1]), ends[0].max(ends[1]), about) {
+    let mut values = ticks(ends[0].min(ends[1]), ends[0].max(ends[1]), about);
+    if ends[0] > ends[1] {
+        values.reverse();
+    }
+    for value in values {
         let part = (value - ends[0]) / (ends[1] - ends[0]);
         let row = image.y + (part * f64::from(image.height.saturating_sub(1))).round() as u16;
         if row >= free_from {

@@ -2,78 +2,39 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Color;
+use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
 
 use super::raster::{Raster, Window};
-use crate::observe::interferogram::colour as fringe;
+use crate::picture::interferogram::colour as fringe;
+use crate::picture::{AboveRange, CONTACT, Look, Palette, Tint};
 use crate::tui::app::{App, MapKind};
-use crate::tui::pixels::Picture;
-use crate::tui::theme::{Ramp, Role, Theme};
-use crate::tui::units::{Unit, tick};
+use crate::tui::pixels::Bitmap;
+use crate::tui::theme::{Role, Theme};
+use crate::tui::units::tick;
 use crate::tui::view::{ascii_text, put};
 
-/// What a map shows: scale, unit and colours.
-pub(super) struct Look {
-    ramp: Ramp,
-    low: f64,
-    high: f64,
-    unit: Unit,
-}
+/// Part of white in a line over a map.
+const WHITE: f32 = 0.35;
 
+/// What the map shows and how, in the units of the screen.
 pub(super) fn look(app: &App) -> Look {
-    let ranges = &app.ranges;
-    let (ramp, low, high, unit) = match app.map {
-        MapKind::Pressure | MapKind::Contact | MapKind::PressureWaves => {
-            (Ramp::Heat, 0.0, ranges.pressure_pa, app.units.pressure())
-        }
-        MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => {
-            (Ramp::Depth, 0.0, ranges.film_m, app.units.film())
-        }
-        MapKind::Roughness => (
-            Ramp::Diverging,
-            -ranges.height_m,
-            ranges.height_m,
-            app.units.height(),
-        ),
-        MapKind::Stress => (Ramp::Heat, 0.0, ranges.stress_pa, app.units.pressure()),
+    let unit = match app.map {
+        MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => app.units.film(),
+        MapKind::Roughness => app.units.height(),
+        _ => app.units.pressure(),
     };
-    Look {
-        ramp,
-        low,
-        high: if high > low { high } else { low + 1.0 },
-        unit,
-    }
+    Look::of(app.map.subject(), &app.ranges()).in_unit(unit)
 }
 
-impl Look {
-    /// Place of a value on the colour map. Deep film is dark, so that where it collapses shines.
-    fn part(&self, value: f64) -> f32 {
-        let part = ((value - self.low) / (self.high - self.low)) as f32;
-        match self.ramp {
-            Ramp::Depth => 1.0 - part,
-            Ramp::Heat | Ramp::Diverging => part,
-        }
-    }
-}
-
-/// What a pixel shows.
+/// A pixel, and whether a line lies over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Tint {
-    /// Nothing: there is no value.
-    Blank,
-    /// A colour of its own.
-    Plain([u8; 3]),
-    /// A place on the map's ramp.
-    Ramp(f32),
-    /// Same, under a line.
-    Lit(f32),
+pub(super) struct Pixel {
+    tint: Tint,
+    is_lit: bool,
 }
 
-impl Tint {
-    /// The white of a line.
-    const WHITE: f32 = 0.35;
-
+impl Pixel {
     pub(super) fn of(
         look: &Look,
         raster: &Raster,
@@ -82,41 +43,35 @@ impl Tint {
         (column, row): (usize, usize),
     ) -> Self {
         let value = f64::from(raster.at(column, row));
-        let t = look.part(value);
-        if t.is_nan() {
-            Self::Blank
-        } else if kind == MapKind::Fringes {
-            Self::Plain(raster.fringe(column, row))
-        } else if kind == MapKind::Contact && raster.spot(column, row) {
-            Self::Plain([120, 214, 255])
-        } else if kind == MapKind::Contact {
-            Self::Ramp(0.45 * t)
-        } else if kind.is_plane() && on_ellipse(window, raster, column, row) {
-            Self::Lit(t)
-        } else {
-            Self::Ramp(t)
+        let has_ring = kind.is_plane() && !matches!(kind, MapKind::Fringes | MapKind::Contact);
+        Self {
+            tint: match look.tint(value, raster.spot(column, row)) {
+                Tint::Plain(_) if look.palette == Palette::Fringes => {
+                    Tint::Plain(raster.fringe(column, row))
+                }
+                tint => tint,
+            },
+            is_lit: has_ring && on_ellipse(window, raster, column, row),
         }
     }
 
     /// In the terminal's colours.
-    fn color(self, theme: Theme, ramp: Ramp) -> Color {
-        match self {
-            Self::Blank => Color::Reset,
-            Self::Plain(rgb) => theme.rgb(rgb),
-            Self::Ramp(t) => theme.map_color(ramp, t),
-            Self::Lit(t) => theme.map_color_lit(ramp, t, Self::WHITE),
+    fn color(self, theme: Theme, look: &Look) -> Color {
+        match self.tint {
+            Tint::Share(share) if !self.is_lit => theme.map_color(look.ramp(), share),
+            _ => self.rgb(look).map_or(Color::Reset, |rgb| theme.rgb(rgb)),
         }
+    }
+
+    fn rgb(self, look: &Look) -> Option<[u8; 3]> {
+        let lit = |c: u8| (f32::from(c) + (255.0 - f32::from(c)) * WHITE) as u8;
+        let rgb = look.paint(self.tint)?;
+        Some(if self.is_lit { rgb.map(lit) } else { rgb })
     }
 
     /// Red, green, blue and opacity.
     pub(super) fn rgba(self, look: &Look) -> [u8; 4] {
-        let [r, g, b] = match self {
-            Self::Blank => return [0; 4],
-            Self::Plain(rgb) => rgb,
-            Self::Ramp(t) => look.ramp.rgb(t),
-            Self::Lit(t) => look.ramp.lit(t, Self::WHITE),
-        };
-        [r, g, b, 255]
+        self.rgb(look).map_or([0; 4], |[r, g, b]| [r, g, b, 255])
     }
 }
 
@@ -131,13 +86,7 @@ pub(super) enum Mark {
 
 impl Mark {
     /// Draws it at a place, with so many pixels to each side.
-    pub(super) fn draw(
-        self,
-        picture: &mut Picture,
-        window: &Window,
-        (x, y): (f64, f64),
-        half: f64,
-    ) {
+    pub(super) fn draw(self, picture: &mut Bitmap, window: &Window, (x, y): (f64, f64), half: f64) {
         /// How far the black around it goes.
         const EDGE: f64 = 1.35;
         let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
@@ -173,7 +122,7 @@ pub(super) fn paint(
     buffer: &mut Buffer,
 ) {
     let pixel = |column: usize, row: usize| {
-        Tint::of(look, raster, window, kind, (column, row)).color(theme, look.ramp)
+        Pixel::of(look, raster, window, kind, (column, row)).color(theme, look)
     };
     for row in 0..usize::from(image.height) {
         for column in 0..usize::from(image.width) {
@@ -209,19 +158,28 @@ fn ink(
     column: usize,
     row: usize,
 ) -> &'static str {
-    let t = look.part(f64::from(raster.at(column, row)));
-    if t.is_nan() {
+    let share = look.share(f64::from(raster.at(column, row)));
+    if share.is_nan() {
         return " ";
     }
     match kind {
         MapKind::Contact if raster.spot(column, row) => "#",
         MapKind::Contact if ring => "o",
-        MapKind::Contact => Theme::map_ink(0.3 * t),
+        MapKind::Contact => Theme::map_ink(0.3 * share),
         MapKind::Fringes => {
             let [_, green, _] = raster.fringe(column, row);
             Theme::map_ink(f32::from(green) / 255.0)
         }
-        _ => Theme::map_ink(t),
+        _ => Theme::map_ink(inked(look, share)),
+    }
+}
+
+/// Ink of a share: thin film has most, so that where it collapses it stands out from the bath, which has none.
+fn inked(look: &Look, share: f32) -> f32 {
+    if look.above == AboveRange::Dark {
+        1.0 - share
+    } else {
+        share
     }
 }
 
@@ -238,15 +196,17 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
         return;
     }
     let pixels = f64::from(2 * bar.height - 1);
+    let [low, high] = look.range;
     for row in 0..bar.height {
-        let value = |half: u16| {
-            let down = f64::from(2 * row + half) / pixels;
-            look.high - (look.high - look.low) * down
-        };
-        let dim = if kind == MapKind::Contact { 0.45 } else { 1.0 };
-        let color = |half: u16| match kind {
-            MapKind::Fringes => theme.rgb(fringe(value(half) as f32, 0.0)),
-            _ => theme.map_color(look.ramp, dim * look.part(value(half))),
+        let value = |half: u16| high - (high - low) * f64::from(2 * row + half) / pixels;
+        // Its upper edge has the colour of what is above.
+        let above = |half: u16| f64::from(u8::from(row + half == 0)) * 1e-6 * (high - low);
+        let color = |half: u16| {
+            let pixel = Pixel {
+                tint: look.tint(value(half) + above(half), false),
+                is_lit: false,
+            };
+            pixel.color(theme, look)
         };
         if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
             if theme.paints() {
@@ -255,7 +215,7 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
                 let [_, green, _] = fringe(value(0) as f32, 0.0);
                 cell.set_symbol(Theme::map_ink(f32::from(green) / 255.0));
             } else {
-                cell.set_symbol(Theme::map_ink(look.part(value(0))));
+                cell.set_symbol(Theme::map_ink(inked(look, look.share(value(0)))));
             }
         }
     }
@@ -265,8 +225,8 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
         ..bar
     };
     let dim = theme.style(Role::Dim);
-    let number = |value: f64| Line::styled(tick(look.unit.of(value)), dim);
-    put(text, 0, &number(look.high), buffer);
+    let number = |value: f64| Line::styled(number(theme, look, value, text.width), dim);
+    put(text, 0, &number(high), buffer);
     put(
         text,
         1,
@@ -274,19 +234,28 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
         buffer,
     );
     if bar.height >= 7 {
-        put(
-            text,
-            bar.height / 2,
-            &number(0.5 * (look.low + look.high)),
-            buffer,
-        );
+        put(text, bar.height / 2, &number(0.5 * (low + high)), buffer);
     }
-    put(text, bar.height - 1, &number(look.low), buffer);
+    put(text, bar.height - 1, &number(low), buffer);
     if kind == MapKind::Contact && bar.height >= 9 {
         let spot = Line::from(vec![
-            Span::styled(theme.pick("█", "#"), theme.style(Role::Film)),
+            Span::styled(theme.pick("█", "#"), Style::new().fg(theme.rgb(CONTACT))),
             Span::styled("touch", dim),
         ]);
         put(text, bar.height - 3, &spot, buffer);
+    }
+}
+
+/// A number of the legend, which says what of the range's ends holds beyond, where there is room.
+fn number(theme: Theme, look: &Look, value: f64, room: u16) -> String {
+    let text = if look.above == AboveRange::Dark && value == look.range[1] {
+        format!(">{}", tick(look.unit.of(value)))
+    } else {
+        ascii_text(theme, &look.number(value))
+    };
+    if text.chars().count() <= usize::from(room) {
+        text
+    } else {
+        tick(look.unit.of(value))
     }
 }

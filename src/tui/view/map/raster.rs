@@ -1,10 +1,12 @@
 //! From the nodes of a frame to the pixels of the picture: the mean of the nodes in a pixel, or,
 //! where pixels are finer than nodes, linear interpolation between them.
 
-use crate::observe::interferogram::Film;
+use std::ops::RangeInclusive;
+
+use crate::picture::{NodeAxis, Picture};
 use crate::scene::ContactKind;
 use crate::sim::Frame;
-use crate::tui::app::MapKind;
+use crate::tui::kymograph::CentreValues;
 
 /// A part of the plane in half-widths: x/a and y/b, or x/a and z/a below the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,91 +78,93 @@ struct PixelSpan {
     mean: bool,
 }
 
-/// Rasterises a map; `None` where the frame does not hold it.
-pub(super) fn rasterize(
-    frame: &Frame,
-    kind: MapKind,
-    window: &Window,
-    columns: usize,
-    rows: usize,
-) -> Option<Raster> {
-    let x = axis_of(frame.x_min_m / frame.a_m, frame.dx_m / frame.a_m, frame.nx);
-    let along = spans(columns, window.x, frame.nx, &x)?;
-    if kind == MapKind::Stress {
-        let slice = frame.slice.as_ref()?;
-        let depths = &slice.depths_m;
-        let place = |z: f64| place_among(depths, z * frame.a_m);
-        let down = spans(rows, window.y, depths.len(), &place)?;
-        let values = values(&slice.effective_pa, frame.nx, &along, &down);
-        return Some(Raster {
-            columns,
-            rows,
-            values,
-            spots: Vec::new(),
-            fringes: Vec::new(),
-            kind: frame.kind,
-        });
+/// Places of pixels in half-widths, among the nodes.
+fn along(picture: &Picture, window: &Window, columns: usize) -> Option<Vec<PixelSpan>> {
+    let (_, [a_m, _]) = picture.hertz;
+    spans(columns, window.x, picture.x.nodes(), &|x| {
+        picture.x.place(x * a_m)
+    })
+}
+
+impl PixelSpan {
+    /// Nodes whose contact it shows: a single spot must not vanish between pixels, so any node in the pixel, or the
+    /// nearest one.
+    fn nodes(&self) -> RangeInclusive<usize> {
+        if self.mean {
+            self.first..=self.last
+        } else if self.part < 0.5 {
+            self.first..=self.first
+        } else {
+            self.last..=self.last
+        }
     }
-    let y = axis_of(frame.y_min_m / frame.b_m, frame.dy_m / frame.b_m, frame.ny);
-    let down = spans(rows, window.y, frame.ny, &y)?;
-    let take = |field: &[f32]| values(field, frame.nx, &along, &down);
-    let (mut spots, mut fringes) = (Vec::new(), Vec::new());
-    let values = match kind {
-        MapKind::Pressure | MapKind::Stress | MapKind::PressureWaves => take(&frame.pressure_pa),
-        MapKind::Film | MapKind::FilmWaves => take(&frame.film_m),
-        MapKind::Fringes => {
-            let film = Film::new(&frame.film_m, frame.nx, frame.ny)?;
-            let along = cells(columns, window.x, &x);
-            for y in cells(rows, window.y, &y) {
-                fringes.extend(along.iter().map(|x| film.cell(*x, y)));
-            }
-            take(&frame.film_m)
+}
+
+/// Rasterises a picture; `None` where it is too small.
+pub(super) fn rasterize(
+    picture: &Picture,
+    window: &Window,
+    (columns, rows): (usize, usize),
+) -> Option<Raster> {
+    let (kind, [a_m, b_m]) = picture.hertz;
+    let half_m = if picture.is_below { a_m } else { b_m };
+    let x = |x: f64| picture.x.place(x * a_m);
+    let y = |y: f64| picture.y.place(y * half_m);
+    let along = along(picture, window, columns)?;
+    let down = spans(rows, window.y, picture.y.nodes(), &y)?;
+    let mut fringes = Vec::new();
+    if let Some(film) = picture.film() {
+        let along = cells(columns, window.x, &x);
+        for y in cells(rows, window.y, &y) {
+            fringes.extend(along.iter().map(|x| film.cell(*x, y)));
         }
-        MapKind::Roughness => take(&frame.roughness_1_m)
-            .into_iter()
-            .zip(take(&frame.roughness_2_m))
-            .map(|(first, second)| first + second)
-            .collect(),
-        MapKind::Contact => {
-            spots = touching(frame, &along, &down);
-            take(&frame.pressure_pa)
-        }
+    }
+    let spots = if picture.look.marks_contact {
+        touching(picture, &along, &down)
+    } else {
+        Vec::new()
     };
     Some(Raster {
         columns,
         rows,
-        values,
+        values: values(picture, &along, &down),
         spots,
         fringes,
-        kind: frame.kind,
+        kind,
     })
 }
 
 /// Rasterises lines along x, one a row of pixels; a row without a line is blank (no number).
 pub(super) fn rasterize_lines<'a>(
-    frame: &Frame,
+    picture: &Picture,
     window: &Window,
     (columns, rows): (usize, usize),
-    line: impl Fn(f64) -> Option<&'a [f32]>,
+    line: impl Fn(f64) -> Option<CentreValues<'a>>,
 ) -> Option<Raster> {
-    let x = axis_of(frame.x_min_m / frame.a_m, frame.dx_m / frame.a_m, frame.nx);
-    let along = spans(columns, window.x, frame.nx, &x)?;
+    let along = along(picture, window, columns)?;
     let mut values = Vec::with_capacity(columns * rows);
+    let mut spots = Vec::with_capacity(columns * rows);
     for row in 0..rows {
-        let line = line(window.y_at((row as f64 + 0.5) / rows as f64));
-        values.extend(along.iter().map(|span| {
-            line.map_or(f32::NAN, |line| {
-                over(span, |i| line.get(i).copied().unwrap_or(f32::NAN))
-            })
-        }));
+        let (line, contact) =
+            line(window.y_at((row as f64 + 0.5) / rows as f64)).unwrap_or_default();
+        values.extend(
+            along
+                .iter()
+                .map(|span| over(span, |i| line.get(i).copied().unwrap_or(f32::NAN))),
+        );
+        spots.extend(
+            along
+                .iter()
+                .map(|span| span.nodes().any(|i| contact.get(i) == Some(&1))),
+        );
     }
     Some(Raster {
         columns,
         rows,
         values,
-        spots: Vec::new(),
+        spots,
         fringes: Vec::new(),
-        kind: frame.kind,
+        kind: picture.hertz.0,
     })
 }
 
@@ -181,7 +185,7 @@ pub(super) fn node_at(frame: &Frame, x: f64) -> Option<usize> {
 pub(super) fn stress_at(frame: &Frame, x: f64, z: f64) -> Option<f32> {
     let slice = frame.slice.as_ref()?;
     let i = nearest((x * frame.a_m - frame.x_min_m) / frame.dx_m, frame.nx)?;
-    let place = place_among(&slice.depths_m, z * frame.a_m);
+    let place = NodeAxis::Uneven(&slice.depths_m).place(z * frame.a_m);
     let k = nearest(place, slice.depths_m.len())?;
     slice.effective_pa.get(k * frame.nx + i).copied()
 }
@@ -189,24 +193,6 @@ pub(super) fn stress_at(frame: &Frame, x: f64, z: f64) -> Option<f32> {
 fn nearest(place: f64, nodes: usize) -> Option<usize> {
     let place = place.round();
     (place >= 0.0 && place < nodes as f64).then_some(place as usize)
-}
-
-/// Place of a coordinate among evenly spaced nodes.
-fn axis_of(start: f64, spacing: f64, nodes: usize) -> impl Fn(f64) -> f64 {
-    move |x| ((x - start) / spacing).clamp(0.0, nodes.saturating_sub(1) as f64)
-}
-
-/// Place of a depth among depths that grow unevenly.
-fn place_among(depths: &[f64], z: f64) -> f64 {
-    let above = depths.partition_point(|depth| *depth <= z);
-    match (
-        above.checked_sub(1).and_then(|k| depths.get(k)),
-        depths.get(above),
-    ) {
-        (Some(upper), Some(lower)) => (above - 1) as f64 + (z - upper) / (lower - upper),
-        (None, _) => 0.0,
-        (Some(_), None) => depths.len() as f64 - 1.0,
-    }
 }
 
 /// From where to where each pixel reaches, in nodes.
@@ -230,7 +216,8 @@ fn spans(
         return None;
     }
     let cells = cells(pixels, window, place);
-    let spans = cells.into_iter().map(|[from, to]| {
+    let spans = cells.into_iter().map(|[one, two]| {
+        let (from, to) = (one.min(two), one.max(two));
         let (first, last) = (from.ceil() as usize, to.floor() as usize);
         if last > first {
             return PixelSpan {
@@ -252,17 +239,13 @@ fn spans(
     Some(spans.collect())
 }
 
-fn values(field: &[f32], nx: usize, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<f32> {
-    let mut values = Vec::with_capacity(along.len() * down.len());
-    for vertical in down {
-        for horizontal in along {
-            values.push(over(vertical, |j| {
-                let row = field.get(j * nx..(j + 1) * nx).unwrap_or(&[]);
-                over(horizontal, |i| row.get(i).copied().unwrap_or(0.0))
-            }));
-        }
-    }
-    values
+fn values(picture: &Picture, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<f32> {
+    let rows = down.iter().flat_map(|vertical| {
+        along
+            .iter()
+            .map(move |horizontal| over(vertical, |j| over(horizontal, |i| picture.at(i, j))))
+    });
+    rows.collect()
 }
 
 fn over(span: &PixelSpan, at: impl Fn(usize) -> f32) -> f32 {
@@ -275,35 +258,23 @@ fn over(span: &PixelSpan, at: impl Fn(usize) -> f32) -> f32 {
     }
 }
 
-/// A single spot must not vanish between pixels: any node in the pixel, or the nearest one.
-fn touching(frame: &Frame, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
-    let reach = |span: &PixelSpan| {
-        if span.mean {
-            span.first..=span.last
-        } else {
-            let node = if span.part < 0.5 {
-                span.first
-            } else {
-                span.last
-            };
-            node..=node
-        }
-    };
-    let mut spots = Vec::with_capacity(along.len() * down.len());
-    for vertical in down {
-        for horizontal in along {
-            spots.push(reach(vertical).any(|j| {
-                reach(horizontal).any(|i| frame.contact.get(j * frame.nx + i) == Some(&1))
-            }));
-        }
-    }
-    spots
+/// Which pixels touch.
+fn touching(picture: &Picture, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
+    let rows = down.iter().flat_map(|vertical| {
+        along.iter().map(move |horizontal| {
+            vertical
+                .nodes()
+                .any(|j| horizontal.nodes().any(|i| picture.touches(i, j)))
+        })
+    });
+    rows.collect()
 }
 
 #[cfg(test)]
 mod tests {
     #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::picture::{Ranges, Subject};
 
     /// A field that is x on a 9 by 5 grid, x/a and y/b from −1 to 1.
     fn ramp() -> Frame {
@@ -333,8 +304,10 @@ mod tests {
 
     #[test]
     fn a_linear_field_stays_linear_at_any_resolution() {
+        let frame = ramp();
+        let picture = Picture::of(&frame, Subject::Pressure, &Ranges::default()).unwrap();
         for columns in [3, 8, 9, 40] {
-            let raster = rasterize(&ramp(), MapKind::Pressure, &ALL, columns, 4).unwrap();
+            let raster = rasterize(&picture, &ALL, (columns, 4)).unwrap();
             for column in 0..columns {
                 let centre = ALL.x_at((column as f64 + 0.5) / columns as f64) as f32;
                 // Means over nodes are off by at most half a node.
@@ -349,7 +322,8 @@ mod tests {
         let mut frame = ramp();
         frame.contact[2 * 9 + 4] = 1;
         for columns in [2, 3, 5, 9, 30] {
-            let raster = rasterize(&frame, MapKind::Contact, &ALL, columns, 3).unwrap();
+            let picture = Picture::of(&frame, Subject::Contact, &Ranges::default()).unwrap();
+            let raster = rasterize(&picture, &ALL, (columns, 3)).unwrap();
             let seen = (0..columns).any(|column| (0..3).any(|row| raster.spot(column, row)));
             assert!(seen, "{columns}");
         }
@@ -357,16 +331,8 @@ mod tests {
 
     #[test]
     fn a_frame_without_a_slice_has_no_stress_map() {
-        assert!(rasterize(&ramp(), MapKind::Stress, &ALL, 4, 4).is_none());
-        assert!(rasterize(&Frame::default(), MapKind::Film, &ALL, 4, 4).is_none());
-    }
-
-    #[test]
-    fn uneven_depths() {
-        let depths = [0.0, 0.1, 0.4, 1.0];
-        assert_eq!(place_among(&depths, 0.0), 0.0);
-        assert!((place_among(&depths, 0.25) - 1.5).abs() < 1e-12);
-        assert_eq!(place_among(&depths, 5.0), 3.0);
-        assert_eq!(place_among(&[], 1.0), 0.0);
+        let of = |frame: &Frame, subject| Picture::of(frame, subject, &Ranges::default()).is_some();
+        assert!(!of(&ramp(), Subject::EffectiveStress));
+        assert!(!of(&Frame::default(), Subject::Film));
     }
 }

@@ -14,11 +14,13 @@
 use std::f32::consts::PI;
 
 /// Refractive index of the oil.
-pub(crate) const REFRACTIVE_INDEX: f32 = 1.5;
+pub const REFRACTIVE_INDEX: f32 = 1.5;
 /// Wavelengths of red, green and blue light, nm.
-pub(crate) const LIGHTS_NM: [f32; 3] = [640.0, 540.0, 450.0];
+pub const LIGHTS_NM: [f32; 3] = [640.0, 540.0, 450.0];
 /// Film at which the coherence has fallen to 1/e, m.
 const COHERENCE_M: f32 = 0.7e-6;
+/// Thickest film of its legend, m.
+pub const TOP_M: f32 = 1e-6;
 /// Film beyond which no fringe is left (V < 10⁻³), m.
 const GREY_M: f32 = 1.9e-6;
 
@@ -41,20 +43,20 @@ fn bytes(brightness: [f32; 3]) -> [u8; 3] {
 }
 
 /// Colour of a film (m) that rises by so much (m) over the cell.
-pub(crate) fn colour(film_m: f32, rise_m: f32) -> [u8; 3] {
+pub fn colour(film_m: f32, rise_m: f32) -> [u8; 3] {
     bytes(brightness(film_m, rise_m))
 }
 
 /// A film at the nodes of a grid, m.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Film<'a> {
+pub struct Film<'a> {
     nodes: &'a [f32],
     size: [usize; 2],
 }
 
 impl<'a> Film<'a> {
     /// Nodes row by row; `None` where they are not nx times ny, or none.
-    pub(crate) fn new(nodes: &'a [f32], nx: usize, ny: usize) -> Option<Self> {
+    pub fn new(nodes: &'a [f32], nx: usize, ny: usize) -> Option<Self> {
         let whole = nx > 0 && ny > 0 && nodes.len() == nx * ny;
         whole.then_some(Self {
             nodes,
@@ -64,7 +66,7 @@ impl<'a> Film<'a> {
 
     /// Mean colour of a cell that reaches so far along x and y, in nodes: over parts no wider than a node, in each of
     /// which the film is a plane.
-    pub(crate) fn cell(&self, x: [f64; 2], y: [f64; 2]) -> [u8; 3] {
+    pub fn cell(&self, x: [f64; 2], y: [f64; 2]) -> [u8; 3] {
         let parts = [x, y].map(|[from, to]| (to - from).abs().ceil().max(1.0));
         let width = [(x[1] - x[0]) / parts[0], (y[1] - y[0]) / parts[1]];
         let mut sum = [0.0_f32; 3];
