@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::scene::presets;
+use asperity::scene::{Knob, presets};
 use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
@@ -95,6 +95,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Open the explorer: the contact live, with knobs to turn
+    #[command(after_long_help = knobs_help())]
     Explore(RunArgs),
     /// Run a scene without a screen
     #[command(after_long_help = "\
@@ -383,6 +384,13 @@ impl RunArgs {
     pub(crate) fn threads(&self) -> usize {
         threads(self.threads)
     }
+}
+
+fn knobs_help() -> String {
+    format!(
+        "Knobs, as [[event]] of a scene may set them too. A change is a ramp in time, no jump:\n{}",
+        Knob::table()
+    )
 }
 
 /// As many as asked for, or one for each core.

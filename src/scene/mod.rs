@@ -11,6 +11,7 @@ mod error;
 mod height_map;
 mod key;
 pub mod keys;
+mod knob;
 mod life;
 mod life_keys;
 mod load;
@@ -21,6 +22,7 @@ pub mod presets;
 mod shape;
 
 pub use error::SceneError;
+pub use knob::{Knob, KnobLine, Ramp, Reach, Steps};
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, VolumeIntegral};
 pub use load::Override;
 pub use lubricant::{

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::knob::Knob;
+use crate::scene::Knob;
 
 /// One knob's state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

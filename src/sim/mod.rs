@@ -40,12 +40,12 @@ mod variant;
 mod watching;
 mod yielded;
 
+pub use crate::scene::Knob;
 pub use caution::{Caution, CautionCode, Grounds};
 pub use error::{SimError, StepError, Unsolved};
 pub use estimates::{LifeDetail, LifeEstimate, MeshErrors, Repeat, Rhythm};
 pub use fields::{DamageBlock, Follow, MaterialPoint, PassedPeak, StressPlane, StressSlice};
 pub use frame::{CATALOGUE, Dimension, Frame, Metrics, Over, Quantity, Reading, Stage, named};
-pub use knob::Knob;
 pub use lubrication::LubricationRegime;
 pub use simulation::Simulation;
 pub use state::State;

@@ -16,7 +16,7 @@ impl Simulation {
 
     /// Relative error of stress by the mesh, of the bodies that are rough now.
     pub(super) fn stress_error_now(&self) -> f64 {
-        let amplitudes = [Knob::Amplitude1M, Knob::Amplitude2M];
+        let amplitudes = Knob::AMPLITUDES;
         stress_error(
             &self.plan,
             amplitudes.map(|knob| self.state.drive.get(knob).now),

@@ -9,10 +9,10 @@
 
 use super::door::Door;
 use super::drive::Drive;
-use super::knob::Knob;
 use super::motion::Motion;
 use super::smooth::Conditions;
 use crate::plan::{FilmPlan, Plan};
+use crate::scene::Knob;
 use crate::scene::Order;
 use crate::solve::march::Flow;
 use crate::solve::newton::Tolerance;

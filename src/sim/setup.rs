@@ -53,7 +53,7 @@ impl Simulation {
         let contact = pool.install(|| solver.hertz(&shape, film));
         let fine = grid_of(&plan, plan.domain.nodes, door.b_over_a);
         let stages = pool.install(|| Stages::new(scene, &plan, &fine, &door))?;
-        let (wanted, drive) = drives(scene, &plan);
+        let (wanted, drive) = drives(scene);
         let stepping = stepping_of(scene);
         let most_steps = LONGEST.max(plan.passage_a) / (stepping.least() * plan.domain.dx_a());
         let speed_m_s = scene.motion.entrainment_m_s.abs();
@@ -184,10 +184,16 @@ fn yielded_of(scene: &Scene, grid: &Grid, terrain: &mut Terrain) -> (Option<f64>
 }
 
 /// The knobs as the scene wants them, and as the start-up begins: smooth, and without sliding.
-fn drives(scene: &Scene, plan: &Plan) -> (Drive, Drive) {
-    let wanted = Drive::new(|knob| initial(scene, plan, knob));
+fn drives(scene: &Scene) -> (Drive, Drive) {
+    let wanted = Drive::new(|knob| {
+        let value = match knob {
+            Knob::EntrainmentMS => knob.of(scene).abs(),
+            _ => knob.of(scene),
+        };
+        (value, knob.line().ramp.rate(value))
+    });
     let mut drive = wanted.clone();
-    for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
+    for knob in Knob::OF_ROUGHNESS_AND_SLIDING {
         drive.jump(knob, 0.0);
     }
     (wanted, drive)
@@ -306,21 +312,6 @@ fn rms_share(surface: &Surface) -> f64 {
         surface.rq_m() / surface.amplitude_m()
     } else {
         0.0
-    }
-}
-
-fn initial(scene: &Scene, plan: &Plan, knob: Knob) -> (f64, f64) {
-    let amplitude = |m: f64| (m, m.max(1e-7));
-    match knob {
-        Knob::SlideRoll => (scene.motion.slide_roll, 1.0),
-        // The one that is not this kind's stays at rest.
-        Knob::ForceN | Knob::ForceNPerM => (plan.force_n, 0.5 * plan.force_n),
-        Knob::Amplitude1M => amplitude(scene.body_1.surface.amplitude_m()),
-        Knob::Amplitude2M => amplitude(scene.body_2.surface.amplitude_m()),
-        Knob::EntrainmentMS => (
-            scene.motion.entrainment_m_s.abs(),
-            0.5 * scene.motion.entrainment_m_s.abs(),
-        ),
     }
 }
 

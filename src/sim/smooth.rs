@@ -104,7 +104,7 @@ impl Simulation {
         let film = self.regime.film_at(at);
         let central = film.map_or(0.0, |film| self.door.h_from_m(film.central_m));
         let mut drive = self.state.wanted.clone();
-        for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
+        for knob in Knob::OF_ROUGHNESS_AND_SLIDING {
             drive.jump(knob, 0.0);
         }
         drive.jump(self.door.load_knob(), at.load);

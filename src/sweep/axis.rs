@@ -7,7 +7,7 @@
 
 use toml::Value;
 
-use crate::scene::{SceneError, keys};
+use crate::scene::{Knob, SceneError, keys};
 
 /// Most cases of one sweep.
 pub const MOST_CASES: usize = 1_000_000;
@@ -21,12 +21,8 @@ pub struct Axis {
     pub values: Vec<Value>,
 }
 
-/// Keys in which neighbouring cases may differ for one to start from the other's end.
-pub const WARM_KEYS: [&str; 3] = [
-    "body_1.surface.amplitude_m",
-    "body_2.surface.amplitude_m",
-    "motion.slide_roll",
-];
+/// Knobs in which neighbouring cases may differ for one to start from the other's end.
+pub const WARM: [Knob; 3] = Knob::OF_ROUGHNESS_AND_SLIDING;
 
 impl Axis {
     /// The key's unit, empty for pure numbers and words.
@@ -49,7 +45,7 @@ impl Axis {
 
     /// Whether neighbours along this axis may start from each other.
     pub fn is_warm(&self) -> bool {
-        WARM_KEYS.contains(&&*self.key)
+        WARM.iter().any(|knob| knob.key() == self.key)
     }
 
     /// Reads what stands under `[vary]` for a key.

@@ -31,7 +31,7 @@ mod spec;
 mod table;
 mod window;
 
-pub use axis::{Axis, MOST_CASES, WARM_KEYS};
+pub use axis::{Axis, MOST_CASES, WARM};
 pub use background::{Along, Background, Conditions, Found, Ground, Order};
 pub use case::{Began, CaseEnd, CaseRecord};
 pub use chain::Shard;

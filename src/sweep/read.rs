@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::axis::{Axis, MOST_CASES, WARM_KEYS, shown};
+use super::axis::{Axis, MOST_CASES, WARM, shown};
 use super::error::SweepError;
 use super::maps;
 use super::path;
@@ -319,7 +319,7 @@ fn read_chain(root: &Table) -> Result<ChainKeys, SceneError> {
 fn sort(axes: &mut [Axis]) {
     let order: Vec<String> = keys::all_paths().collect();
     axes.sort_by_key(|axis| {
-        let warm = WARM_KEYS.iter().position(|key| *key == axis.key);
+        let warm = WARM.iter().position(|knob| knob.key() == axis.key);
         let place = order.iter().position(|key| *key == axis.key);
         (warm.map_or(0, |k| k + 1), place)
     });

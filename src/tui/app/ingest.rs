@@ -8,7 +8,7 @@ use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::sweep::{Began, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
 use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges, Trouble};
-use crate::tui::dial::{Dial, knob_target};
+use crate::tui::dial::Dial;
 use crate::tui::units::nice_ceiling;
 
 /// Memory that past frames may take, bytes.
@@ -80,7 +80,8 @@ impl App {
             let quantity = dial.knob.quantity();
             dial.now = quantity.number(frame).unwrap_or(dial.now);
             let ours = set_at.is_some_and(|at| self.now < at + GRACE);
-            match knob_target(&frame.metrics, dial.knob) {
+            let target = dial.knob.target_quantity();
+            match target.and_then(|target| target.number(frame)) {
                 // A scripted event moved it, or the run refused what was asked.
                 Some(target) if !ours => dial.target = target,
                 None if set_at.is_none() => dial.target = dial.now,

@@ -138,7 +138,14 @@ impl App {
 
     fn typical(&mut self, n: usize) -> Vec<Effect> {
         match self.dials[self.chosen].typical.get(n).copied() {
-            Some(value) => self.set(self.chosen, value),
+            Some((value, of)) => {
+                let effects = self.set(self.chosen, value);
+                if !of.is_empty() {
+                    let name = self.dials[self.chosen].name();
+                    self.say(format!("{name} as of {of}"));
+                }
+                effects
+            }
             None => Vec::new(),
         }
     }

@@ -114,11 +114,7 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
     let mark = if chosen { theme.pick("▸", ">") } else { " " };
     let role = if chosen { Role::Chosen } else { Role::Text };
     let whole = dial.label.chars().count() < usize::from(room);
-    let label = if whole {
-        dial.label
-    } else {
-        dial.label.split(' ').next().unwrap_or(dial.label)
-    };
+    let label = if whole { dial.label } else { dial.name() };
     let name = Line::from(vec![
         Span::styled(mark, theme.style(Role::Chosen)),
         Span::styled(ascii_text(theme, label), theme.style(role)),
@@ -244,7 +240,7 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     if dial.life != Life::Live {
         return;
     }
-    let is_load = matches!(dial.knob, Knob::ForceN | Knob::ForceNPerM);
+    let is_load = dial.knob.is_load();
     let stands = standing(dial.target).filter(|_| dial.knob == Knob::SlideRoll);
     if let Some(body) = stands {
         let left_out = app.setup.scene.life.as_ref();
