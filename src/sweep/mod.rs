@@ -42,7 +42,7 @@ pub use error::SweepError;
 pub use folder::{Existing, Folder};
 pub use path::PathPoint;
 pub use plots::draw;
-pub use points::points_csv;
+pub use points::{points, points_csv};
 pub use presets::{SweepPreset, all as presets, names as preset_names};
 pub use run::{Progress, Report, cost, run};
 pub use spec::{ChainKeys, Combine, Sweep};

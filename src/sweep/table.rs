@@ -169,13 +169,13 @@ impl Rows {
             .chain(sweep.axes.iter().map(|axis| axis.key.clone()))
             .chain(["scene", "began", "end"].map(str::to_owned))
             .chain(columns().map(|column| sweep.header(column).to_owned()));
-        let mut text = Text::begin(head);
+        let mut text = csv_line(head);
         let mut row = Cells::default();
         for record in &self.records {
             Self::row(sweep, record, &mut row)?;
-            text.row(&row);
+            text.push_str(&csv_line(row.iter()));
         }
-        Ok(text.end())
+        Ok(text)
     }
 
     fn row(sweep: &Sweep, record: &CaseRecord, row: &mut Cells) -> Result<(), SweepError> {
@@ -229,32 +229,14 @@ impl Rows {
     }
 }
 
-/// A table in memory.
-pub(super) struct Text(csv::Writer<Vec<u8>>);
-
-impl Text {
-    /// With its header.
-    pub(super) fn begin(head: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Self {
-        let mut text = Self(csv::Writer::from_writer(Vec::new()));
-        text.put(head);
-        text
-    }
-
-    /// One row more.
-    pub(super) fn row(&mut self, row: &Cells) {
-        self.put(row.iter());
-    }
-
-    fn put(&mut self, cells: impl IntoIterator<Item = impl AsRef<[u8]>>) {
-        // Text into memory, every row as long as the header: this cannot fail.
-        drop(self.0.write_record(cells));
-    }
-
-    /// The whole of it.
-    pub(super) fn end(self) -> String {
-        let bytes = self.0.into_inner().ok().unwrap_or_default();
-        String::from_utf8(bytes).unwrap_or_default()
-    }
+/// Cells as a line of a table, quoted where they need it.
+pub(super) fn csv_line(cells: impl IntoIterator<Item = impl AsRef<[u8]>>) -> String {
+    let builder = &mut csv::WriterBuilder::new();
+    let mut writer = builder.buffer_capacity(512).from_writer(Vec::new());
+    // Text into memory: this cannot fail.
+    drop(writer.write_record(cells));
+    let bytes = writer.into_inner().ok().unwrap_or_default();
+    String::from_utf8(bytes).unwrap_or_default()
 }
 
 /// A value as the sweep file has it.
