@@ -102,7 +102,7 @@ pub(super) fn domain_warnings(domain: &Domain, film: Option<&FilmPlan>) -> Vec<W
     if mesh > WORTH_A_WORD {
         warnings.push(Warning::CoarseForTheFilm { error: mesh });
     }
-    let error = truncation.error(domain);
+    let error = domain.edge_error(&truncation);
     if error > EDGES_WORTH_A_WORD {
         warnings.push(Warning::ShortDomain {
             error,

@@ -127,6 +127,11 @@ impl Domain {
         self
     }
 
+    /// Relative error of the central film by all edges: the outlet costs nothing.
+    pub fn edge_error(&self, film: &Truncation) -> f64 {
+        (film.inlet_error(self.x_min_a) + film.side_error(self.y_half_b)).min(1.0)
+    }
+
     /// Node spacing along x, in a.
     pub fn dx_a(&self) -> f64 {
         (self.x_max_a - self.x_min_a) / (self.nodes - 1) as f64

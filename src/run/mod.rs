@@ -17,6 +17,7 @@ mod outcome;
 mod replay;
 mod session;
 mod settled;
+mod shared;
 mod stepper;
 mod watcher;
 
@@ -24,8 +25,9 @@ pub use checkpoint::{Checkpoint, CheckpointError};
 pub use companion::{Companion, NoEstimate};
 pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
 pub use replay::Turn;
-pub use session::{Ending, Request, RunError, Session, SessionEvent, Status};
+pub use session::{Request, RunError, Session};
 pub use settled::Settled;
+pub use shared::{Ending, SessionEvent, Status};
 pub use stepper::Stepper;
 pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 

@@ -224,7 +224,9 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
             "only with a [stress] table; omit both, or --set life=none",
         ));
     }
-    super::life::check_calibration(scene)?;
+    if let Some(life) = &scene.life {
+        super::life::check_calibration(life)?;
+    }
     scene
         .events
         .iter()

@@ -435,12 +435,8 @@ mod tests {
     #[test]
     fn a_hand_reaches_nothing_that_scenes_may_not_have() {
         for knob in Knob::ALL {
-            for home in [1e-6, 1.0, 150.0, -150.0] {
-                let home = if knob == Knob::EntrainmentMS {
-                    home
-                } else {
-                    f64::abs(home)
-                };
+            let homes = [1e-6, 1.0, 150.0, -150.0];
+            for home in homes.into_iter().filter(|home| knob.takes(*home)) {
                 let ([from, to], typical) = knob.reach(home, (ContactKind::Point, 9.0e9));
                 let ends = knob.takes(from) && knob.takes(to) && from < to;
                 assert!(

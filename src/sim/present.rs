@@ -84,7 +84,7 @@ impl Simulation {
                     y_half_b: domain.y_half_b / size,
                     ..*domain
                 };
-                film.truncation().error(&seen)
+                seen.edge_error(&film.truncation())
             }),
             ..self.grounds
         };

@@ -2,10 +2,10 @@
 //!
 //! Part of `stress/slice.rs`.
 
-use super::fft::Lanes;
-use super::lanes::{C, LANES, V, transpose};
 use super::measure::squared;
 use super::spec::{StressSpec, Symmetry};
+use crate::math::lane_fft::Lanes;
+use crate::math::lanes::{C, LANES, V, transpose};
 use crate::physics::invariants::Stress6;
 use crate::scene::StressMeasure;
 

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::depth::gauss_legendre;
+use crate::math::quadrature::gauss_legendre;
 use crate::physics::stress_exact::{Directions, Harmonics};
 use crate::physics::stress_exact_patch::point_radial;
 

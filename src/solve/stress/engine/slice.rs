@@ -12,15 +12,15 @@
 //!
 //! Part of `stress/mod.rs`. Ours: its responses as polynomials in z, so that the sums over ky are formed once.
 
-use super::engine::StressEngine;
-use super::fft::{Lanes, pack_pair};
-use super::lanes::{C, LANES, V};
-use super::layer::{Layer, LowRow, Waves};
+use super::super::layer::{Layer, LowRow, Waves};
+use super::super::peak::refine;
+use super::super::slice_out::{SliceOut, turn_depths, write_rows};
+use super::super::spec::{Loading, StressSpec, Symmetry};
+use super::super::window::LOW;
+use super::StressEngine;
 use super::load::{Half, Sheared, Spectrum};
-use super::peak::refine;
-use super::slice_out::{SliceOut, turn_depths, write_rows};
-use super::spec::{Loading, StressSpec, Symmetry};
-use super::window::LOW;
+use crate::math::lane_fft::{Lanes, pack_pair};
+use crate::math::lanes::{C, LANES, V};
 use crate::physics::cycles::BodyId;
 
 /// Most columns: seven even, four odd, two of the traction along y.
@@ -31,7 +31,7 @@ const ODD: usize = 7;
 const ALONG_Y: usize = 11;
 
 /// Columns and sums.
-pub(super) struct SliceScratch {
+pub(in crate::solve::stress) struct SliceScratch {
     /// `[(block · modes_y + ky) · COLUMNS + column]`.
     columns: Vec<C>,
     /// Summed spectra, `[(component · depth blocks + depth block) · kx + i]`, sixteen depths each.
@@ -42,7 +42,7 @@ pub(super) struct SliceScratch {
 }
 
 impl SliceScratch {
-    pub(super) fn new(spec: &StressSpec, waves: &Waves) -> Self {
+    pub(in crate::solve::stress) fn new(spec: &StressSpec, waves: &Waves) -> Self {
         let depth_blocks = spec.depths.len().div_ceil(LANES);
         Self {
             columns: vec![C::ZERO; waves.blocks * waves.modes_y * COLUMNS],
@@ -53,7 +53,7 @@ impl SliceScratch {
     }
 
     /// Memory, bytes.
-    pub(super) fn bytes(&self) -> usize {
+    pub(in crate::solve::stress) fn bytes(&self) -> usize {
         let lanes = self.along_x.iter().map(|l| l.re.len()).sum::<usize>();
         8 * LANES * (self.columns.len() + self.fields.re.len() + lanes + self.other.re.len())
     }
