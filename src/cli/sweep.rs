@@ -7,12 +7,12 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use asperity::sweep::{
-    Against, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, SweepError, against_cold,
-    cost, points, points_csv, run,
+    CaseEnd, ColdComparison, Existing, Folder, Progress, Rows, Shard, Sweep, SweepError,
+    against_cold, cost, points, points_csv, run,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::{Shown, SweepArgs, SweepCommand};
+use super::args::{SweepArgs, SweepCommand, SweepShown};
 use super::failure::{Failure, tell};
 use super::run::stop_on_signals;
 use super::scenes::{print, print_lines};
@@ -101,14 +101,14 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
 }
 
 /// Prints of a sweep what was asked for in place of running it.
-fn show_of(sweep: &Sweep, shown: Shown) -> Result<(), Failure> {
+fn show_of(sweep: &Sweep, shown: SweepShown) -> Result<(), Failure> {
     match shown {
-        Shown::File => Ok(print(sweep.source())?),
-        Shown::Points => {
+        SweepShown::File => Ok(print(sweep.source())?),
+        SweepShown::Points => {
             tell(&format!("{} cases", sweep.len()));
             print_lines(points(sweep))
         }
-        Shown::Ride => match sweep.ride()? {
+        SweepShown::Ride => match sweep.ride()? {
             Some(scene) => Ok(print(&scene.to_toml())?),
             None => Err(Failure::input(miette::miette!(
                 help = "asperity sweep fzg_c --show ride prints one",
@@ -200,7 +200,7 @@ fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String
 }
 
 /// What the chains save.
-fn comparison(sweep: &Sweep, against: &Against) -> String {
+fn comparison(sweep: &Sweep, against: &ColdComparison) -> String {
     let mut text = String::from("case  life / cold life  film / cold film\n");
     for (index, [life, film]) in against.ratios.iter().enumerate() {
         let at = sweep.at(index);

@@ -24,7 +24,7 @@ mod watcher;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use companion::{Companion, NoEstimate};
 pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
-pub use replay::Turn;
+pub use replay::HandTurn;
 pub use session::{Request, RunError, Session};
 pub use settled::Settled;
 pub use shared::{Ending, SessionEvent, Status};

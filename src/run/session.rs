@@ -10,9 +10,9 @@ use super::Command;
 use super::checkpoint::Checkpoint;
 use super::driver::{Done, Driver};
 use super::outcome::{AppliedCommand, Outcome};
-use super::replay::Turn;
+use super::replay::HandTurn;
 use super::settled::Settled;
-use super::shared::{Ending, SessionEvent, Shared, Status, lock};
+use super::shared::{Ending, SessionEvent, SharedStatus, Status, lock};
 use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{Began, Latest, RunContext, SetBy};
@@ -64,7 +64,7 @@ struct Start {
 pub struct Session {
     commands: Sender<Command>,
     latest: Latest,
-    shared: Arc<Mutex<Shared>>,
+    shared: Arc<Mutex<SharedStatus>>,
     thread: JoinHandle<Outcome>,
 }
 
@@ -122,8 +122,8 @@ impl Session {
     ///
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
-    pub fn repeat(request: Request, turns: Vec<Turn>) -> Result<Self, RunError> {
-        let turn = |turn: Turn| (turn.steps_made, Command::Set(turn.knob, turn.value));
+    pub fn repeat(request: Request, turns: Vec<HandTurn>) -> Result<Self, RunError> {
+        let turn = |turn: HandTurn| (turn.steps_made, Command::Set(turn.knob, turn.value));
         Self::redo(request, turns.into_iter().map(turn).collect())
     }
 
@@ -157,7 +157,7 @@ impl Session {
     ) -> Result<Self, RunError> {
         let (commands, inbox) = channel();
         let latest = Latest::default();
-        let shared = Arc::new(Mutex::new(Shared::default()));
+        let shared = Arc::new(Mutex::new(SharedStatus::default()));
         let driver = Driver::new(
             request.ending,
             request.watchers,

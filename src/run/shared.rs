@@ -51,13 +51,13 @@ pub struct Status {
 const EVENTS_KEPT: usize = 256;
 
 #[derive(Debug, Default)]
-pub(super) struct Shared {
+pub(super) struct SharedStatus {
     pub(super) status: Status,
     pub(super) settled: Option<Arc<Settled>>,
     pub(super) events: VecDeque<SessionEvent>,
 }
 
-impl Shared {
+impl SharedStatus {
     /// Keeps an event for the screen; the oldest makes room.
     pub(super) fn show(&mut self, event: SessionEvent) {
         if self.events.len() == EVENTS_KEPT {
@@ -67,7 +67,7 @@ impl Shared {
     }
 }
 
-pub(super) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
+pub(super) fn lock(shared: &Mutex<SharedStatus>) -> MutexGuard<'_, SharedStatus> {
     // Every write leaves the value whole, so a panic elsewhere does not spoil it.
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }

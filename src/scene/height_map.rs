@@ -12,7 +12,7 @@ use super::error::{SceneError, shortened};
 use super::keys::{joined, short};
 use super::presets;
 use crate::files::{Fnv, read_up_to};
-use crate::physics::height_map::{Beyond, HeightMap};
+use crate::physics::height_map::{HeightMap, MapEdges};
 
 /// Largest file, bytes.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -48,7 +48,7 @@ pub(super) fn read(
     base: &Path,
     file: &str,
     unit_m: f64,
-    beyond: Beyond,
+    beyond: MapEdges,
 ) -> Result<(HeightMap, String), SceneError> {
     let refused = |r: Refusal| {
         let found = format!("{} ({})", shortened(file), r.found);

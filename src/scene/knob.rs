@@ -44,7 +44,7 @@ pub struct KnobLine {
     /// Typical values, each with what it is typical of (a preset by its name), or "".
     pub typical: &'static [(f64, &'static str)],
     /// How fast it is walked to its target.
-    pub ramp: Ramp,
+    pub ramp: RampRate,
 }
 
 /// How a range is divided.
@@ -71,12 +71,12 @@ pub enum Reach {
 
 /// Largest change per dimensionless time a/U: a part of the scene's value, and at least so much.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ramp {
+pub struct RampRate {
     part: f64,
     least: f64,
 }
 
-impl Ramp {
+impl RampRate {
     /// The rate of a knob whose scene has that value, per a/U.
     pub fn rate(self, value: f64) -> f64 {
         (self.part * value).max(self.least)
@@ -102,7 +102,7 @@ const AMPLITUDE: KnobLine = KnobLine {
         (0.5e-6, ""),
         (0.6e-6, ""),
     ],
-    ramp: Ramp {
+    ramp: RampRate {
         part: 1.0,
         least: 1e-7,
     },
@@ -127,7 +127,7 @@ const LOAD: KnobLine = KnobLine {
         (2.5e9, ""),
         (3.0e9, ""),
     ],
-    ramp: Ramp {
+    ramp: RampRate {
         part: 0.5,
         least: 0.0,
     },
@@ -154,7 +154,7 @@ const LINES: [KnobLine; Knob::ALL.len()] = [
             (1.3, "fzg_point_a"),
             (1.5, "cam_nose"),
         ],
-        ramp: Ramp {
+        ramp: RampRate {
             part: 0.0,
             least: 1.0,
         },
@@ -191,7 +191,7 @@ const LINES: [KnobLine; Knob::ALL.len()] = [
             (20.0, ""),
             (50.0, ""),
         ],
-        ramp: Ramp {
+        ramp: RampRate {
             part: 0.5,
             least: 0.0,
         },

@@ -20,7 +20,7 @@ use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
 use crate::scene::{ContactKind, CycleBasis, Life, Scene, Surface, VolumeIntegral};
-use crate::solve::life::{Shares, Sweep, Window};
+use crate::solve::life::{Shares, SweptRows, Window};
 use crate::solve::marks::Marks;
 use crate::solve::stress::{Loading, StressLaw};
 
@@ -46,7 +46,7 @@ pub(super) struct LifeStage {
     /// The scene's model first.
     pub(super) variants: Vec<Variant>,
     pub(super) laws: Vec<StressLaw>,
-    pub(super) sweep: Sweep,
+    pub(super) sweep: SweptRows,
     scratch: Shares,
     pub(super) depths: Vec<f64>,
     /// Wavelength along x of the mating crests, a.
@@ -101,7 +101,7 @@ impl LifeStage {
             asked,
             variants,
             laws,
-            sweep: Sweep::new(stress.row_count()),
+            sweep: SweptRows::new(stress.row_count()),
             scratch: Shares::new(depths.len()),
             depths,
             wavelengths: BodyId::BOTH.map(wavelength),

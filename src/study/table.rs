@@ -2,14 +2,14 @@
 
 /// Columns and rows of text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Table {
+pub struct MarkdownTable {
     /// Names of the columns.
     pub columns: Vec<&'static str>,
     /// Rows, each as long as the columns.
     pub rows: Vec<Vec<String>>,
 }
 
-impl Table {
+impl MarkdownTable {
     /// A table without rows.
     pub fn new(columns: &[&'static str]) -> Self {
         Self {
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn cells_with_commas_and_bars_survive() {
-        let table = Table {
+        let table = MarkdownTable {
             columns: vec!["case", "says"],
             rows: vec![vec!["a, b".to_owned(), "x | \"y\"".to_owned()]],
         };

@@ -31,11 +31,11 @@ mod spec;
 mod table;
 mod window;
 
-pub use axis::{Axis, MOST_CASES, WARM};
-pub use background::{Along, Background, Conditions, Found, Ground, Order};
-pub use case::{Began, CaseEnd, CaseRecord};
+pub use axis::{MOST_CASES, VariedKey, WARM};
+pub use background::{Along, Background, CurveOrder, CurvePoint, Found, Ground};
+pub use case::{CaseEnd, CaseRecord, CaseStart};
 pub use chain::Shard;
-pub use cold::{Against, against_cold};
+pub use cold::{ColdComparison, against_cold};
 #[cfg(feature = "parquet")]
 pub use columns::parquet_table;
 pub use error::SweepError;

@@ -9,7 +9,7 @@
 //!
 //! Each is written as SVG and as PNG. Several axes make one curve for each combination of the others, at most eight.
 
-use super::axis::{Axis, shown};
+use super::axis::{VariedKey, shown};
 use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::{Combine, Sweep};
@@ -213,7 +213,7 @@ fn against_lambda(
     lines: &[(String, Vec<usize>)],
 ) -> Vec<(String, Figure)> {
     // Every knob but the sliding, and the oil.
-    let moves = |axis: &Axis| match Knob::from_key(&axis.key) {
+    let moves = |axis: &VariedKey| match Knob::from_key(&axis.key) {
         Some(knob) => knob != Knob::SlideRoll,
         None => axis.key == "lubricant.viscosity_pa_s",
     };

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use toml::Value;
 
-use super::case::{Began, CaseEnd, CaseRecord};
+use super::case::{CaseEnd, CaseRecord, CaseStart};
 use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::Sweep;
@@ -193,8 +193,8 @@ impl Rows {
         }
         row.text(format_args!("{:016x}", fnv(scene.as_bytes())));
         row.text(match record.began {
-            Began::Cold => "cold",
-            Began::Warm => "warm",
+            CaseStart::Cold => "cold",
+            CaseStart::Warm => "warm",
         });
         row.text(match record.end {
             CaseEnd::Converged => "converged",

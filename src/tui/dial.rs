@@ -6,7 +6,7 @@ use crate::tui::units::{Unit, Units};
 
 /// Whether a dial can be turned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Life {
+pub enum DialState {
     /// It can.
     Live,
     /// It cannot, and why.
@@ -37,7 +37,7 @@ pub struct Dial {
     /// Typical values and what they are typical of, for the digit keys.
     pub typical: Vec<(f64, &'static str)>,
     /// Whether it can be turned.
-    pub life: Life,
+    pub life: DialState,
 }
 
 impl Dial {
@@ -132,7 +132,7 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
         };
         let mut dial = dial(knob, home, (kind, p_hertz_pa));
         if knob.surface(scene).is_some_and(Surface::is_smooth) {
-            dial.life = Life::Dead("smooth");
+            dial.life = DialState::Dead("smooth");
         }
         // The run would refuse a load beyond its domain.
         if knob.is_load()
@@ -162,7 +162,7 @@ fn dial(knob: Knob, home: f64, load: (ContactKind, f64)) -> Dial {
         now: home,
         target: home,
         typical,
-        life: Life::Live,
+        life: DialState::Live,
     }
 }
 
@@ -244,7 +244,7 @@ mod tests {
                 .find(|dial| dial.knob == knob)
                 .map(|dial| dial.life)
         };
-        assert_eq!(life(Knob::Amplitude1M), Some(Life::Dead("smooth")));
-        assert_eq!(life(Knob::Amplitude2M), Some(Life::Live));
+        assert_eq!(life(Knob::Amplitude1M), Some(DialState::Dead("smooth")));
+        assert_eq!(life(Knob::Amplitude2M), Some(DialState::Live));
     }
 }

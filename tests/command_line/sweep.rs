@@ -9,8 +9,8 @@ use std::sync::atomic::Ordering;
 
 use asperity::plan::Plan;
 use asperity::sweep::{
-    Against, Began, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, against_cold, cost,
-    points, points_csv, presets, run,
+    CaseEnd, CaseStart, ColdComparison, Existing, Folder, Progress, Rows, Shard, Sweep,
+    against_cold, cost, points, points_csv, presets, run,
 };
 
 /// A coarse scene that still has everything; 8 cases in 4 chains of 2.
@@ -201,11 +201,11 @@ fn life_falls_with_sliding_and_more_for_the_slower_body() {
         "{TREND}[vary]\nmotion.slide_roll = [-1.0, -0.5, 0.0, 0.5, 1.0]\n[chain]\nlongest = 5\n"
     ));
     let rows = whole(&sweep);
-    assert_eq!(rows.records[0].began, Began::Cold);
+    assert_eq!(rows.records[0].began, CaseStart::Cold);
     assert!(
         rows.records[1..]
             .iter()
-            .all(|record| record.began == Began::Warm)
+            .all(|record| record.began == CaseStart::Warm)
     );
     assert_eq!(rows.worst(), CaseEnd::Converged);
     let column = |name: &str| rows.column(&sweep, name).unwrap();
@@ -267,7 +267,7 @@ fn a_warm_case_is_what_a_cold_one_is() {
     );
     let sweep = sweep(&text);
     let rows = whole(&sweep);
-    let against: Against = against_cold(&sweep, &rows, 2, &Progress::default())
+    let against: ColdComparison = against_cold(&sweep, &rows, 2, &Progress::default())
         .unwrap()
         .unwrap();
     println!("life and film, warm over cold: {:?}", against.ratios);

@@ -279,7 +279,7 @@ fn a_workspace_thrown_away_before_a_step_changes_nothing() {
 fn a_recording_repeated_is_the_run() {
     use asperity::observe::rerun::{Recorded, Recorder};
     use asperity::observe::{Overwrite, Queue, WhenFull};
-    use asperity::run::Turn;
+    use asperity::run::HandTurn;
     use asperity::scene::Record;
     use asperity::sim::Knob;
 
@@ -300,10 +300,10 @@ fn a_recording_repeated_is_the_run() {
         let recorded = Recorded::read(&path).unwrap();
         std::fs::remove_file(&path).unwrap();
         let scene = Scene::from_toml(&recorded.scene_toml).unwrap();
-        let turns: Vec<Turn> = recorded
+        let turns: Vec<HandTurn> = recorded
             .turns
             .iter()
-            .map(|turn| Turn {
+            .map(|turn| HandTurn {
                 steps_made: turn.steps_made,
                 knob: Knob::from_key(&turn.key).unwrap(),
                 value: turn.value,

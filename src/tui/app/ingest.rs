@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::physics::estimate::OperatingPoint;
 use crate::sim::{Frame, MaterialPoint, Stage};
-use crate::sweep::{Began, Found};
+use crate::sweep::{CaseStart, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
 use crate::tui::app::{App, Effect, LifeSample, Pace, Ranges, Trouble};
 use crate::tui::dial::Dial;
@@ -128,7 +128,7 @@ impl App {
         let friction = self.friction.add(metrics.friction_coefficient);
         self.keep_point(Found {
             at: conditions(metrics),
-            began: Began::Warm,
+            began: CaseStart::Warm,
             life: Some([
                 life.life_relative_low,
                 life.life_relative,

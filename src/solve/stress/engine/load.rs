@@ -29,12 +29,12 @@ pub(in crate::solve::stress) struct Spectrum {
     /// At −ky; `None` for a mirror surface, where it equals `plus`.
     pub(in crate::solve::stress) minus: Option<Half>,
     /// Whether a traction was loaded.
-    pub(in crate::solve::stress) sheared: Sheared,
+    pub(in crate::solve::stress) sheared: ShearedAlong,
 }
 
 /// Whether a traction acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::solve::stress) enum Sheared {
+pub(in crate::solve::stress) enum ShearedAlong {
     No,
     /// Along x.
     X,
@@ -59,7 +59,7 @@ impl Spectrum {
         Self {
             plus: half(),
             minus: (symmetry == Symmetry::General).then(half),
-            sheared: Sheared::No,
+            sheared: ShearedAlong::No,
         }
     }
 
@@ -117,8 +117,8 @@ impl StressEngine {
     pub fn load(&mut self, p: &[f32], qx: Option<&[f32]>) {
         self.transform((p, MirrorParity::Even), qx);
         self.spectrum.sheared = match qx {
-            Some(_) => Sheared::X,
-            None => Sheared::No,
+            Some(_) => ShearedAlong::X,
+            None => ShearedAlong::No,
         };
         let scale = 0.5 / (self.waves.n_x as f64 * self.waves.n_y as f64);
         self.along_x(|z, mate, waves, ky_block, half| {
@@ -133,7 +133,7 @@ impl StressEngine {
     pub fn load_both_ways(&mut self, p: &[f32], qx: &[f32], qy: &[f32]) {
         self.load(p, Some(qx));
         self.transform((qy, MirrorParity::Odd), None);
-        self.spectrum.sheared = Sheared::Xy;
+        self.spectrum.sheared = ShearedAlong::Xy;
         let scale = 1.0 / (self.waves.n_x as f64 * self.waves.n_y as f64);
         self.along_x(|z, _, waves, ky_block, half| {
             keep(z, waves, ky_block, scale as f32, &mut half.y);

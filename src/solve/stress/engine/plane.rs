@@ -19,7 +19,7 @@ use super::super::peak::measure_of;
 use super::super::spec::Loading;
 use super::super::window::LOW;
 use super::StressEngine;
-use super::load::{Half, Sheared};
+use super::load::{Half, ShearedAlong};
 use crate::physics::invariants::Stress6;
 
 type ComplexMode = Complex<f32>;
@@ -259,9 +259,9 @@ impl StressEngine {
         let factor = loading.traction_sign();
         let p = at(&half.p);
         match self.spectrum.sheared {
-            Sheared::No => [p, ComplexMode::default(), ComplexMode::default()],
-            Sheared::X => [p, at(&half.x) * factor, ComplexMode::default()],
-            Sheared::Xy => {
+            ShearedAlong::No => [p, ComplexMode::default(), ComplexMode::default()],
+            ShearedAlong::X => [p, at(&half.x) * factor, ComplexMode::default()],
+            ShearedAlong::Xy => {
                 let odd = if mirrored { -factor } else { factor };
                 [p, at(&half.x) * factor, at(&half.y) * odd]
             }

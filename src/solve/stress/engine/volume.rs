@@ -28,7 +28,7 @@ use super::super::sums::{
     Integral, LayerResult, LayerResults, LayerSum, MAX_LAWS, StressLaw, VolumeSums,
 };
 use super::StressEngine;
-use super::load::{Sheared, Spectrum};
+use super::load::{ShearedAlong, Spectrum};
 use crate::math::lane_fft::{LaneFft, Lanes, pack_pair};
 use crate::math::lanes::{LANES, V};
 use crate::physics::cycles::BodyId;
@@ -182,7 +182,7 @@ impl StressEngine {
     /// The loadings that differ, and how many: both bodies are alike without traction.
     fn wanted(&self, bodies: &[BodyId]) -> ([Loading; 4], usize) {
         let (mut list, mut count) = (Loading::ALL, 0);
-        let sheared = self.spectrum.sheared != Sheared::No;
+        let sheared = self.spectrum.sheared != ShearedAlong::No;
         for body in BodyId::BOTH {
             let own = self.spec.materials() == 2 && bodies.contains(&body);
             let first = body == BodyId::One && self.spec.materials() == 1;
@@ -220,9 +220,9 @@ impl LayerInput<'_> {
             }
             self.pass_along_y(worker, layer, Part::Normal, material);
             let part = match self.spectrum.sheared {
-                Sheared::No => None,
-                Sheared::X => Some(Part::AlongX),
-                Sheared::Xy => Some(Part::AlongBoth),
+                ShearedAlong::No => None,
+                ShearedAlong::X => Some(Part::AlongX),
+                ShearedAlong::Xy => Some(Part::AlongBoth),
             };
             if let Some(part) = part {
                 self.pass_along_y(worker, layer, part, material);
