@@ -95,7 +95,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum CliCommand {
     /// Open the explorer: the contact live, with knobs to turn
-    #[command(after_long_help = knobs_help())]
+    #[command(after_long_help = Knob::table())]
     Explore(RunArgs),
     /// Run a scene without a screen
     #[command(after_long_help = "\
@@ -384,13 +384,6 @@ impl RunArgs {
     pub(crate) fn threads(&self) -> usize {
         threads(self.threads)
     }
-}
-
-fn knobs_help() -> String {
-    format!(
-        "Knobs, as [[event]] of a scene may set them too. A change is a ramp in time, no jump:\n{}",
-        Knob::table()
-    )
 }
 
 /// As many as asked for, or one for each core.

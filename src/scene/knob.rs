@@ -356,9 +356,11 @@ impl Knob {
         ([from, to], typical.collect())
     }
 
-    /// All knobs in words, one a line, for the help.
+    /// All knobs in words, for the help.
     pub fn table() -> String {
-        let mut text = String::new();
+        let mut text =
+            "Knobs, which [[event]] of a scene may set too. A change is a ramp in time, no jump:\n"
+                .to_owned();
         for knob in Self::ALL {
             let line = knob.line();
             let steps = match line.steps {

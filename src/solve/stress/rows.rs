@@ -1,6 +1,6 @@
 //! Rows of a layer between its two passes, and their reduction to one measure.
 //!
-//! Part of `stress/volume.rs`.
+//! Part of `stress/engine/volume.rs`.
 
 use super::layer::Layer;
 use super::measure::{power_sum, squared};

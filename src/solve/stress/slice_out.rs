@@ -1,6 +1,6 @@
 //! The stress in the plane y = 0 as it is handed out, and the passes that write it.
 //!
-//! Part of `stress/slice.rs`.
+//! Part of `stress/engine/slice.rs`.
 
 use super::measure::squared;
 use super::spec::{StressSpec, Symmetry};

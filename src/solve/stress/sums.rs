@@ -7,7 +7,7 @@
 //! The greatest is that of the samples of a layer's own grid, which leaves a swept share of Hertz up to 3 % low
 //! (m = 11.5); against a reference of the same grid it cancels.
 //!
-//! Part of `stress/volume.rs`.
+//! Part of `stress/engine/volume.rs`.
 
 use serde::{Deserialize, Serialize};
 
