@@ -3,8 +3,8 @@
 use super::error::SweepError;
 use super::run::prepare;
 use super::spec::Sweep;
-use super::table::{csv_line, write_value};
-use crate::observe::cells::Cells;
+use super::table::write_value;
+use crate::observe::cells::{Cells, csv_line};
 use crate::physics::cycles::{BodyId, Kinematics};
 use crate::plan::{OtherFilms, Plan};
 use crate::scene::Scene;

@@ -14,7 +14,7 @@ use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::Sweep;
 use crate::files::fnv;
-use crate::observe::cells::Cells;
+use crate::observe::cells::{Cells, csv_line};
 use crate::sim::{CATALOGUE, Summary};
 
 /// Where a column's number stands in a record.
@@ -227,16 +227,6 @@ impl Rows {
             CaseEnd::Converged
         }
     }
-}
-
-/// Cells as a line of a table, quoted where they need it.
-pub(super) fn csv_line(cells: impl IntoIterator<Item = impl AsRef<[u8]>>) -> String {
-    let builder = &mut csv::WriterBuilder::new();
-    let mut writer = builder.buffer_capacity(512).from_writer(Vec::new());
-    // Text into memory: this cannot fail.
-    drop(writer.write_record(cells));
-    let bytes = writer.into_inner().ok().unwrap_or_default();
-    String::from_utf8(bytes).unwrap_or_default()
 }
 
 /// A value as the sweep file has it.
