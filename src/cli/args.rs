@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::scene::presets;
+use asperity::scene::{Knob, presets};
 use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
@@ -88,13 +88,14 @@ Exit codes: 0 all converged; 1 bad input; 2 some cases did not converge; 3 some 
 pub(crate) struct Cli {
     /// What to do.
     #[command(subcommand)]
-    pub(crate) command: Option<Command>,
+    pub(crate) command: Option<CliCommand>,
 }
 
 /// The commands.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum CliCommand {
     /// Open the explorer: the contact live, with knobs to turn
+    #[command(after_long_help = Knob::table())]
     Explore(RunArgs),
     /// Run a scene without a screen
     #[command(after_long_help = "\
@@ -211,12 +212,12 @@ pub(crate) struct SweepArgs {
     pub(crate) compare_cold: bool,
     /// Print one of these about the sweep instead of running it
     #[arg(long, value_enum, value_name = "WHAT")]
-    pub(crate) show: Option<Shown>,
+    pub(crate) show: Option<SweepShown>,
 }
 
 /// What to print of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Shown {
+pub(crate) enum SweepShown {
     /// The sweep file, as a start for your own
     File,
     /// What closed-form formulas give for every case, as CSV

@@ -23,7 +23,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-use args::{Cli, Command, HeadlessArgs, RunArgs};
+use args::{Cli, CliCommand, HeadlessArgs, RunArgs};
 use asperity::run::{Request, RunError, Session};
 use failure::Failure;
 
@@ -47,16 +47,16 @@ pub(crate) fn main(engine: Engine) -> ExitCode {
     }
 }
 
-fn dispatch(command: Option<Command>, engine: Engine) -> Result<u8, Failure> {
+fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> {
     match command {
         None => bare(engine),
-        Some(Command::Run(args)) => run::run(&args),
-        Some(Command::Explore(args)) => explore(&args, engine),
-        Some(Command::Check(args)) => scenes::check(&args),
-        Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
-        Some(Command::Study(args)) => study::study(&args),
-        Some(Command::Sweep(args)) => sweep::sweep(&args),
-        Some(Command::View { file }) => view::view(&file),
+        Some(CliCommand::Run(args)) => run::run(&args),
+        Some(CliCommand::Explore(args)) => explore(&args, engine),
+        Some(CliCommand::Check(args)) => scenes::check(&args),
+        Some(CliCommand::Scenes { name }) => scenes::scenes(name.as_deref()),
+        Some(CliCommand::Study(args)) => study::study(&args),
+        Some(CliCommand::Sweep(args)) => sweep::sweep(&args),
+        Some(CliCommand::View { file }) => view::view(&file),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use asperity::run::Turn;
+use asperity::run::HandTurn;
 
 use super::args::RunArgs;
 use super::failure::Failure;
@@ -13,7 +13,7 @@ pub(crate) struct Repetition {
     /// The scene of the recording.
     pub(crate) prepared: Prepared,
     /// Knobs turned by hand.
-    pub(crate) turns: Vec<Turn>,
+    pub(crate) turns: Vec<HandTurn>,
     /// The last step that was recorded.
     pub(crate) last_step: u64,
     /// Whether the recording breaks off: its run went on, nobody knows how far.
@@ -59,7 +59,7 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
                 turn.key
             ))
         })?;
-        turns.push(Turn {
+        turns.push(HandTurn {
             steps_made: turn.steps_made,
             knob,
             value: turn.value,

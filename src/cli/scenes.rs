@@ -100,15 +100,32 @@ pub(crate) fn scenes(name: Option<&str>) -> Result<u8, Failure> {
     Ok(0)
 }
 
+/// Writes lines as they are made, until the reader has gone away.
+pub(crate) fn print_lines<E>(lines: impl Iterator<Item = Result<String, E>>) -> Result<(), Failure>
+where
+    Failure: From<E>,
+{
+    for line in lines {
+        if !print_while_read(&line?)? {
+            break;
+        }
+    }
+    Ok(())
+}
+
 /// Writes to stdout, such that no terminal takes it for more than text; a reader that has gone away (`| head`) is no
 /// error.
 pub(crate) fn print(text: &str) -> Result<(), ObserveError> {
+    print_while_read(text).map(|_| ())
+}
+
+/// Same; whether there still is a reader.
+fn print_while_read(text: &str) -> Result<bool, ObserveError> {
     let mut out = std::io::stdout().lock();
     let written = out.write_all(visible(text).as_bytes());
     match written.and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(ObserveError::new("stdout", error.to_string()))
-        }
-        _ => Ok(()),
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => Err(ObserveError::new("stdout", error.to_string())),
     }
 }

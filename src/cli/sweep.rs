@@ -7,15 +7,15 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use asperity::sweep::{
-    Against, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, SweepError, against_cold,
-    cost, points_csv, run,
+    CaseEnd, ColdComparison, Existing, Folder, Progress, Rows, Shard, Sweep, SweepError,
+    against_cold, cost, points, points_csv, run,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::{Shown, SweepArgs, SweepCommand};
+use super::args::{SweepArgs, SweepCommand, SweepShown};
 use super::failure::{Failure, tell};
 use super::run::stop_on_signals;
-use super::scenes::print;
+use super::scenes::{print, print_lines};
 
 /// Exit code of a sweep that somebody stopped.
 const STOPPED: u8 = 5;
@@ -28,7 +28,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     // clap has refused a line without one.
     let sweep = Sweep::load(args.sweep.as_deref().unwrap_or_default())?;
     if let Some(shown) = args.show {
-        print(&show_of(&sweep, shown)?)?;
+        show_of(&sweep, shown)?;
         return Ok(0);
     }
     let root = args
@@ -100,13 +100,16 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// What is printed of a sweep in place of running it.
-fn show_of(sweep: &Sweep, shown: Shown) -> Result<String, Failure> {
+/// Prints of a sweep what was asked for in place of running it.
+fn show_of(sweep: &Sweep, shown: SweepShown) -> Result<(), Failure> {
     match shown {
-        Shown::File => Ok(sweep.source().to_owned()),
-        Shown::Points => Ok(points_csv(sweep)?),
-        Shown::Ride => match sweep.ride()? {
-            Some(scene) => Ok(scene.to_toml()),
+        SweepShown::File => Ok(print(sweep.source())?),
+        SweepShown::Points => {
+            tell(&format!("{} cases", sweep.len()));
+            print_lines(points(sweep))
+        }
+        SweepShown::Ride => match sweep.ride()? {
+            Some(scene) => Ok(print(&scene.to_toml())?),
             None => Err(Failure::input(miette::miette!(
                 help = "asperity sweep fzg_c --show ride prints one",
                 "only a [gear] path has times to ride along"
@@ -197,7 +200,7 @@ fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String
 }
 
 /// What the chains save.
-fn comparison(sweep: &Sweep, against: &Against) -> String {
+fn comparison(sweep: &Sweep, against: &ColdComparison) -> String {
     let mut text = String::from("case  life / cold life  film / cold film\n");
     for (index, [life, film]) in against.ratios.iter().enumerate() {
         let at = sweep.at(index);

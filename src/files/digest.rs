@@ -1,34 +1,14 @@
-//! FNV-1a, 64 bits (Fowler, Noll and Vo): against accidents, not against malice.
+//! Digests: FNV-1a, 64 bits (Fowler, Noll and Vo), of the crate `fnv`: against accidents, not against malice.
 
-/// A digest in the making.
-#[derive(Debug, Clone, Copy)]
-pub struct Fnv(u64);
+use std::hash::Hasher as _;
 
-impl Default for Fnv {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Fnv {
-    /// Takes more bytes in.
-    pub fn take(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    }
-
-    /// The digest of all bytes so far.
-    pub fn value(self) -> u64 {
-        self.0
-    }
-}
+pub use ::fnv::FnvHasher;
 
 /// The digest of bytes.
 pub fn fnv(bytes: &[u8]) -> u64 {
-    let mut digest = Fnv::default();
-    digest.take(bytes);
-    digest.value()
+    let mut digest = FnvHasher::default();
+    digest.write(bytes);
+    digest.finish()
 }
 
 #[cfg(test)]

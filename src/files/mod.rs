@@ -5,7 +5,7 @@ mod digest;
 mod read;
 mod write;
 
-pub use digest::{Fnv, fnv};
+pub use digest::{FnvHasher, fnv};
 pub use read::{open_plain, read_up_to};
 pub(crate) use write::{folder_of, part_of, publish, sync_file, sync_folder};
 pub use write::{identity, write_whole};

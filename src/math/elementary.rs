@@ -5,8 +5,8 @@
 //! ln x  = k ln 2 + 2 artanh s,  x = 2^k m, m in [√½, √2), s = (m−1)/(m+1), odd series to s¹⁹
 //! ```
 //! Relative error of `exp` below 4e-16; of `ln` below 4e-16 of max(1, |ln x|). The standard library calls a
-//! routine per value, which keeps a loop scalar: ten times slower on wide vector units. Meant for finite
-//! arguments: `exp` saturates at ±[`EXP_LIMIT`], `ln` wants x > 0 and normal.
+//! routine per value, which keeps a loop scalar: over 4096 values it takes 3.8 times as long for `exp` and `ln`, 14 times
+//! for `asinh` (AVX-512). Meant for finite arguments: `exp` saturates at ±[`EXP_LIMIT`], `ln` wants x > 0 and normal.
 
 /// Arguments of [`exp`] are cut here: e^±700 is still a normal number.
 pub const EXP_LIMIT: f64 = 700.0;

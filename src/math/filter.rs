@@ -24,9 +24,9 @@ use rustfft::num_traits::Zero;
 
 pub use weights::Weights;
 
-use self::columns::Columns;
+use self::columns::ColumnFilter;
 use self::moves::{accumulate, gather, multiply, scatter};
-use self::rows::Rows;
+use self::rows::RowFilter;
 use super::grid::Grid;
 use super::kernel_symbol::{At, even_kernel_symbol, odd_kernel_symbol};
 
@@ -90,8 +90,8 @@ pub struct Filter<T: FftNum> {
     parity: Parity,
     n_symbols: usize,
     n_kx: usize,
-    rows: Rows<T>,
-    columns: Columns<T>,
+    rows: RowFilter<T>,
+    columns: ColumnFilter<T>,
     /// Values of a column's transform: its length, or half of it (and one, if they repeat) where fields are mirrored.
     column_len: usize,
     /// `[symbol][kx][column_len]`, the normalisation of the transforms included.
@@ -117,9 +117,9 @@ impl<T: FftNum> Filter<T> {
             factor * (grid.nx - 1),
             (factor * (grid.ny_full() - 1)).max(1),
         );
-        let rows = Rows::plan(padding, lx);
+        let rows = RowFilter::plan(padding, lx);
         let n_kx = rows.spectrum_len();
-        let (columns, column_len, column_scratch) = Columns::plan(grid.symmetry, padding, ly);
+        let (columns, column_len, column_scratch) = ColumnFilter::plan(grid.symmetry, padding, ly);
         let zero = Complex::new(T::zero(), T::zero());
         let row_scratch = rows.scratch_len();
         let row_work = (0..grid.ny.div_ceil(ROWS))
@@ -183,12 +183,12 @@ impl<T: FftNum> Filter<T> {
     /// The transform of a kernel sampled at node offsets (i, j) along x and y, at the frequencies that this filter has.
     pub fn transform_kernel(&self, kernel: impl Fn(usize, usize) -> f64) -> KernelTransform {
         let along_x = match self.rows {
-            Rows::Usual { .. } => At::Whole,
-            Rows::Halfway { .. } => At::Halfway,
+            RowFilter::Usual { .. } => At::Whole,
+            RowFilter::Halfway { .. } => At::Halfway,
         };
         let along_y = match self.columns {
-            Columns::Whole { .. } | Columns::Even(_) => At::Whole,
-            Columns::QuarterWave(_) | Columns::Turned(_) => At::Halfway,
+            ColumnFilter::Whole { .. } | ColumnFilter::Even(_) => At::Whole,
+            ColumnFilter::QuarterWave(_) | ColumnFilter::Turned(_) => At::Halfway,
         };
         let (lengths, at) = ((self.lx, self.ly), (along_x, along_y));
         let values = match self.parity {

@@ -66,6 +66,16 @@ impl Cells {
     }
 }
 
+/// Cells as a line of a table, quoted where they need it.
+pub(crate) fn csv_line(cells: impl IntoIterator<Item = impl AsRef<[u8]>>) -> String {
+    let builder = &mut csv::WriterBuilder::new();
+    let mut writer = builder.buffer_capacity(512).from_writer(Vec::new());
+    // Text into memory: this cannot fail.
+    drop(writer.write_record(cells));
+    let bytes = writer.into_inner().ok().unwrap_or_default();
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -36,19 +36,6 @@ impl FramePool {
         Arc::clone(&self.frames[slot])
     }
 
-    /// Same, for writers that may fail; the frame goes back to the pool on an error.
-    ///
-    /// # Errors
-    /// What `write` returns.
-    pub fn try_fill<E>(
-        &mut self,
-        write: impl FnOnce(&mut Frame) -> Result<(), E>,
-    ) -> Result<Arc<Frame>, E> {
-        let mut outcome = Ok(());
-        let frame = self.fill(|frame| outcome = write(frame));
-        outcome.map(|()| frame)
-    }
-
     /// Frames made so far.
     pub fn len(&self) -> usize {
         self.frames.len()
@@ -123,17 +110,5 @@ mod tests {
         let third = pool.fill(|frame| frame.step = 3);
         assert_eq!((other.step, third.step), (2, 3));
         assert_eq!(pool.grown(), 1);
-    }
-
-    #[test]
-    fn a_failed_fill_gives_the_frame_back() {
-        let mut pool = FramePool::new(1, &template());
-        assert_eq!(pool.try_fill(|_| Err("no")).err(), Some("no"));
-        let frame = pool.try_fill(|frame| {
-            frame.step = 4;
-            Ok::<(), ()>(())
-        });
-        assert_eq!(frame.map(|frame| frame.step), Ok(4));
-        assert_eq!(pool.grown(), 0);
     }
 }

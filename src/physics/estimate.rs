@@ -121,11 +121,6 @@ impl Factors {
     pub fn life(&self) -> Option<f64> {
         self.cycle.map(|cycle| cycle * self.peak * self.traction)
     }
-
-    /// With the load: lives at different loads in one unit.
-    pub fn life_at_load(&self) -> Option<f64> {
-        self.life().map(|life| life * self.load)
-    }
 }
 
 /// A simulated, settled state from which lives are scaled.

@@ -21,6 +21,5 @@ pub mod rainflow;
 pub mod ripple;
 pub mod strength;
 pub mod stress_exact;
-pub mod stress_exact_patch;
 pub mod turning;
 pub mod waviness;

@@ -36,7 +36,7 @@ pub struct Cycle {
 
 /// How often a history happens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Ends {
+pub enum HistoryEnds {
     /// Once: half cycles are left over.
     Once,
     /// Again and again: every cycle closes.
@@ -47,7 +47,7 @@ pub enum Ends {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Rainflow {
     turning: Turning,
-    ends: Ends,
+    ends: HistoryEnds,
     /// Reversals that are not counted yet.
     stack: Vec<f64>,
     /// What is left at the end, as a ring.
@@ -59,7 +59,7 @@ pub struct Rainflow {
 impl Rainflow {
     /// Counter of cycles with a range of at least `gate`, with memory for `capacity` open reversals
     /// (at least 4).
-    pub fn new(ends: Ends, gate: f64, capacity: usize) -> Self {
+    pub fn new(ends: HistoryEnds, gate: f64, capacity: usize) -> Self {
         let capacity = capacity.max(4);
         Self {
             turning: Turning::new(gate),
@@ -122,12 +122,12 @@ impl Rainflow {
             self.close(sink);
         }
         match self.ends {
-            Ends::Once => {
+            HistoryEnds::Once => {
                 for pair in self.stack.windows(2) {
                     sink(cycle(pair[0], pair[1], 0.5));
                 }
             }
-            Ends::Repeating => self.close_ring(sink),
+            HistoryEnds::Repeating => self.close_ring(sink),
         }
         self.reset();
     }
@@ -182,8 +182,8 @@ impl Rainflow {
     /// Counts and drops what the newest reversal closes.
     fn close(&mut self, sink: &mut impl FnMut(Cycle)) {
         match self.ends {
-            Ends::Once => self.close_once(sink),
-            Ends::Repeating => self.close_repeating(sink),
+            HistoryEnds::Once => self.close_once(sink),
+            HistoryEnds::Repeating => self.close_repeating(sink),
         }
     }
 
@@ -231,10 +231,15 @@ mod tests {
     use std::collections::BTreeMap;
 
     fn count(history: &[f64], gate: f64, capacity: usize) -> (Vec<Cycle>, u64) {
-        count_as(Ends::Once, history, gate, capacity)
+        count_as(HistoryEnds::Once, history, gate, capacity)
     }
 
-    fn count_as(ends: Ends, history: &[f64], gate: f64, capacity: usize) -> (Vec<Cycle>, u64) {
+    fn count_as(
+        ends: HistoryEnds,
+        history: &[f64],
+        gate: f64,
+        capacity: usize,
+    ) -> (Vec<Cycle>, u64) {
         let mut flow = Rainflow::new(ends, gate, capacity);
         let mut cycles = Vec::new();
         for value in history {
@@ -272,7 +277,8 @@ mod tests {
 
     #[test]
     fn a_repeated_history_closes_every_cycle() {
-        let cycles = |history: &[f64]| by_range(&count_as(Ends::Repeating, history, 0.0, 64).0);
+        let cycles =
+            |history: &[f64]| by_range(&count_as(HistoryEnds::Repeating, history, 0.0, 64).0);
         // The signed shear of one passage: up, down, back to zero.
         assert_eq!(
             cycles(&[0.0, 1.0, -1.0, 0.0]),
@@ -347,7 +353,7 @@ mod tests {
             let values: Vec<f64> = history.iter().map(|v| f64::from(*v)).collect();
             let mut turned = values.clone();
             turned.rotate_left(turn % values.len());
-            let cycles = |v: &[f64]| by_range(&count_as(Ends::Repeating, v, 0.0, 256).0);
+            let cycles = |v: &[f64]| by_range(&count_as(HistoryEnds::Repeating, v, 0.0, 256).0);
             prop_assert_eq!(cycles(&values), cycles(&turned));
         }
 

@@ -15,7 +15,9 @@
 //! z points into the body, tension is positive, p > 0 presses, q acts on the body along +x.
 //! Sources: Hertz with sliding agrees with Hamilton, G.M. (1983), Proc. IMechE C 197, 53-59;
 //! plane wave: Westergaard, H.M. (1939), J. Appl. Mech. 6, A49-A53. Proved in
-//! `tests/life/stress_closed_forms.rs`. Uniform patches and point forces: [`super::stress_exact_patch`].
+//! `tests/life/stress_closed_forms.rs`.
+
+use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
@@ -136,6 +138,30 @@ pub fn hertz_harmonics(x: f64, y: f64, z: f64) -> Harmonics {
         f: Directions::from_radial(f, cos, sin),
         g: Directions::from_radial(g, cos, sin),
     }
+}
+
+/// Radial functions `f_m`, `g_m`, m = 0..3, of a unit point force (Boussinesq, Cerruti), at distance r and depth z > 0:
+/// `f_m = w^m (z + mR)/(2πR³)`, `g_m = z w^m [(m²−1)R² + 3z² + 3mzR]/(2πR⁵)`, R = √(r² + z²), w = r/(R + z).
+pub fn point_radial(r: f64, z: f64) -> ([f64; 4], [f64; 4]) {
+    let big_r = r.hypot(z);
+    let w = r / (big_r + z);
+    let r2 = big_r * big_r;
+    let (by_r3, by_r5) = (
+        1.0 / (2.0 * PI * r2 * big_r),
+        1.0 / (2.0 * PI * r2 * r2 * big_r),
+    );
+    let (mut f, mut g) = ([0.0; 4], [0.0; 4]);
+    let mut power = 1.0;
+    for m in 0..4 {
+        let order = m as f64;
+        f[m] = power * (z + order * big_r) * by_r3;
+        g[m] = z
+            * power
+            * ((order * order - 1.0) * r2 + 3.0 * z * z + 3.0 * order * z * big_r)
+            * by_r5;
+        power *= w;
+    }
+    (f, g)
 }
 
 /// Stress under a circular Hertz pressure that slides with `q = friction · p`; lengths in a,

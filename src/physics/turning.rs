@@ -104,7 +104,7 @@ impl Turning {
 
 /// A peak that has passed.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Peak {
+pub struct PassedMaximum {
     /// Where.
     pub x: f64,
     /// How high.
@@ -116,9 +116,9 @@ pub struct Peak {
 pub struct Peaks {
     turning: Turning,
     /// Greatest value since the last trough.
-    summit: Peak,
+    summit: PassedMaximum,
     passed: u32,
-    last: Option<Peak>,
+    last: Option<PassedMaximum>,
 }
 
 impl Peaks {
@@ -126,7 +126,7 @@ impl Peaks {
     pub fn new(gate: f64) -> Self {
         let mut peaks = Self {
             turning: Turning::new(gate),
-            summit: Peak::default(),
+            summit: PassedMaximum::default(),
             passed: 0,
             last: None,
         };
@@ -142,7 +142,7 @@ impl Peaks {
     }
 
     /// Next value, at `x`; the peak that it shows to have passed.
-    pub fn push(&mut self, x: f64, value: f64) -> Option<Peak> {
+    pub fn push(&mut self, x: f64, value: f64) -> Option<PassedMaximum> {
         let turn = self.turning.push(value);
         if let Turn::Peak(_) = turn {
             self.passed += 1;
@@ -150,7 +150,7 @@ impl Peaks {
             return self.last;
         }
         if self.turning.is_summit(value) {
-            self.summit = Peak { x, value };
+            self.summit = PassedMaximum { x, value };
         }
         None
     }
@@ -161,7 +161,7 @@ impl Peaks {
     }
 
     /// The last of them.
-    pub fn last(&self) -> Option<Peak> {
+    pub fn last(&self) -> Option<PassedMaximum> {
         self.last
     }
 }
@@ -169,7 +169,7 @@ impl Peaks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::rainflow::{Ends, Rainflow};
+    use crate::physics::rainflow::{HistoryEnds, Rainflow};
     use proptest::prelude::*;
 
     const GATE: f64 = 0.05;
@@ -188,7 +188,7 @@ mod tests {
 
     /// Closed cycles of the same history, between zeros.
     fn closed(gate: f64, history: &[f64]) -> f64 {
-        let mut flow = Rainflow::new(Ends::Repeating, gate, 512);
+        let mut flow = Rainflow::new(HistoryEnds::Repeating, gate, 512);
         let mut count = 0.0;
         for value in [0.0].iter().chain(history).chain(&[0.0]) {
             flow.push(*value, &mut |cycle| count += cycle.count);

@@ -15,7 +15,7 @@ pub struct Cost {
 
 /// What decides the cost.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Load {
+pub(super) struct CostInput {
     pub(super) kind: ContactKind,
     pub(super) nodes: usize,
     /// Part of the rows that is computed: 1/2 with a mirror.
@@ -63,7 +63,7 @@ impl Cost {
         duration(self.time_s)
     }
 
-    pub(super) fn new(load: Load) -> Self {
+    pub(super) fn new(load: CostInput) -> Self {
         let nodes = load.nodes as f64;
         if load.kind == ContactKind::Line {
             return Self::of_a_line(nodes, &load);
@@ -82,7 +82,7 @@ impl Cost {
     }
 
     /// One row, with stress at every step; the volume integrals cost as much as two slices more.
-    fn of_a_line(nodes: f64, load: &Load) -> Self {
+    fn of_a_line(nodes: f64, load: &CostInput) -> Self {
         let depths = load.depths as f64;
         let step_s = LINE_STEP_S + nodes * (LINE_NODE_S + depths * LINE_DEPTH_NODE_S);
         let steps = (load.steps + load.start_up_steps) as f64;

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, EyringFlow, Order, Rheology, Scene, Spread, Surface};
+use crate::scene::{ContactKind, EyringFlow, Knob, Order, Rheology, Scene, Spread, Surface};
 
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     if let Some(line) = scene.line_point() {
@@ -102,7 +102,7 @@ pub(super) fn domain_warnings(domain: &Domain, film: Option<&FilmPlan>) -> Vec<W
     if mesh > WORTH_A_WORD {
         warnings.push(Warning::CoarseForTheFilm { error: mesh });
     }
-    let error = truncation.error(domain);
+    let error = domain.edge_error(&truncation);
     if error > EDGES_WORTH_A_WORD {
         warnings.push(Warning::ShortDomain {
             error,
@@ -116,30 +116,26 @@ pub(super) fn domain_warnings(domain: &Domain, film: Option<&FilmPlan>) -> Vec<W
 /// Heights of both surfaces' crests together, m: the greatest that the scene or its events ask for.
 pub(super) fn crest_m(scene: &Scene) -> f64 {
     let surfaces = scene.surfaces();
-    let keys = ["body_1.surface.amplitude_m", "body_2.surface.amplitude_m"];
     let heights = [0, 1].map(|body: usize| {
         let own = surfaces[body].amplitude_m().abs();
-        scripted(scene, keys[body])
+        scripted(scene, Knob::AMPLITUDES[body])
             .map(f64::abs)
             .fold(own, f64::max)
     });
     heights.iter().sum()
 }
 
-/// Values that events give a key.
-fn scripted<'a>(scene: &'a Scene, key: &'a str) -> impl Iterator<Item = f64> + 'a {
-    let values = scene.events.iter().filter_map(|event| event.set.get(key));
+/// Values that events give a knob.
+fn scripted(scene: &Scene, knob: Knob) -> impl Iterator<Item = f64> {
+    let sets = scene.events.iter().map(|event| &event.set);
+    let values = sets.filter_map(move |set| set.get(knob.key()));
     values.copied()
 }
 
 /// Size of the greatest contact that events make, over the scene's own: Hertz.
 pub(super) fn greatest_size(scene: &Scene) -> f64 {
-    let key = match scene.kind() {
-        ContactKind::Point => "load.force_n",
-        ContactKind::Line => "load.force_n_per_m",
-    };
     let own = scene.force_n();
-    let most = scripted(scene, key).fold(own, f64::max);
+    let most = scripted(scene, Knob::of_load(scene.kind())).fold(own, f64::max);
     scene.kind().hertz_shape().size_ratio(most / own)
 }
 

@@ -19,7 +19,7 @@
 //! surfaces overlap at an edge is named as not converged.
 
 use super::truncation::{Truncation, gap};
-use crate::scene::{ContactKind, Grid};
+use crate::scene::{ContactKind, GridAsked};
 
 /// Nodes and edges of the computed rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +91,7 @@ impl Domain {
     /// crests.
     pub fn choose(
         kind: ContactKind,
-        grid: &Grid,
+        grid: &GridAsked,
         film: Option<Truncation>,
         crests: Crests,
     ) -> Self {
@@ -114,7 +114,7 @@ impl Domain {
     /// The same for a contact that grows to `size` (1 or more) times its half-widths: edges that the scene leaves to
     /// the plan lie as many of the grown half-widths away.
     #[must_use]
-    pub(super) fn holding(mut self, size: f64, grid: &Grid) -> Self {
+    pub(super) fn holding(mut self, size: f64, grid: &GridAsked) -> Self {
         if grid.x_min_a.is_none() {
             self.x_min_a *= size;
         }
@@ -125,6 +125,11 @@ impl Domain {
             self.y_half_b *= size;
         }
         self
+    }
+
+    /// Relative error of the central film by all edges: the outlet costs nothing.
+    pub fn edge_error(&self, film: &Truncation) -> f64 {
+        (film.inlet_error(self.x_min_a) + film.side_error(self.y_half_b)).min(1.0)
     }
 
     /// Node spacing along x, in a.
@@ -311,7 +316,7 @@ mod tests {
         let domain = |film: f64| {
             Domain::choose(
                 ContactKind::Point,
-                &Grid::default(),
+                &GridAsked::default(),
                 Some(of(film, 10.0)),
                 Crests::default(),
             )
@@ -330,16 +335,16 @@ mod tests {
         assert_eq!(
             Domain::choose(
                 ContactKind::Point,
-                &Grid::default(),
+                &GridAsked::default(),
                 None,
                 Crests::default()
             )
             .x_min_a,
             -DRY_HALF
         );
-        let grid = Grid {
+        let grid = GridAsked {
             x_min_a: Some(-3.0),
-            ..Grid::default()
+            ..GridAsked::default()
         };
         assert_eq!(
             Domain::choose(
@@ -362,7 +367,7 @@ mod tests {
             };
             let domain = Domain::choose(
                 ContactKind::Point,
-                &Grid::default(),
+                &GridAsked::default(),
                 Some(of(0.03, 10.0)),
                 crests,
             );
@@ -383,7 +388,7 @@ mod tests {
     fn spacing_counts_intervals() {
         let domain = Domain::choose(
             ContactKind::Point,
-            &Grid::default(),
+            &GridAsked::default(),
             Some(of(0.03, 10.0)),
             Crests::default(),
         );

@@ -359,7 +359,7 @@ impl Plan {
         let domain = &self.domain;
         let step_a = self.dt_s * self.speeds_m_s.iter().sum::<f64>().abs() / 2.0 / self.hertz.a_m;
         let crossing = (domain.x_max_a - domain.x_min_a) / step_a;
-        Cost::new(cost::Load {
+        Cost::new(cost::CostInput {
             kind: self.kind,
             nodes: self.domain.nodes,
             rows: match self.symmetry {

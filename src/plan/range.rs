@@ -10,7 +10,7 @@
 
 use super::{FilmPlan, PlanError};
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, Scene};
+use crate::scene::{ContactKind, Knob, Scene};
 
 /// Steepest slope.
 const SLOPE_MAX: f64 = 0.5;
@@ -44,18 +44,11 @@ fn too_large(scene: &Scene, slope: f64) -> PlanError {
     let ratio = SLOPE_MAX / slope;
     let (key, value, most, unit) = match (scene.load.hertz_pressure_pa, scene.kind()) {
         (Some(p_pa), _) => ("load.hertz_pressure_pa", p_pa, p_pa * ratio, "Pa"),
-        (None, ContactKind::Point) => (
-            "load.force_n",
-            scene.force_n(),
-            scene.force_n() * ratio.powi(order),
-            "N",
-        ),
-        (None, ContactKind::Line) => (
-            "load.force_n_per_m",
-            scene.force_n(),
-            scene.force_n() * ratio.powi(order),
-            "N/m",
-        ),
+        (None, kind) => {
+            let load = Knob::of_load(kind);
+            let most = scene.force_n() * ratio.powi(order);
+            (load.key(), scene.force_n(), most, load.unit())
+        }
     };
     PlanError::Refused {
         key: key.to_owned(),
@@ -81,7 +74,7 @@ fn too_thick(scene: &Scene, film: &FilmPlan) -> PlanError {
         }
     }
     PlanError::Refused {
-        key: "motion.entrainment_m_s".to_owned(),
+        key: Knob::EntrainmentMS.key().to_owned(),
         value: format!("{speed_m_s:.4e} m/s"),
         allowed: format!(
             "at most {:.3e} m/s with this oil, load and radius (a central film of Rx/8 = {most_m:.2e} m by formula; this one is {:.2e} m: no thin film), or a higher load",

@@ -29,14 +29,14 @@ pub struct RecordPlan {
 
 /// Steps between two recordings of the fields, and of the scalars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rhythm {
+pub struct RecordingRhythm {
     /// Of the fields.
     pub fields: u64,
     /// Of the scalars.
     pub scalars: u64,
 }
 
-impl Rhythm {
+impl RecordingRhythm {
     /// Of a run of `steps` whose fields take `frame_bytes` a time, with `left_bytes` for all of it.
     pub fn new(record: &Record, steps: f64, frame_bytes: f64, left_bytes: f64) -> Self {
         let scalars_bytes = steps * SCALARS_BYTES;
@@ -61,7 +61,7 @@ pub fn left_bytes(record: &Record, spent_bytes: f64) -> f64 {
 impl RecordPlan {
     pub(super) fn new(record: &Record, steps: u64, frame_bytes: f64) -> Self {
         let left = left_bytes(record, ALWAYS_BYTES);
-        let rhythm = Rhythm::new(record, steps as f64, frame_bytes, left);
+        let rhythm = RecordingRhythm::new(record, steps as f64, frame_bytes, left);
         let frames = steps.div_ceil(rhythm.fields);
         let scalars = steps.div_ceil(rhythm.scalars);
         let bytes = ALWAYS_BYTES + frames as f64 * frame_bytes + scalars as f64 * SCALARS_BYTES;

@@ -49,7 +49,7 @@
 //! The line's factors are measured too (`tests/engine/line.rs`: at M = 20 and 100 the inlet rule holds within 1.3
 //! from −2 to −3.5).
 
-use super::{Domain, FilmPlan, OtherFilms};
+use super::{FilmPlan, OtherFilms};
 use crate::physics::film_regression::nijenbanning_rigid_share;
 use crate::physics::line::moes_rigid_share;
 use crate::scene::{ContactKind, Order, OrderAsked};
@@ -114,11 +114,6 @@ impl Truncation {
         }
         let xi = y_half_b * self.side / (2.0 * self.film).sqrt();
         side_error(self.film, self.l, y_half_b) + self.rigid * film_lost(1.05 / xi)
-    }
-
-    /// Relative error of the central film by all edges: the outlet costs nothing.
-    pub fn error(&self, domain: &Domain) -> f64 {
-        (self.inlet_error(domain.x_min_a) + self.side_error(domain.y_half_b)).min(1.0)
     }
 
     /// Relative error of the central film by a mesh of spacing `dx_a`.

@@ -10,8 +10,8 @@ use std::time::Instant;
 use super::Command;
 use super::checkpoint::Checkpoint;
 use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
-use super::session::{Ending, SessionEvent, Shared, lock};
 use super::settled::Gather;
+use super::shared::{Ending, SessionEvent, SharedStatus, lock};
 use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind, SetBy};
@@ -51,7 +51,7 @@ pub(super) struct Driver {
     made: u64,
     inbox: Receiver<Command>,
     latest: Latest,
-    shared: Arc<Mutex<Shared>>,
+    shared: Arc<Mutex<SharedStatus>>,
     pool: FramePool,
     /// Of live runs: one period, once the passage repeats.
     gather: Option<Gather>,
@@ -73,7 +73,7 @@ impl Driver {
         events: &[Event],
         inbox: Receiver<Command>,
         latest: Latest,
-        shared: Arc<Mutex<Shared>>,
+        shared: Arc<Mutex<SharedStatus>>,
     ) -> Self {
         let mut script = events.to_vec();
         script.sort_by(|one, two| one.at_s.total_cmp(&two.at_s));

@@ -17,15 +17,17 @@ mod outcome;
 mod replay;
 mod session;
 mod settled;
+mod shared;
 mod stepper;
 mod watcher;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use companion::{Companion, NoEstimate};
 pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
-pub use replay::Turn;
-pub use session::{Ending, Request, RunError, Session, SessionEvent, Status};
+pub use replay::HandTurn;
+pub use session::{Request, RunError, Session};
 pub use settled::Settled;
+pub use shared::{Ending, SessionEvent, Status};
 pub use stepper::Stepper;
 pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 

@@ -4,7 +4,7 @@ use crate::sim::Knob;
 
 /// A knob turned by hand in the run that is repeated.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turn {
+pub struct HandTurn {
     /// Steps that the run had made, those of the start-up too.
     pub steps_made: u64,
     /// Knob.

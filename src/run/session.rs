@@ -1,8 +1,7 @@
 //! A run on a thread of its own.
 
-use std::collections::VecDeque;
 use std::sync::mpsc::{Sender, channel};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 
 use thiserror::Error;
@@ -11,25 +10,15 @@ use super::Command;
 use super::checkpoint::Checkpoint;
 use super::driver::{Done, Driver};
 use super::outcome::{AppliedCommand, Outcome};
-use super::replay::Turn;
+use super::replay::HandTurn;
 use super::settled::Settled;
+use super::shared::{Ending, SessionEvent, SharedStatus, Status, lock};
 use super::stepper::Stepper;
-use super::watcher::{Watcher, WatcherStatus};
-use crate::observe::{Began, Latest, ObserveError, RunContext, RunEvent, SetBy};
+use super::watcher::Watcher;
+use crate::observe::{Began, Latest, RunContext, SetBy};
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::sim::{SimError, Simulation, Stage};
-
-/// When a session ends by itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
-    /// After the passages that the scene asks for, or when an output fails.
-    Passages,
-    /// After so many steps of the passage, or when an output fails.
-    Steps(u64),
-    /// Never: only when told to stop (the explorer). An output that fails is reported and left out.
-    OnStop,
-}
+use crate::sim::{SimError, Simulation};
 
 /// What to run.
 #[derive(Debug)]
@@ -48,34 +37,6 @@ pub struct Request {
     pub ending: Ending,
 }
 
-/// Something that happened, for a screen to show.
-#[derive(Debug, Clone)]
-pub enum SessionEvent {
-    /// A knob was set, a caption came up, a step did not converge.
-    Run(RunEvent),
-    /// A command was refused.
-    Refused(SimError),
-    /// An output failed.
-    OutputFailed(ObserveError),
-}
-
-/// Where a session is.
-#[derive(Debug, Clone, Default)]
-pub struct Status {
-    /// Part of the run.
-    pub stage: Stage,
-    /// How much is done, 0 to 1.
-    pub progress: f64,
-    /// Time steps after the start-up.
-    pub steps: u64,
-    /// Steps that did not converge.
-    pub n_unconverged: u64,
-    /// Outputs.
-    pub outputs: Vec<WatcherStatus>,
-    /// What went wrong, once the run has ended by a failure.
-    pub failure: Option<String>,
-}
-
 /// A session that could not be started or came to grief.
 #[derive(Debug, Clone, Error)]
 pub enum RunError {
@@ -87,31 +48,6 @@ pub enum RunError {
         "the simulation broke off by a programming error: {0}; what was recorded before is kept"
     )]
     Panicked(String),
-}
-
-/// Events that wait to be shown at most; a screen takes them at each drawing.
-const EVENTS_KEPT: usize = 256;
-
-#[derive(Debug, Default)]
-pub(super) struct Shared {
-    pub(super) status: Status,
-    pub(super) settled: Option<Arc<Settled>>,
-    events: VecDeque<SessionEvent>,
-}
-
-impl Shared {
-    /// Keeps an event for the screen; the oldest makes room.
-    pub(super) fn show(&mut self, event: SessionEvent) {
-        if self.events.len() == EVENTS_KEPT {
-            self.events.pop_front();
-        }
-        self.events.push_back(event);
-    }
-}
-
-pub(super) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
-    // Every write leaves the value whole, so a panic elsewhere does not spoil it.
-    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What a run begins with.
@@ -128,7 +64,7 @@ struct Start {
 pub struct Session {
     commands: Sender<Command>,
     latest: Latest,
-    shared: Arc<Mutex<Shared>>,
+    shared: Arc<Mutex<SharedStatus>>,
     thread: JoinHandle<Outcome>,
 }
 
@@ -187,8 +123,8 @@ impl Session {
     ///
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
-    pub fn repeat(request: Request, turns: Vec<Turn>) -> Result<Self, RunError> {
-        let turn = |turn: Turn| (turn.steps_made, Command::Set(turn.knob, turn.value));
+    pub fn repeat(request: Request, turns: Vec<HandTurn>) -> Result<Self, RunError> {
+        let turn = |turn: HandTurn| (turn.steps_made, Command::Set(turn.knob, turn.value));
         Self::redo(request, turns.into_iter().map(turn).collect())
     }
 
@@ -222,7 +158,7 @@ impl Session {
     ) -> Result<Self, RunError> {
         let (commands, inbox) = channel();
         let latest = Latest::default();
-        let shared = Arc::new(Mutex::new(Shared::default()));
+        let shared = Arc::new(Mutex::new(SharedStatus::default()));
         let driver = Driver::new(
             request.ending,
             request.watchers,

@@ -3,9 +3,10 @@
 
 use toml::{Table, Value};
 
+use super::Knob;
 use super::error::{SceneError, nearest};
-use super::keys::{self, EVENT_KEYS, KNOB_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
-use super::model::{ContactKind, Event, Scene, Surface};
+use super::keys::{self, EVENT_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
+use super::model::{Event, Scene, Surface};
 use super::shape::{check_carried, check_force, check_hardness, check_load, check_shape};
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
@@ -159,14 +160,13 @@ fn check_settings(path: &str, value: &mut Value) -> Result<(), SceneError> {
     };
     for (name, value) in settings.iter_mut() {
         let full = format!("{path}.\"{}\"", super::error::shortened(name));
-        let known = KNOB_KEYS.contains(&name.as_str());
-        match keys::find(name) {
-            Some(key) if known => check_value(&full, key, value)?,
-            _ => {
+        match Knob::from_key(name).and_then(Knob::scene_key) {
+            Some(key) => check_value(&full, key, value)?,
+            None => {
                 return Err(SceneError::value(
                     full,
                     shown(value),
-                    format!("a knob: {}", KNOB_KEYS.join(", ")),
+                    format!("a knob: {}", Knob::keys()),
                 ));
             }
         }
@@ -224,7 +224,9 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
             "only with a [stress] table; omit both, or --set life=none",
         ));
     }
-    super::life::check_calibration(scene)?;
+    if let Some(life) = &scene.life {
+        super::life::check_calibration(life)?;
+    }
     scene
         .events
         .iter()
@@ -287,10 +289,7 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
 
 /// An event's load must be the one that the kind of contact takes.
 fn check_event_load(scene: &Scene, full: &str, name: &str, value: f64) -> Result<(), SceneError> {
-    let own = match scene.contact.kind {
-        ContactKind::Point => "load.force_n",
-        ContactKind::Line => "load.force_n_per_m",
-    };
+    let own = Knob::of_load(scene.contact.kind).key();
     if name == own {
         check_force(scene, full, value)?;
         check_carried(scene, full, value)
@@ -307,29 +306,20 @@ fn check_event_load(scene: &Scene, full: &str, name: &str, value: f64) -> Result
 fn check_event_fits(scene: &Scene, index: usize, event: &Event) -> Result<(), SceneError> {
     for (name, &value) in &event.set {
         let full = format!("event[{index}].set.\"{name}\"");
-        let surface = match name.as_str() {
-            "body_1.surface.amplitude_m" => &scene.body_1.surface,
-            "body_2.surface.amplitude_m" => &scene.body_2.surface,
-            "load.force_n" | "load.force_n_per_m" => {
-                check_event_load(scene, &full, name, value)?;
-                continue;
-            }
-            "motion.entrainment_m_s" if value * scene.motion.entrainment_m_s < 0.0 => {
-                return Err(SceneError::value(
-                    full,
-                    short(value),
-                    "a speed of the scene's own sign: to turn the flow round is another run",
-                ));
-            }
-            _ => continue,
+        let Some(knob) = Knob::from_key(name) else {
+            continue;
         };
-        if matches!(surface, Surface::Smooth {}) {
-            return Err(SceneError::value(
-                full,
-                short(value),
-                "only on a body whose surface is not smooth",
-            ));
+        if knob.is_load() {
+            check_event_load(scene, &full, name, value)?;
         }
+        let refused = if knob.surface(scene).is_some_and(Surface::is_smooth) {
+            "only on a body whose surface is not smooth"
+        } else if knob == Knob::EntrainmentMS && value * scene.motion.entrainment_m_s < 0.0 {
+            "a speed of the scene's own sign: to turn the flow round is another run"
+        } else {
+            continue;
+        };
+        return Err(SceneError::value(full, short(value), refused));
     }
     Ok(())
 }

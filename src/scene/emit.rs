@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use toml::{Table, Value};
 
+use super::Knob;
 use super::check::lookup;
-use super::keys::{EVENT_KEYS, KNOB_KEYS, Key, Need, SECTIONS, Section};
+use super::keys::{EVENT_KEYS, Key, Need, SECTIONS, Section};
 use super::model::Scene;
 
 /// Column at which comments start.
@@ -111,7 +112,7 @@ fn push_events(text: &mut String, events: Option<&Value>) {
             "\n# Scripted changes, any number of [[event]]: at_s ({}), caption, and\n\
              # set = {{ \"motion.slide_roll\" = 1.0 }} with any of {}.\n",
             EVENT_KEYS[0].doc,
-            KNOB_KEYS.join(", ")
+            Knob::keys()
         ),
     );
     for event in events.and_then(Value::as_array).into_iter().flatten() {

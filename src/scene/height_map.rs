@@ -6,13 +6,14 @@
 //! else, one row of the map a line, separated by commas, semicolons, tabs or spaces; empty lines and lines
 //! that begin with `#` are skipped. `builtin:NAME` is a map that comes with the program (scenes of `evidence/`).
 
+use std::hash::Hasher as _;
 use std::path::Path;
 
 use super::error::{SceneError, shortened};
 use super::keys::{joined, short};
 use super::presets;
-use crate::files::{Fnv, read_up_to};
-use crate::physics::height_map::{Beyond, HeightMap};
+use crate::files::{FnvHasher, read_up_to};
+use crate::physics::height_map::{HeightMap, MapEdges};
 
 /// Largest file, bytes.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -48,7 +49,7 @@ pub(super) fn read(
     base: &Path,
     file: &str,
     unit_m: f64,
-    beyond: Beyond,
+    beyond: MapEdges,
 ) -> Result<(HeightMap, String), SceneError> {
     let refused = |r: Refusal| {
         let found = format!("{} ({})", shortened(file), r.found);
@@ -68,12 +69,12 @@ pub(super) fn read(
 
 /// FNV-1a of the number of columns and of the numbers: how they are written does not matter.
 fn digest(matrix: &Matrix) -> String {
-    let mut digest = Fnv::default();
-    digest.take(&(matrix.columns as u64).to_le_bytes());
+    let mut digest = FnvHasher::default();
+    digest.write(&(matrix.columns as u64).to_le_bytes());
     for value in &matrix.values {
-        digest.take(&value.to_bits().to_le_bytes());
+        digest.write(&value.to_bits().to_le_bytes());
     }
-    format!("{:016x}", digest.value())
+    format!("{:016x}", digest.finish())
 }
 
 /// A map that is not the one that the scene was run with.

@@ -200,16 +200,6 @@ pub const EVENT_KEYS: &[Key] = &[
     key("caption", "", Text(1000), Defaulted, "text shown beside the run"),
 ];
 
-/// The keys that an `[[event]]` may set and a live run may turn, in the order of `Knob::ALL`.
-pub const KNOB_KEYS: &[&str] = &[
-    "motion.slide_roll",
-    "load.force_n",
-    "body_1.surface.amplitude_m",
-    "body_2.surface.amplitude_m",
-    "motion.entrainment_m_s",
-    "load.force_n_per_m",
-];
-
 impl Kind {
     /// Whether it takes that number.
     pub fn takes(&self, number: f64) -> bool {

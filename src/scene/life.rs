@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::SceneError;
-use super::model::Scene;
 
 /// Life model; equations and sources: [`crate::physics::life_models`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -239,10 +238,7 @@ impl Life {
 }
 
 /// A calibration point needs both its numbers.
-pub(super) fn check_calibration(scene: &Scene) -> Result<(), SceneError> {
-    let Some(life) = &scene.life else {
-        return Ok(());
-    };
+pub(super) fn check_calibration(life: &Life) -> Result<(), SceneError> {
     let missing = match (life.calibration_cycles, life.calibration_pressure_pa) {
         (Some(_), None) => "calibration_pressure_pa",
         (None, Some(_)) => "calibration_cycles",

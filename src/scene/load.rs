@@ -12,7 +12,7 @@ use super::keys;
 use super::model::{MapEdge, Scene, Surface};
 use super::presets;
 use crate::files::read_up_to;
-use crate::physics::height_map::Beyond;
+use crate::physics::height_map::MapEdges;
 
 /// Longest scene file, bytes. Scenes are some kilobytes; anything longer is not one.
 const LONGEST_FILE: u64 = 1 << 20;
@@ -224,8 +224,8 @@ impl Scene {
                 && map.is_none()
             {
                 let beyond = match edge {
-                    MapEdge::Periodic => Beyond::Repeated,
-                    MapEdge::Windowed => Beyond::Nothing,
+                    MapEdge::Periodic => MapEdges::Repeated,
+                    MapEdge::Windowed => MapEdges::Nothing,
                 };
                 let (heights, found) = height_map::read(table, folder, file, *unit_m, beyond)?;
                 if digest.as_ref().is_some_and(|digest| *digest != found) {

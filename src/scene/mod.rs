@@ -11,6 +11,7 @@ mod error;
 mod height_map;
 mod key;
 pub mod keys;
+mod knob;
 mod life;
 mod life_keys;
 mod load;
@@ -21,13 +22,14 @@ pub mod presets;
 mod shape;
 
 pub use error::SceneError;
+pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, VolumeIntegral};
 pub use load::Override;
 pub use lubricant::{
     Cavitation, DensityLaw, EyringFlow, Friction, Lubricant, Rheology, ViscosityLaw,
 };
 pub use model::{
-    Body, Contact, ContactKind, Event, Grid, Load, MapEdge, Motion, Record, Scene, Stress,
+    Body, Contact, ContactKind, Event, GridAsked, Load, MapEdge, Motion, Record, Scene, Stress,
     StressMeasure, Surface,
 };
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};

@@ -40,7 +40,7 @@ pub struct Scene {
     pub load: Load,
     /// Nodes and domain.
     #[serde(default)]
-    pub grid: Grid,
+    pub grid: GridAsked,
     /// Time step and length of the run.
     #[serde(default)]
     pub time: Time,
@@ -218,7 +218,7 @@ pub struct Load {
 /// `[grid]`
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Grid {
+pub struct GridAsked {
     /// Nodes per side, 2^k + 1.
     pub nodes: usize,
     /// Inlet edge in Hertz half-widths along x; left out: chosen by the plan.
@@ -232,7 +232,7 @@ pub struct Grid {
     pub y_half_a: Option<f64>,
 }
 
-impl Default for Grid {
+impl Default for GridAsked {
     fn default() -> Self {
         Self {
             nodes: 129,

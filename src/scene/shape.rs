@@ -1,6 +1,7 @@
 //! The rules that go with the kind of contact: a point has a radius across and a force, a line neither, but a
 //! force per length and surfaces that are the same at every y.
 
+use super::Knob;
 use super::error::SceneError;
 use super::keys::{joined, short};
 use super::model::{ContactKind, Scene, Surface};
@@ -100,10 +101,7 @@ pub(super) fn check_hardness(scene: &Scene) -> Result<(), SceneError> {
 /// A load that an event sets is carried as the scene's own is.
 pub(super) fn check_carried(scene: &Scene, key: &str, force: f64) -> Result<(), SceneError> {
     let p_max_pa = scene.hertz_at(force).p_max_pa;
-    let unit = match scene.contact.kind {
-        ContactKind::Point => "N",
-        ContactKind::Line => "N/m",
-    };
+    let unit = Knob::of_load(scene.contact.kind).unit();
     match scene.hardness_pa() {
         Some(hardness_pa) if hardness_pa < LEAST_HARDNESS * p_max_pa => Err(SceneError::value(
             key,

@@ -218,7 +218,7 @@ impl Counting {
         [0, 1].map(|body: usize| {
             self.trackers[body]
                 .pressure_cycles()
-                .map(|tally| tally.count)
+                .map(|cycles| cycles.count)
         })
     }
 

@@ -8,9 +8,9 @@
 //! The scaling is fixed for a whole run: when a knob changes the load or the speed, λ, Z and the load
 //! integral change, not a or p_h.
 
-use super::knob::Knob;
 use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::physics::hertz::Hertz;
+use crate::scene::Knob;
 use crate::scene::{ContactKind, DensityLaw, EyringFlow, Rheology, Scene, ViscosityLaw};
 use crate::solve::reynolds::Medium;
 
@@ -158,10 +158,7 @@ impl Door {
 
     /// The knob of the load.
     pub(super) fn load_knob(&self) -> Knob {
-        match self.kind {
-            ContactKind::Point => Knob::ForceN,
-            ContactKind::Line => Knob::ForceNPerM,
-        }
+        Knob::of_load(self.kind)
     }
 
     /// a and p_h when the load is `ratio` times the scene's, over those at the scene's: Hertz.

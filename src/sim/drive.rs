@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::knob::Knob;
+use crate::scene::Knob;
 
 /// One knob's state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -53,7 +53,7 @@ impl Drive {
     /// The same knobs, but of smooth bodies in pure rolling.
     pub(super) fn smooth(&self) -> Self {
         let mut smooth = self.clone();
-        for knob in [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M] {
+        for knob in Knob::OF_ROUGHNESS_AND_SLIDING {
             smooth.jump(knob, 0.0);
         }
         smooth

@@ -22,7 +22,7 @@ use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
 use crate::scene::{ContactKind, CycleBasis, Life, Scene, Surface, VolumeIntegral};
-use crate::solve::life::{Sweep, Window};
+use crate::solve::life::{SweptRows, Window};
 use crate::solve::marks::Marks;
 use crate::solve::stress::{Loading, StressLaw};
 
@@ -59,7 +59,7 @@ pub(super) struct LifeStage {
     /// The scene's model first.
     variants: Vec<Variant>,
     pub(super) laws: Vec<StressLaw>,
-    sweep: Sweep,
+    sweep: SweptRows,
     depths: Vec<f64>,
     /// Wavelength along x of the mating crests, a.
     wavelengths: [Option<f64>; 2],
@@ -113,7 +113,7 @@ impl LifeStage {
             asked,
             variants,
             laws,
-            sweep: Sweep::new(stress.row_count()),
+            sweep: SweptRows::new(stress.row_count()),
             depths,
             wavelengths: BodyId::BOTH.map(wavelength),
             is_smooth: (scene.surfaces().iter()).all(|s| matches!(s, Surface::Smooth {})),

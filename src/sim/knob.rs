@@ -1,77 +1,38 @@
-//! The knobs that may be turned while a simulation runs.
+//! Where the catalogue has what a knob turns.
 
 use super::{Quantity, named};
+use crate::scene::Knob;
 
-/// A knob. Values are SI; a knob is a target that the drive walks towards, so that turning it is a
-/// physical ramp and not a jump.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Knob {
-    /// `motion.slide_roll`, S = (U2 - U1)/U.
-    SlideRoll,
-    /// `load.force_n`, N: the load of a point contact.
-    ForceN,
-    /// `body_1.surface.amplitude_m`, m.
-    Amplitude1M,
-    /// `body_2.surface.amplitude_m`, m.
-    Amplitude2M,
-    /// `motion.entrainment_m_s`, m/s.
-    EntrainmentMS,
-    /// `load.force_n_per_m`, N/m: the load of a line.
-    ForceNPerM,
-}
+const WHERE: [&Quantity; Knob::ALL.len()] = {
+    let mut all = [named("step"); Knob::ALL.len()];
+    let mut k = 0;
+    while k < all.len() {
+        all[k] = named(Knob::ALL[k].line().quantity);
+        k += 1;
+    }
+    all
+};
+
+const WHERE_TO: [Option<&Quantity>; Knob::ALL.len()] = {
+    let mut all = [None; Knob::ALL.len()];
+    let mut k = 0;
+    while k < all.len() {
+        if let Some(name) = Knob::ALL[k].line().target {
+            all[k] = Some(named(name));
+        }
+        k += 1;
+    }
+    all
+};
 
 impl Knob {
-    /// Every knob.
-    pub const ALL: [Self; 6] = [
-        Self::SlideRoll,
-        Self::ForceN,
-        Self::Amplitude1M,
-        Self::Amplitude2M,
-        Self::EntrainmentMS,
-        Self::ForceNPerM,
-    ];
-
-    /// The scene key that this knob turns.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::SlideRoll => "motion.slide_roll",
-            Self::ForceN => "load.force_n",
-            Self::Amplitude1M => "body_1.surface.amplitude_m",
-            Self::Amplitude2M => "body_2.surface.amplitude_m",
-            Self::EntrainmentMS => "motion.entrainment_m_s",
-            Self::ForceNPerM => "load.force_n_per_m",
-        }
-    }
-
-    /// What it turns, as the catalogue has it.
+    /// Where it is.
     pub fn quantity(self) -> &'static Quantity {
-        match self {
-            Self::SlideRoll => const { named("slide_roll") },
-            Self::ForceN | Self::ForceNPerM => const { named("load_n") },
-            Self::Amplitude1M => const { named("amplitude_1_m") },
-            Self::Amplitude2M => const { named("amplitude_2_m") },
-            Self::EntrainmentMS => const { named("entrainment_m_s") },
-        }
+        WHERE[self as usize]
     }
 
-    /// The knob with that scene key.
-    pub fn from_key(key: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|knob| knob.key() == key)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::keys;
-
-    #[test]
-    fn knobs_are_the_keys_that_scenes_may_script() {
-        let keys: Vec<_> = Knob::ALL.iter().map(|knob| knob.key()).collect();
-        assert_eq!(keys, keys::KNOB_KEYS);
-        for knob in Knob::ALL {
-            assert!(keys::find(knob.key()).is_some());
-            assert_eq!(Knob::from_key(knob.key()), Some(knob));
-        }
+    /// Where it is going, if frames tell.
+    pub fn target_quantity(self) -> Option<&'static Quantity> {
+        WHERE_TO[self as usize]
     }
 }

@@ -34,13 +34,13 @@ mod variant;
 mod work;
 mod yielded;
 
+pub use crate::scene::Knob;
 pub use caution::{Caution, CautionCode};
 pub use error::{SimError, StepError, Unsolved};
 pub use estimates::{LifeDetail, LifeEstimate, MeshErrors, Repeat, Rhythm};
 pub use fields::{DamageBlock, Follow, MaterialPoint, PassedPeak, StressPlane, StressSlice};
 pub use frame::{CATALOGUE, Dimension, Frame, Metrics, Over, Quantity, Reading, Stage, named};
 pub use grounds::Grounds;
-pub use knob::Knob;
 pub use lubrication::LubricationRegime;
 pub use simulation::Simulation;
 pub use state::State;

@@ -8,10 +8,10 @@
 //! one that is turned up leaves it again: pressure, film and history are the same fields in both.
 
 use super::drive::Drive;
-use super::knob::Knob;
 use super::sim_plan::SimPlan;
 use super::smooth::Conditions;
 use crate::plan::FilmPlan;
+use crate::scene::Knob;
 use crate::scene::Order;
 use crate::solve::march::Flow;
 use crate::solve::newton::Tolerance;

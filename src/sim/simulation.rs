@@ -264,12 +264,12 @@ impl Simulation {
             value,
             allowed,
         };
-        if let Some(key) = crate::scene::keys::find(knob.key())
+        if let Some(key) = knob.scene_key()
             && !key.kind.takes(value)
         {
             return Err(refuse(key.allowed()));
         }
-        if matches!(knob, Knob::ForceN | Knob::ForceNPerM) && knob != self.plan.door.load_knob() {
+        if knob.is_load() && knob != self.plan.door.load_knob() {
             return Err(refuse(format!(
                 "{} in this kind of contact",
                 self.plan.door.load_knob().key()
@@ -296,12 +296,10 @@ impl Simulation {
                 "at most {most:.4e} in this domain: a greater contact would reach its edge (grid.x_min_a, grid.x_max_a and grid.y_half_a widen it; a load that an event of the scene sets is foreseen)"
             )));
         }
-        let body = match knob {
-            Knob::Amplitude1M => Some(0),
-            Knob::Amplitude2M => Some(1),
-            _ => None,
-        };
-        if body.is_some_and(|body| !self.work.terrain.is_rough(body)) {
+        if knob
+            .body()
+            .is_some_and(|body| !self.work.terrain.is_rough(body))
+        {
             return Err(refuse(
                 "this body is smooth: give it a surface in the scene".to_owned(),
             ));

@@ -22,8 +22,6 @@ use super::totals::Totals;
 use super::work::Work;
 use super::yielded::Yielded;
 use super::{Knob, MeshErrors, Metrics};
-use crate::plan::Plan;
-use crate::scene::Scene;
 use crate::solve::march;
 
 /// Where the run is.
@@ -92,7 +90,13 @@ impl State {
             spec.laws = life.as_ref().map(|life| life.laws.clone());
             Counting::new(&fine, stress.depths(), &spec)
         });
-        let wanted = Drive::new(|knob| initial(scene, decided, knob));
+        let wanted = Drive::new(|knob| {
+            let value = match knob {
+                Knob::EntrainmentMS => knob.of(scene).abs(),
+                _ => knob.of(scene),
+            };
+            (value, knob.line().ramp.rate(value))
+        });
         let repeats = [0, 1].map(|body: usize| work.terrain.repeat(body));
         let yields = plan.hardness.is_finite();
         Self {
@@ -137,21 +141,5 @@ impl State {
         if let Some(life) = &mut self.life {
             life.make_room();
         }
-    }
-}
-
-/// A knob as the scene wants it, and how fast it walks.
-fn initial(scene: &Scene, plan: &Plan, knob: Knob) -> (f64, f64) {
-    let amplitude = |m: f64| (m, m.max(1e-7));
-    match knob {
-        Knob::SlideRoll => (scene.motion.slide_roll, 1.0),
-        // The one that is not this kind's stays at rest.
-        Knob::ForceN | Knob::ForceNPerM => (plan.force_n, 0.5 * plan.force_n),
-        Knob::Amplitude1M => amplitude(scene.body_1.surface.amplitude_m()),
-        Knob::Amplitude2M => amplitude(scene.body_2.surface.amplitude_m()),
-        Knob::EntrainmentMS => (
-            scene.motion.entrainment_m_s.abs(),
-            0.5 * scene.motion.entrainment_m_s.abs(),
-        ),
     }
 }

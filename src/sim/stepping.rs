@@ -12,13 +12,13 @@
 use super::door::Door;
 use super::drive::Drive;
 use super::frame::Metrics;
-use super::knob::Knob;
 use super::motion::Motion;
 use super::pace::{Judgement, Stepping};
 use super::sim_plan::SimPlan;
 use super::terrain::Terrain;
 use super::yielded::Yielded;
 use super::{StepError, Unsolved};
+use crate::scene::Knob;
 use crate::solve::march::{Conditions, Flow, Guess, Solver, State};
 use crate::solve::newton::{NewtonReport, Verdict};
 
@@ -157,7 +157,7 @@ pub(super) fn place_surfaces(
 
 /// Amplitudes of both bodies as the knobs are, film units.
 fn amplitudes(door: &Door, drive: &Drive) -> [f64; 2] {
-    [Knob::Amplitude1M, Knob::Amplitude2M].map(|knob| door.h_from_m(drive.get(knob).now))
+    Knob::AMPLITUDES.map(|knob| door.h_from_m(drive.get(knob).now))
 }
 
 /// Everything that a step moves.

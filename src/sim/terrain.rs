@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::door::Heading;
 use super::motion::Way;
 use crate::math::grid::Grid;
-use crate::physics::height_map::{Beyond, HeightMap};
+use crate::physics::height_map::{HeightMap, MapEdges};
 use crate::scene::Surface;
 
 /// One plane wave of a surface.
@@ -108,7 +108,7 @@ impl Terrain {
         let [one, two] = self.wavenumbers(body).map(f64::abs);
         let repeats = match self.reliefs[body].as_ref()? {
             Relief::Waves(_) => one == two,
-            Relief::Map(drawn) => drawn.map.beyond() == Beyond::Repeated,
+            Relief::Map(drawn) => drawn.map.beyond() == MapEdges::Repeated,
         };
         // 2π/0 is a wave without end.
         repeats.then(|| std::f64::consts::TAU / one)
@@ -156,8 +156,8 @@ impl GriddedMap {
     /// Of the map's length, rad/a; 0: it comes once.
     fn wavenumber(&self) -> f64 {
         match self.map.beyond() {
-            Beyond::Repeated => std::f64::consts::TAU / (self.pixel.abs() * self.map.nx() as f64),
-            Beyond::Nothing => 0.0,
+            MapEdges::Repeated => std::f64::consts::TAU / (self.pixel.abs() * self.map.nx() as f64),
+            MapEdges::Nothing => 0.0,
         }
     }
 
@@ -172,9 +172,9 @@ impl GriddedMap {
             map.row_into(grid.y(j) / pixel_y, row);
         }
         let start = match map.beyond() {
-            Beyond::Repeated => 0.0,
+            MapEdges::Repeated => 0.0,
             // Its downstream edge, and the reach of the interpolation, at the inlet.
-            Beyond::Nothing => {
+            MapEdges::Nothing => {
                 start.unwrap_or(grid.x_min - (0.5 * (map.nx() - 1) as f64 + 2.0) * pixel_y)
             }
         };
@@ -189,8 +189,8 @@ impl GriddedMap {
 
     fn heights(&mut self, grid: &Grid, way: Way, amplitude: f64, out: &mut [f64]) {
         let way = match self.map.beyond() {
-            Beyond::Repeated => Some(way.travelled),
-            Beyond::Nothing => way.in_passage,
+            MapEdges::Repeated => Some(way.travelled),
+            MapEdges::Nothing => way.in_passage,
         };
         let Some(way) = way else {
             out.fill(0.0);
@@ -319,7 +319,7 @@ mod tests {
                 1e-7 * ((x * x + 3 * y) % 7) as f64
             })
             .collect();
-        for (beyond, travelled) in [(Beyond::Repeated, 0.4), (Beyond::Nothing, 0.9)] {
+        for (beyond, travelled) in [(MapEdges::Repeated, 0.4), (MapEdges::Nothing, 0.9)] {
             let map = Arc::new(HeightMap::new(n, &heights, beyond).expect("it has heights"));
             let surface = Surface::HeightMap {
                 file: String::new(),
@@ -341,7 +341,7 @@ mod tests {
                 travelled: 0.4,
                 in_passage: Some(0.9),
             };
-            let start = if beyond == Beyond::Repeated {
+            let start = if beyond == MapEdges::Repeated {
                 0.0
             } else {
                 -0.5
@@ -362,7 +362,7 @@ mod tests {
             };
             terrain.place(&grid, 1, before, 0.02);
             let is_flat = terrain.heights[1].iter().all(|&z| z == 0.0);
-            assert_eq!(is_flat, beyond == Beyond::Nothing);
+            assert_eq!(is_flat, beyond == MapEdges::Nothing);
         }
     }
 }

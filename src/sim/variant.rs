@@ -10,7 +10,7 @@ use crate::physics::fatigue::LifeLaw;
 use crate::physics::life_models::LifeEquation;
 use crate::scene::{Life, LifeModel, Spread, VolumeIntegral};
 use crate::solve::critical::shares_of_slice;
-use crate::solve::life::{LifeMeter, Shares, Sweep, Window};
+use crate::solve::life::{LifeMeter, Shares, SweptRows, Window};
 use crate::solve::stress::{Loading, StressLaw};
 
 /// A model with its accumulators: plain data, all of it state.
@@ -38,7 +38,7 @@ pub(super) struct Variant {
 pub(super) struct Shared<'a> {
     pub(super) law: LifeLaw,
     pub(super) laws: &'a [StressLaw],
-    pub(super) sweep: &'a Sweep,
+    pub(super) sweep: &'a SweptRows,
     pub(super) scratch: Shares,
 }
 

@@ -78,7 +78,7 @@ struct FluidityRun<'a> {
 
 /// Way of a pressure flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum FlowDirection {
     /// Between neighbours along x.
     Along,
     /// Between neighbours along y.
@@ -154,9 +154,9 @@ impl Fluidity {
         }
     }
 
-    fn of(&self, way: Way) -> &Fluidities {
+    fn of(&self, way: FlowDirection) -> &Fluidities {
         match (way, &self.across) {
-            (Way::Across, Some(across)) if self.is_directed => across,
+            (FlowDirection::Across, Some(across)) if self.is_directed => across,
             _ => &self.along,
         }
     }
@@ -164,7 +164,7 @@ impl Fluidity {
     /// What faces need of the nodes in `range`; `q` is ρ̄H³ of all nodes.
     pub(super) fn nodes<'a>(
         &'a self,
-        way: Way,
+        way: FlowDirection,
         q: &'a [f64],
         range: std::ops::Range<usize>,
     ) -> Nodes<'a> {
@@ -191,7 +191,7 @@ impl Fluidity {
     /// What their derivatives need; `q_p` and `q_h` are those of ρ̄H³ of all nodes.
     pub(super) fn slopes<'a>(
         &'a self,
-        way: Way,
+        way: FlowDirection,
         (q_p, q_h): (&'a [f64], &'a [f64]),
         range: std::ops::Range<usize>,
     ) -> Slopes<'a> {

@@ -273,11 +273,11 @@ impl LifeMeter {
 
 /// The greatest of every row, or of every depth, over all samples since the last restart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Sweep {
+pub struct SweptRows {
     tops: [Vec<f32>; 4],
 }
 
-impl Sweep {
+impl SweptRows {
     /// Of `rows` rows.
     pub fn new(rows: usize) -> Self {
         Self {
@@ -473,7 +473,7 @@ mod tests {
 
     #[test]
     fn a_sweep_keeps_the_greatest() {
-        let mut sweep = Sweep::new(3);
+        let mut sweep = SweptRows::new(3);
         sweep.push(FULL, &[1.0, 5.0, 2.0]);
         sweep.push(FULL, &[3.0, 4.0, 0.0]);
         assert_eq!(sweep.of(FULL), [3.0, 5.0, 2.0]);

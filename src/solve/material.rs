@@ -44,10 +44,10 @@ use serde::{Deserialize, Serialize};
 
 pub use self::spec::TrackerSpec;
 pub use super::axis::Line;
+use super::cycle_count::{Crossing, CrossingHistory};
+pub use super::cycle_count::{CycleCount, DamageBasis};
 use super::damage::DamageMap;
-use super::tally::{Crossing, History};
-pub use super::tally::{DamageBasis, Tally};
-use crate::physics::turning::{Peak, Peaks};
+use crate::physics::turning::{PassedMaximum, Peaks};
 
 /// Fraction of the golden section: multiples of it, modulo 1, spread evenly and never fall into step with
 /// the ripples, as equal spacing may.
@@ -59,17 +59,17 @@ struct TrackedPoint {
     crossing: Crossing,
     /// Place on the body, a: does not change during a crossing.
     place: f64,
-    pressure: History,
+    pressure: CrossingHistory,
     /// Of the pressure, as they pass.
     peaks: Peaks,
-    shear: Vec<History>,
-    effective: Vec<History>,
+    shear: Vec<CrossingHistory>,
+    effective: Vec<CrossingHistory>,
 }
 
 impl TrackedPoint {
     /// Whether a point that was saved is of the same make as this one.
     fn fits(&self, saved: &Self) -> bool {
-        let all = |own: &[History], saved: &[History]| {
+        let all = |own: &[CrossingHistory], saved: &[CrossingHistory]| {
             own.len() == saved.len() && own.iter().zip(saved).all(|(own, saved)| own.fits(saved))
         };
         self.pressure.fits(&saved.pressure)
@@ -77,7 +77,7 @@ impl TrackedPoint {
             && all(&self.effective, &saved.effective)
     }
 
-    fn histories(&mut self) -> impl Iterator<Item = &mut History> {
+    fn histories(&mut self) -> impl Iterator<Item = &mut CrossingHistory> {
         std::iter::once(&mut self.pressure)
             .chain(&mut self.shear)
             .chain(&mut self.effective)
@@ -96,7 +96,7 @@ pub struct Sample {
     /// Peaks of the pressure passed so far in this crossing: each closes one cycle.
     pub peaks: u32,
     /// The last of them.
-    pub last_peak: Option<Peak>,
+    pub last_peak: Option<PassedMaximum>,
     /// Closed cycles of the pressure in its last whole crossing.
     pub closed_before: Option<f64>,
 }
@@ -127,12 +127,18 @@ impl MaterialTracker {
     pub fn new(spec: TrackerSpec) -> Self {
         let length = spec.x_last - spec.x_first;
         let count = spec.points.max(1);
-        let below = |gate: f64, basis: DamageBasis| History::new(gate, basis, History::OPEN_BELOW);
+        let below = |gate: f64, basis: DamageBasis| {
+            CrossingHistory::new(gate, basis, CrossingHistory::OPEN_BELOW)
+        };
         let point = |i: usize| TrackedPoint {
             x: spec.x_first + length * (GOLDEN * i as f64).fract(),
             crossing: Crossing::New,
             place: 0.0,
-            pressure: History::new(spec.pressure_gate, DamageBasis::Ranges, History::OPEN),
+            pressure: CrossingHistory::new(
+                spec.pressure_gate,
+                DamageBasis::Ranges,
+                CrossingHistory::OPEN,
+            ),
             peaks: Peaks::new(spec.pressure_gate),
             // Each made anew: a clone would not have the room.
             shear: (0..spec.depths)
@@ -163,7 +169,7 @@ impl MaterialTracker {
         self.points
             .iter_mut()
             .flat_map(TrackedPoint::histories)
-            .for_each(History::make_room);
+            .for_each(CrossingHistory::make_room);
         let room = self.spec.trace.max(1).saturating_sub(self.trace.len());
         self.trace.reserve_exact(room);
     }
@@ -257,11 +263,11 @@ impl MaterialTracker {
                 history.end(exponent, crossing);
             }
             for (ended, history) in self.ended.iter_mut().zip(&point.shear) {
-                *ended += history.tally.small_damage(exponent);
+                *ended += history.cycles.small_damage(exponent);
             }
             if crossing == Crossing::Whole {
                 for (greatest, history) in self.greatest.iter_mut().zip(&point.shear) {
-                    *greatest += history.tally.range.powf(exponent);
+                    *greatest += history.cycles.range.powf(exponent);
                 }
             }
             for history in point.histories() {
@@ -334,7 +340,7 @@ impl MaterialTracker {
             tau_xz: line.shear_at(self.spec.shown_depth, point.x),
             peaks: point.peaks.passed(),
             last_peak: point.peaks.last(),
-            closed_before: point.pressure.last.map(|tally| tally.count),
+            closed_before: point.pressure.last.map(|cycles| cycles.count),
         }
     }
 
@@ -361,13 +367,6 @@ impl MaterialTracker {
             .iter()
             .filter(|p| p.pressure.last.is_some())
             .count()
-    }
-
-    /// Mean cycles of pressure that the points have seen so far in their present crossing: for a body
-    /// that stands, whose crossing never ends, this over the time is its rate.
-    pub fn open_cycles(&self) -> f64 {
-        let sum: f64 = self.points.iter().map(|p| p.pressure.tally.count).sum();
-        sum / self.points.len() as f64
     }
 }
 
@@ -400,9 +399,9 @@ mod tests {
             for _ in 0..400 {
                 tracker.step(travel, &line);
             }
-            let tally = tracker.pressure_cycles().expect("crossings finished");
-            assert_eq!((tally.count, tracker.phases()), (1.0, 16));
-            assert!((tally.equivalent - 1.0).abs() < 1e-12);
+            let cycles = tracker.pressure_cycles().expect("crossings finished");
+            assert_eq!((cycles.count, tracker.phases()), (1.0, 16));
+            assert!((cycles.equivalent - 1.0).abs() < 1e-12);
         }
     }
 
@@ -446,9 +445,12 @@ mod tests {
             };
             tracker.step(0.0, &line);
         }
-        println!("100 crests over a standing body: {}", tracker.open_cycles());
+        // Mean cycles of pressure so far in the present crossing, which never ends.
+        let counts = tracker.points.iter().map(|p| p.pressure.cycles.count);
+        let open = counts.sum::<f64>() / tracker.points.len() as f64;
+        println!("100 crests over a standing body: {open}");
         assert!(tracker.pressure_cycles().is_none());
-        assert!((tracker.open_cycles() - 100.0).abs() <= 1.5);
+        assert!((open - 100.0).abs() <= 1.5);
     }
 
     #[test]

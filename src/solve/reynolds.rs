@@ -29,7 +29,7 @@ pub use deferred::Guessed;
 pub use linearise::Linearisation;
 
 use super::faces::{Faces, conductances};
-use super::fluidity::{Fluidity, Way};
+use super::fluidity::{FlowDirection, Fluidity};
 use super::jacobian::Jacobian;
 pub use super::medium::Medium;
 use super::reynolds_rows::{balance_row, density_values, finish_row};
@@ -141,16 +141,16 @@ impl Reynolds {
             .with_min_len(ROWS)
             .for_each(|(j, (east, north))| {
                 let nodes = |way, range| this.fluidity.nodes(way, &this.q, range);
-                let a = nodes(Way::Along, j * nx..(j + 1) * nx - 1);
-                let b = nodes(Way::Along, j * nx + 1..(j + 1) * nx);
+                let a = nodes(FlowDirection::Along, j * nx..(j + 1) * nx - 1);
+                let b = nodes(FlowDirection::Along, j * nx + 1..(j + 1) * nx);
                 let out = &mut east[..nx - 1];
                 conductances(a.q, a.g, a.ln_g, b.q, b.g, b.ln_g, 1.0 / lambda, out);
                 if let Some(steep) = this.fluidity.steep((p, h), j * nx, nx - 1) {
                     steep.lessen(out);
                 }
                 if j + 1 < grid.ny {
-                    let a = nodes(Way::Across, j * nx..(j + 1) * nx);
-                    let b = nodes(Way::Across, (j + 1) * nx..(j + 2) * nx);
+                    let a = nodes(FlowDirection::Across, j * nx..(j + 1) * nx);
+                    let b = nodes(FlowDirection::Across, (j + 1) * nx..(j + 2) * nx);
                     conductances(a.q, a.g, a.ln_g, b.q, b.g, b.ln_g, 1.0 / lambda, north);
                 }
             });

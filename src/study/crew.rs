@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 
-use super::Progress;
+use super::StudyProgress;
 
 /// Does `work` on every case, `workers` at a time. Each case is done by one worker alone, so that results do
 /// not depend on their number.
@@ -13,7 +13,7 @@ pub(super) fn share_out<C: Sync, R: Send>(
     workers: usize,
     name: impl Fn(&C) -> String + Sync,
     work: impl Fn(&C) -> R + Sync,
-    progress: &mut Progress,
+    progress: &mut StudyProgress,
 ) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<(usize, R)>> = Mutex::new(Vec::with_capacity(cases.len()));

@@ -10,7 +10,7 @@ mod table;
 
 pub use machine::machine;
 pub use scaling::{ScalingRow, scaling, scaling_text};
-pub use table::{Table, figure};
+pub use table::{MarkdownTable, figure};
 
 use thiserror::Error;
 
@@ -26,7 +26,7 @@ pub enum Extent {
 }
 
 /// Hears the name of what is done next, how many are done, and how many there are.
-pub type Progress<'a> = dyn FnMut(&str, usize, usize) + 'a;
+pub type StudyProgress<'a> = dyn FnMut(&str, usize, usize) + 'a;
 
 /// A study that could not be done.
 #[derive(Debug, Clone, Error)]

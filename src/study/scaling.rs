@@ -13,7 +13,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use super::{Extent, Progress, StudyError, refuse_nothing};
+use super::{Extent, StudyError, StudyProgress, refuse_nothing};
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
 use crate::plan::Plan;
@@ -135,7 +135,7 @@ fn cases(extent: Extent) -> Vec<ScalingCase> {
 pub fn scaling(
     extent: Extent,
     only: Option<&str>,
-    progress: &mut Progress,
+    progress: &mut StudyProgress,
 ) -> Result<Vec<ScalingRow>, StudyError> {
     let mut cases = cases(extent);
     cases.retain(|case| only.is_none_or(|part| case.title().contains(part)));

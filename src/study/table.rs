@@ -1,15 +1,20 @@
 //! A table of results: once as Markdown for people, once as CSV for other programs.
+//!
+//! Markdown is eleven lines here. `comfy-table`, which the recorder brings, sets columns in line: every report would be
+//! written anew by a longer cell, and it keeps bars in cells as they are.
+
+use crate::observe::cells::csv_line;
 
 /// Columns and rows of text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Table {
+pub struct MarkdownTable {
     /// Names of the columns.
     pub columns: Vec<&'static str>,
     /// Rows, each as long as the columns.
     pub rows: Vec<Vec<String>>,
 }
 
-impl Table {
+impl MarkdownTable {
     /// A table without rows.
     pub fn new(columns: &[&'static str]) -> Self {
         Self {
@@ -33,17 +38,9 @@ impl Table {
 
     /// As CSV, the names in the first line.
     pub fn csv(&self) -> String {
-        let quoted = |cell: &str| {
-            if cell.contains([',', '"', '\n']) {
-                format!("\"{}\"", cell.replace('"', "\"\""))
-            } else {
-                cell.to_owned()
-            }
-        };
-        let line = |cells: Vec<String>| format!("{}\n", cells.join(","));
-        let mut text = line(self.columns.iter().map(|name| quoted(name)).collect());
+        let mut text = csv_line(&self.columns);
         for row in &self.rows {
-            text.push_str(&line(row.iter().map(|cell| quoted(cell)).collect()));
+            text.push_str(&csv_line(row));
         }
         text
     }
@@ -72,7 +69,7 @@ mod tests {
 
     #[test]
     fn cells_with_commas_and_bars_survive() {
-        let table = Table {
+        let table = MarkdownTable {
             columns: vec!["case", "says"],
             rows: vec![vec!["a, b".to_owned(), "x | \"y\"".to_owned()]],
         };

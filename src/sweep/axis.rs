@@ -7,28 +7,24 @@
 
 use toml::Value;
 
-use crate::scene::{SceneError, keys};
+use crate::scene::{Knob, SceneError, keys};
 
 /// Most cases of one sweep.
 pub const MOST_CASES: usize = 1_000_000;
 
 /// A varied key.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
+pub struct VariedKey {
     /// Key of the scene, such as `motion.slide_roll`.
     pub key: String,
     /// Its values in the order of the cases.
     pub values: Vec<Value>,
 }
 
-/// Keys in which neighbouring cases may differ for one to start from the other's end.
-pub const WARM_KEYS: [&str; 3] = [
-    "body_1.surface.amplitude_m",
-    "body_2.surface.amplitude_m",
-    "motion.slide_roll",
-];
+/// Knobs in which neighbouring cases may differ for one to start from the other's end.
+pub const WARM: [Knob; 3] = Knob::OF_ROUGHNESS_AND_SLIDING;
 
-impl Axis {
+impl VariedKey {
     /// The key's unit, empty for pure numbers and words.
     pub fn unit(&self) -> &'static str {
         keys::find(&self.key).map_or("", |key| key.unit)
@@ -49,7 +45,7 @@ impl Axis {
 
     /// Whether neighbours along this axis may start from each other.
     pub fn is_warm(&self) -> bool {
-        WARM_KEYS.contains(&&*self.key)
+        WARM.iter().any(|knob| knob.key() == self.key)
     }
 
     /// Reads what stands under `[vary]` for a key.
@@ -186,9 +182,9 @@ fn whole(full: &str, value: f64) -> Result<Value, SceneError> {
 mod tests {
     use super::*;
 
-    fn axis(text: &str) -> Result<Axis, SceneError> {
+    fn axis(text: &str) -> Result<VariedKey, SceneError> {
         let table: toml::Table = format!("v = {text}").parse().unwrap();
-        Axis::read("motion.slide_roll", &table["v"])
+        VariedKey::read("motion.slide_roll", &table["v"])
     }
 
     #[test]

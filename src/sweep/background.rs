@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::case::{self, Began, CaseEnd, CaseRecord, Ran, Watch};
+use super::case::{self, CaseEnd, CaseRecord, CaseStart, Ran, Watch};
 use super::run::case_of;
 use super::spec::ChainKeys;
 use crate::plan::Plan;
@@ -57,7 +57,7 @@ impl Along {
 
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Order {
+pub struct CurveOrder {
     /// What varies.
     pub along: Along,
     /// Its values, in any order.
@@ -77,7 +77,7 @@ pub struct Ground {
 
 /// Where a life, a friction coefficient belongs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Conditions {
+pub struct CurvePoint {
     /// S.
     pub slide_roll: f64,
     /// Entrainment speed, m/s.
@@ -92,9 +92,9 @@ pub struct Conditions {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
     /// Where.
-    pub at: Conditions,
+    pub at: CurvePoint,
     /// From Hertz, or from a neighbour.
-    pub began: Began,
+    pub began: CaseStart,
     /// Relative life with its band: low, value, high. `None`: the scene computes none.
     pub life: Option<[f64; 3]>,
     /// Friction coefficient.
@@ -115,8 +115,8 @@ pub struct Background {
 
 impl Background {
     /// Starts `workers` threads; values next to the run's own come first.
-    pub fn start(ground: Ground, order: Order, workers: usize) -> Self {
-        let Order {
+    pub fn start(ground: Ground, order: CurveOrder, workers: usize) -> Self {
+        let CurveOrder {
             along,
             mut values,
             scene,
@@ -261,7 +261,7 @@ fn found(scene: &Scene, record: &CaseRecord) -> Found {
     let summary = &record.summary;
     let band = summary.life_relative_low.zip(summary.life_relative_high);
     Found {
-        at: Conditions {
+        at: CurvePoint {
             slide_roll: scene.motion.slide_roll,
             entrainment_m_s: scene.motion.entrainment_m_s,
             load_n: summary.load_n,

@@ -13,7 +13,7 @@ use crate::sim::{SimError, Simulation, State, Summary};
 /// How a case began.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Began {
+pub enum CaseStart {
     /// From Hertz.
     Cold,
     /// From the end of the case before.
@@ -38,7 +38,7 @@ pub struct CaseRecord {
     /// Number of the case, from 0.
     pub index: usize,
     /// How it began.
-    pub began: Began,
+    pub began: CaseStart,
     /// How it ended.
     pub end: CaseEnd,
     /// What went wrong, in words.
@@ -204,20 +204,20 @@ fn begin(
     plan: &Plan,
     neighbour: Option<&State>,
     threads: usize,
-) -> Result<(Simulation, Began), SimError> {
+) -> Result<(Simulation, CaseStart), SimError> {
     let mut sim = Simulation::new(scene, plan.clone(), threads)?;
     let Some(neighbour) = neighbour else {
-        return Ok((sim, Began::Cold));
+        return Ok((sim, CaseStart::Cold));
     };
     sim.follow(neighbour)?;
-    Ok((sim, Began::Warm))
+    Ok((sim, CaseStart::Warm))
 }
 
 fn blank(index: usize, plan: &Plan) -> CaseRecord {
     let film = plan.film.as_ref();
     CaseRecord {
         index,
-        began: Began::Cold,
+        began: CaseStart::Cold,
         end: CaseEnd::Converged,
         failure: None,
         seconds: 0.0,

@@ -11,7 +11,7 @@
 
 use std::ops::Range;
 
-use super::axis::Axis;
+use super::axis::VariedKey;
 use super::spec::{Combine, Sweep};
 
 /// A part of a sweep: i of n, from 1.
@@ -72,7 +72,7 @@ impl Sweep {
             Combine::Grid => from + 1,
             Combine::List => {
                 let cold = || self.axes.iter().filter(|axis| !axis.is_warm());
-                let same = |axis: &Axis, k: usize| axis.values[k] == axis.values[k - 1];
+                let same = |axis: &VariedKey, k: usize| axis.values[k] == axis.values[k - 1];
                 (from + 1..self.len())
                     .find(|k| cold().any(|axis| !same(axis, *k)))
                     .unwrap_or(self.len())

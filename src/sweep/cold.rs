@@ -16,7 +16,7 @@ use crate::plan::Plan;
 
 /// A sweep against its cases run cold.
 #[derive(Debug, Clone)]
-pub struct Against {
+pub struct ColdComparison {
     /// Seconds of all cases of the sweep, added.
     pub sweep_s: f64,
     /// Same of the cold cases.
@@ -29,7 +29,7 @@ pub struct Against {
     pub ratios: Vec<[f64; 2]>,
 }
 
-impl Against {
+impl ColdComparison {
     /// Greatest departure of a ratio from 1; 0 where there is none.
     pub fn worst(&self, k: usize) -> f64 {
         let off = |ratio: &[f64; 2]| (ratio[k] - 1.0).abs();
@@ -66,7 +66,7 @@ pub fn against_cold(
     rows: &Rows,
     threads: usize,
     progress: &Progress,
-) -> Result<Option<Against>, SweepError> {
+) -> Result<Option<ColdComparison>, SweepError> {
     let mut cases = Vec::new();
     for index in 0..sweep.len() {
         let scene = sweep.scene(index)?;
@@ -112,7 +112,7 @@ pub fn against_cold(
         warm.zip(cold).map_or(f64::NAN, |(warm, cold)| warm / cold)
     };
     let pairs = rows.records.iter().zip(&cold);
-    Ok(Some(Against {
+    Ok(Some(ColdComparison {
         sweep_s: rows.records.iter().map(|record| record.seconds).sum(),
         cold_s: cold.iter().map(|record| record.seconds).sum(),
         sweep_ffts: transforms(&rows.records),

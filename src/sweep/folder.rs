@@ -26,7 +26,7 @@ use crate::files::{fnv, publish, sync_file};
 use crate::run::Checkpoint;
 use crate::scene::Scene;
 use crate::sim::{State, Stats};
-use mark::{Company, Lock, MARK, Mark, TEMPORARY};
+use mark::{Company, FolderMark, Lock, MARK, TEMPORARY};
 
 const MAGIC: &str = "asperity case 1 ";
 
@@ -45,7 +45,7 @@ pub enum Existing {
 #[derive(Debug, Clone)]
 pub struct Folder {
     root: PathBuf,
-    mark: Mark,
+    mark: FolderMark,
     lock: Lock,
 }
 
@@ -57,7 +57,7 @@ impl Folder {
     /// be written.
     pub fn create(root: &Path, sweep: &Sweep, existing: Existing) -> Result<Self, SweepError> {
         std::fs::create_dir_all(root).map_err(|e| SweepError::folder(root, e))?;
-        let mark = Mark::new(sweep.digest());
+        let mark = FolderMark::new(sweep.digest());
         let found = mark::seen(root)?;
         let is_same = found.as_ref() == Some(&mark);
         refuse(root, &mark, found.as_ref(), existing)?;
@@ -108,7 +108,7 @@ impl Folder {
     /// # Errors
     /// [`SweepError::Folder`] when it is none of this sweep.
     pub fn open(root: &Path, sweep: &Sweep) -> Result<Self, SweepError> {
-        let found = Mark::read(root);
+        let found = FolderMark::read(root);
         let mark = found.ok_or_else(|| SweepError::folder(root, "no sweep has marked it"))?;
         if mark.digest != sweep.digest() {
             return Err(SweepError::folder(root, "holds cases of another sweep"));
@@ -263,8 +263,8 @@ impl Folder {
 /// Whether a sweep may work in a folder.
 fn refuse(
     root: &Path,
-    mark: &Mark,
-    found: Option<&Mark>,
+    mark: &FolderMark,
+    found: Option<&FolderMark>,
     existing: Existing,
 ) -> Result<(), SweepError> {
     let refused = |reason: &str| Err(SweepError::folder(root, reason));

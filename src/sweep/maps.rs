@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::axis::Axis;
+use super::axis::VariedKey;
 use crate::files::{fnv, read_up_to};
 use crate::scene::keys;
 use crate::scene::presets::BUILTIN;
@@ -13,7 +13,7 @@ use crate::scene::presets::BUILTIN;
 const LONGEST_MAP: u64 = 64 << 20;
 
 /// The height maps that a sweep names outside of its scene.
-pub(super) fn files(set_text: &[String], axes: &[Axis]) -> Vec<PathBuf> {
+pub(super) fn files(set_text: &[String], axes: &[VariedKey]) -> Vec<PathBuf> {
     let set_values = set_text.iter().filter_map(|text| text.split_once('='));
     let set_files = set_values
         .filter(|(key, _)| is_map(key))

@@ -31,18 +31,18 @@ mod spec;
 mod table;
 mod window;
 
-pub use axis::{Axis, MOST_CASES, WARM_KEYS};
-pub use background::{Along, Background, Conditions, Found, Ground, Order};
-pub use case::{Began, CaseEnd, CaseRecord};
+pub use axis::{MOST_CASES, VariedKey, WARM};
+pub use background::{Along, Background, CurveOrder, CurvePoint, Found, Ground};
+pub use case::{CaseEnd, CaseRecord, CaseStart};
 pub use chain::Shard;
-pub use cold::{Against, against_cold};
+pub use cold::{ColdComparison, against_cold};
 #[cfg(feature = "parquet")]
 pub use columns::parquet_table;
 pub use error::SweepError;
 pub use folder::{Existing, Folder};
 pub use path::PathPoint;
 pub use plots::draw;
-pub use points::points_csv;
+pub use points::{points, points_csv};
 pub use presets::{SweepPreset, all as presets, names as preset_names};
 pub use run::{Progress, Report, cost, run};
 pub use spec::{ChainKeys, Combine, Sweep};

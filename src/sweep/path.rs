@@ -25,7 +25,7 @@ use std::f64::consts::PI;
 
 use toml::{Table, Value};
 
-use super::axis::{Axis, shown};
+use super::axis::{VariedKey, shown};
 use super::path_keys::Keys;
 use crate::physics::gear::{GearPair, LoadSharing};
 use crate::physics::race_and_cam::{BallRace, FlatFollower};
@@ -52,7 +52,7 @@ pub(super) fn column(points: &[PathPoint], name: &str) -> Option<Vec<f64>> {
 
 /// The axes and points of a path.
 pub(super) struct Path {
-    pub(super) axes: Vec<Axis>,
+    pub(super) axes: Vec<VariedKey>,
     pub(super) points: Vec<PathPoint>,
 }
 
@@ -83,7 +83,7 @@ pub(super) fn read(kind: &str, table: &Table, scene: &Scene) -> Result<Path, Sce
         _ => cam(&keys)?,
     };
     let names: Vec<&str> = stops[0].keys.iter().map(|(name, _)| *name).collect();
-    let axes = names.iter().enumerate().map(|(k, name)| Axis {
+    let axes = names.iter().enumerate().map(|(k, name)| VariedKey {
         key: (*name).to_owned(),
         values: stops
             .iter()

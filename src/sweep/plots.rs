@@ -9,12 +9,13 @@
 //!
 //! Each is written as SVG and as PNG. Several axes make one curve for each combination of the others, at most eight.
 
-use super::axis::{Axis, shown};
+use super::axis::{VariedKey, shown};
 use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::{Combine, Sweep};
 use super::table::Rows;
 use crate::observe::chart::{Cells, Chart, Corner, Curve, Figure, Mark, Scale};
+use crate::scene::Knob;
 
 /// Most curves of one picture.
 const MOST_CURVES: usize = 8;
@@ -211,12 +212,11 @@ fn against_lambda(
     rows: &Rows,
     lines: &[(String, Vec<usize>)],
 ) -> Vec<(String, Figure)> {
-    const MOVES: [&str; 3] = [
-        "motion.entrainment_m_s",
-        "lubricant.viscosity_pa_s",
-        "load.force_n",
-    ];
-    let moves = |axis: &Axis| MOVES.contains(&&*axis.key) || axis.key.ends_with("amplitude_m");
+    // Every knob but the sliding, and the oil.
+    let moves = |axis: &VariedKey| match Knob::from_key(&axis.key) {
+        Some(knob) => knob != Knob::SlideRoll,
+        None => axis.key == "lubricant.viscosity_pa_s",
+    };
     if !sweep.axes.iter().any(moves) || !sweep.path.is_empty() {
         return Vec::new();
     }

@@ -3,8 +3,8 @@
 use super::error::SweepError;
 use super::run::prepare;
 use super::spec::Sweep;
-use super::table::{Text, write_value};
-use crate::observe::cells::Cells;
+use super::table::write_value;
+use crate::observe::cells::{Cells, csv_line};
 use crate::physics::cycles::{BodyId, Kinematics};
 use crate::plan::{OtherFilms, Plan};
 use crate::scene::Scene;
@@ -25,11 +25,12 @@ const COLUMNS: [&str; 13] = [
     "n_body_2",
 ];
 
-/// R, U1, U2, U, S, load (of a line N/m), a, p_h, film by regression, λ and n of both bodies of every case.
+/// R, U1, U2, U, S, load (of a line N/m), a, p_h, film by regression, λ and n of both bodies of every case: the lines of a
+/// table, header first, each made when it is asked for.
 ///
 /// # Errors
 /// [`SweepError`] when a case is no scene or cannot be planned.
-pub fn points_csv(sweep: &Sweep) -> Result<String, SweepError> {
+pub fn points(sweep: &Sweep) -> impl Iterator<Item = Result<String, SweepError>> {
     let path: Vec<_> = super::path::columns(&sweep.path).collect();
     // What a path's own columns say already is not said twice.
     let shown: Vec<usize> = (0..COLUMNS.len())
@@ -41,28 +42,45 @@ pub fn points_csv(sweep: &Sweep) -> Result<String, SweepError> {
         head.extend(sweep.axes.iter().map(|axis| axis.key.clone()));
     }
     head.extend(shown.iter().map(|k| sweep.header(COLUMNS[*k]).to_owned()));
-    let mut text = Text::begin(&head);
     let mut row = Cells::default();
-    for case in 0..sweep.len() {
-        let (scene, plan) = prepare(sweep, case)?;
-        row.clear();
-        row.text(case);
-        if let Some(point) = sweep.path.get(case) {
-            for (_, value) in &point.values {
-                row.number(*value);
-            }
-        } else {
-            for value in sweep.values(case) {
-                write_value(&mut row, value);
-            }
+    let lines = (0..sweep.len()).map(move |case| {
+        write_case(sweep, case, &shown, &mut row)?;
+        Ok(csv_line(row.iter()))
+    });
+    std::iter::once(Ok(csv_line(&head))).chain(lines)
+}
+
+/// All of it.
+///
+/// # Errors
+/// Same.
+pub fn points_csv(sweep: &Sweep) -> Result<String, SweepError> {
+    points(sweep).collect()
+}
+
+fn write_case(
+    sweep: &Sweep,
+    case: usize,
+    shown: &[usize],
+    row: &mut Cells,
+) -> Result<(), SweepError> {
+    let (scene, plan) = prepare(sweep, case)?;
+    row.clear();
+    row.text(case);
+    if let Some(point) = sweep.path.get(case) {
+        for (_, value) in &point.values {
+            row.number(*value);
         }
-        let known = numbers(&scene, &plan);
-        for k in &shown {
-            row.optional(known[*k]);
+    } else {
+        for value in sweep.values(case) {
+            write_value(row, value);
         }
-        text.row(&row);
     }
-    Ok(text.end())
+    let known = numbers(&scene, &plan);
+    for k in shown {
+        row.optional(known[*k]);
+    }
+    Ok(())
 }
 
 fn numbers(scene: &Scene, plan: &Plan) -> [Option<f64>; COLUMNS.len()] {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::axis::{Axis, MOST_CASES, WARM_KEYS, shown};
+use super::axis::{MOST_CASES, VariedKey, WARM, shown};
 use super::error::SweepError;
 use super::maps;
 use super::path;
@@ -111,7 +111,7 @@ fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError
             let combine = read_combine(&root)?;
             let mut axes = Vec::new();
             for (key, value) in flat(&root, "vary")? {
-                axes.push(Axis::read(&key, &value)?);
+                axes.push(VariedKey::read(&key, &value)?);
             }
             (axes, combine, Vec::new())
         }
@@ -316,16 +316,16 @@ fn read_chain(root: &Table) -> Result<ChainKeys, SceneError> {
 }
 
 /// In the order in which scenes print their keys, those that allow warm starts last.
-fn sort(axes: &mut [Axis]) {
+fn sort(axes: &mut [VariedKey]) {
     let order: Vec<String> = keys::all_paths().collect();
     axes.sort_by_key(|axis| {
-        let warm = WARM_KEYS.iter().position(|key| *key == axis.key);
+        let warm = WARM.iter().position(|knob| knob.key() == axis.key);
         let place = order.iter().position(|key| *key == axis.key);
         (warm.map_or(0, |k| k + 1), place)
     });
 }
 
-fn check_size(axes: &[Axis], combine: Combine) -> Result<(), SceneError> {
+fn check_size(axes: &[VariedKey], combine: Combine) -> Result<(), SceneError> {
     let lengths = || axes.iter().map(|axis| axis.values.len());
     if axes.is_empty() {
         return Err(SceneError::Missing {

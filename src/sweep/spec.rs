@@ -22,7 +22,7 @@ use std::path::PathBuf;
 
 use toml::Value;
 
-use super::axis::{Axis, shown};
+use super::axis::{VariedKey, shown};
 use super::error::SweepError;
 use super::path::PathPoint;
 use crate::scene::{ContactKind, Override, Scene, SceneError};
@@ -54,7 +54,7 @@ pub struct Sweep {
     /// One line about it.
     pub title: String,
     /// What varies, in the order of the table's columns.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<VariedKey>,
     /// How axes combine.
     pub combine: Combine,
     /// How cases start.

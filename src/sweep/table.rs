@@ -9,12 +9,12 @@ use std::fmt::Write as _;
 
 use toml::Value;
 
-use super::case::{Began, CaseEnd, CaseRecord};
+use super::case::{CaseEnd, CaseRecord, CaseStart};
 use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::Sweep;
 use crate::files::fnv;
-use crate::observe::cells::Cells;
+use crate::observe::cells::{Cells, csv_line};
 use crate::sim::{CATALOGUE, Summary};
 
 /// Where a column's number stands in a record.
@@ -169,13 +169,13 @@ impl Rows {
             .chain(sweep.axes.iter().map(|axis| axis.key.clone()))
             .chain(["scene", "began", "end"].map(str::to_owned))
             .chain(columns().map(|column| sweep.header(column).to_owned()));
-        let mut text = Text::begin(head);
+        let mut text = csv_line(head);
         let mut row = Cells::default();
         for record in &self.records {
             Self::row(sweep, record, &mut row)?;
-            text.row(&row);
+            text.push_str(&csv_line(row.iter()));
         }
-        Ok(text.end())
+        Ok(text)
     }
 
     fn row(sweep: &Sweep, record: &CaseRecord, row: &mut Cells) -> Result<(), SweepError> {
@@ -193,8 +193,8 @@ impl Rows {
         }
         row.text(format_args!("{:016x}", fnv(scene.as_bytes())));
         row.text(match record.began {
-            Began::Cold => "cold",
-            Began::Warm => "warm",
+            CaseStart::Cold => "cold",
+            CaseStart::Warm => "warm",
         });
         row.text(match record.end {
             CaseEnd::Converged => "converged",
@@ -226,34 +226,6 @@ impl Rows {
         } else {
             CaseEnd::Converged
         }
-    }
-}
-
-/// A table in memory.
-pub(super) struct Text(csv::Writer<Vec<u8>>);
-
-impl Text {
-    /// With its header.
-    pub(super) fn begin(head: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Self {
-        let mut text = Self(csv::Writer::from_writer(Vec::new()));
-        text.put(head);
-        text
-    }
-
-    /// One row more.
-    pub(super) fn row(&mut self, row: &Cells) {
-        self.put(row.iter());
-    }
-
-    fn put(&mut self, cells: impl IntoIterator<Item = impl AsRef<[u8]>>) {
-        // Text into memory, every row as long as the header: this cannot fail.
-        drop(self.0.write_record(cells));
-    }
-
-    /// The whole of it.
-    pub(super) fn end(self) -> String {
-        let bytes = self.0.into_inner().ok().unwrap_or_default();
-        String::from_utf8(bytes).unwrap_or_default()
     }
 }
 

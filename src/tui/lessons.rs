@@ -11,14 +11,14 @@ pub use script::LESSONS;
 
 /// Where a beat puts a knob.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Setting {
+pub enum KnobSetting {
     /// This value, SI.
     To(f64),
     /// So many times the scene's value.
     TimesHome(f64),
 }
 
-impl Setting {
+impl KnobSetting {
     /// The value for a dial.
     pub fn value(self, dial: &Dial) -> f64 {
         let value = match self {
@@ -174,7 +174,7 @@ pub struct Beat {
     /// What to look at, and what the model leaves out.
     pub caption: &'static str,
     /// Knobs that are set when it begins.
-    pub sets: &'static [(Knob, Setting)],
+    pub sets: &'static [(Knob, KnobSetting)],
     /// The map that is shown.
     pub map: Option<MapKind>,
     /// How long, in passages.

@@ -45,7 +45,7 @@ use action::lookup;
 use app::{App, Effect, ErrandKind};
 use canvas::Canvas;
 use pixels::Pixels;
-use terminal::{Input, Panics, Stage};
+use terminal::{Input, Panics, Screen};
 use theme::{Capabilities, Contrast, Theme};
 pub use wiring::{
     Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, Shown, TuiError, Wiring,
@@ -83,7 +83,7 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
     let mut app = App::new(wiring.setup.clone(), errands_of(&wiring), theme);
     app.set_pixels(Pixels::detect(variable));
     let panics = Panics::watch();
-    let result = Stage::enter().and_then(|stage| {
+    let result = Screen::enter().and_then(|stage| {
         let input = Input::listen()?;
         let mut show = Show {
             stage,
@@ -119,7 +119,7 @@ fn errands_of(wiring: &Wiring) -> Vec<ErrandKind> {
 
 /// The loop around the screen.
 struct Show<'a> {
-    stage: Stage,
+    stage: Screen,
     app: &'a mut App,
     wiring: &'a mut Wiring,
     panics: &'a Panics,

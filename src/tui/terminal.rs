@@ -20,12 +20,12 @@ use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 
 /// The terminal while the explorer has it; dropped, it is as it was.
-pub(super) struct Stage {
+pub(super) struct Screen {
     /// What is drawn on.
     pub(super) terminal: Terminal<CrosstermBackend<io::Stdout>>,
 }
 
-impl Stage {
+impl Screen {
     /// Takes the terminal.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl Stage {
     }
 }
 
-impl Drop for Stage {
+impl Drop for Screen {
     fn drop(&mut self) {
         give_back();
     }

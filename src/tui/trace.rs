@@ -5,7 +5,7 @@
 //! x(t) = x_in + (place + U_b t) mod L       p(t) = P(x(t), y = 0; t mod T)       the same of the stress at z
 //! ```
 
-use crate::physics::rainflow::{Ends, Rainflow};
+use crate::physics::rainflow::{HistoryEnds, Rainflow};
 use crate::physics::turning::Peaks;
 use crate::run::Settled;
 use crate::sim::{Frame, MaterialPoint, StressSlice};
@@ -92,7 +92,7 @@ struct Counter {
 
 impl Counter {
     fn new(gate_pa: f64) -> Self {
-        let mut flow = Rainflow::new(Ends::Repeating, gate_pa, 512);
+        let mut flow = Rainflow::new(HistoryEnds::Repeating, gate_pa, 512);
         flow.push(0.0, &mut |_| {});
         Self {
             peaks: Peaks::new(gate_pa),

@@ -12,7 +12,7 @@ use crate::plan::LeftOut;
 use crate::run::{Command, Settled};
 use crate::scene::Scene;
 use crate::sim::Frame;
-use crate::sweep::{Background, Order};
+use crate::sweep::{Background, CurveOrder};
 
 /// How the run is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -69,7 +69,7 @@ pub type Errand = Box<dyn FnMut() -> Result<String, String>>;
 pub type SaveScene = Box<dyn FnMut(&str) -> Result<PathBuf, String>>;
 
 /// Starts a sweep beside the run, from where it has settled.
-pub type StartSweep = Box<dyn FnMut(Order) -> Option<Background>>;
+pub type StartSweep = Box<dyn FnMut(CurveOrder) -> Option<Background>>;
 
 /// What is on the screen, to be written.
 #[derive(Debug, Clone)]

@@ -1,11 +1,11 @@
 //! The studies in their quick forms: orders, counters and bounds, never seconds.
 
 use asperity::study::Extent;
-use asperity::study::accuracy::{Accuracy, Against, Part, Varied, accuracy, accuracy_table};
+use asperity::study::accuracy::{Accuracy, Against, StudiedPart, Varied, accuracy, accuracy_table};
 use asperity::study::accuracy::{life_plot, work_precision_plot};
-use asperity::study::stability::{Ending, MUST_CONVERGE, stability, stability_text};
+use asperity::study::stability::{MUST_CONVERGE, TrialEnd, stability, stability_text};
 
-fn order(result: &Accuracy, part: Part, quantity: &str, varied: Varied) -> f64 {
+fn order(result: &Accuracy, part: StudiedPart, quantity: &str, varied: Varied) -> f64 {
     let mut rows = result.rows.iter().filter(|row| {
         (row.part, row.quantity, row.varied) == (part, quantity, varied) && row.order.is_some()
     });
@@ -13,7 +13,7 @@ fn order(result: &Accuracy, part: Part, quantity: &str, varied: Varied) -> f64 {
     last.order.expect("an order")
 }
 
-fn least_error(result: &Accuracy, part: Part, quantity: &str) -> f64 {
+fn least_error(result: &Accuracy, part: StudiedPart, quantity: &str) -> f64 {
     let rows = result.rows.iter().filter(|row| {
         (row.part, row.quantity) == (part, quantity) && row.against != Against::Finest
     });
@@ -25,7 +25,7 @@ fn accuracy_shows_the_orders_of_the_schemes() {
     let result = accuracy(Extent::Quick, 2, &mut |_, _, _| {}).expect("a study");
     println!("{}", accuracy_table(&result).markdown());
     assert!(result.passes());
-    for part in Part::ALL {
+    for part in StudiedPart::ALL {
         assert!(
             result.rows.iter().any(|row| row.part == part && row.front),
             "{part:?} has a front"
@@ -41,24 +41,24 @@ fn accuracy_shows_the_orders_of_the_schemes() {
     }
     // Second order in the mean; the greatest of a field at nodes and the sampled edge of Hertz less.
     for (part, quantity, least) in [
-        (Part::DryHertz, "pressure, L2", 0.9),
-        (Part::DryHertz, "greatest pressure", 1.5),
-        (Part::SmoothFilm, "central film", 1.8),
-        (Part::Slice, "worst component, z > a/4", 1.8),
-        (Part::LifeIntegral, "integral, m = 10", 1.7),
-        (Part::RoughFilm, "mean central film", 1.6),
+        (StudiedPart::DryHertz, "pressure, L2", 0.9),
+        (StudiedPart::DryHertz, "greatest pressure", 1.5),
+        (StudiedPart::SmoothFilm, "central film", 1.8),
+        (StudiedPart::Slice, "worst component, z > a/4", 1.8),
+        (StudiedPart::LifeIntegral, "integral, m = 10", 1.7),
+        (StudiedPart::RoughFilm, "mean central film", 1.6),
     ] {
         let order = order(&result, part, quantity, Varied::Nodes);
         println!("{}, {quantity}: order {order:.2}", part.name());
         assert!(order >= least, "{quantity}: {order}");
     }
     for (part, quantity, most) in [
-        (Part::DryHertz, "pressure, L2", 2e-3),
-        (Part::Deflection, "deflection, r < a/2", 1e-5),
-        (Part::SmoothFilm, "central film", 5e-3),
-        (Part::Slice, "worst component, z > a/4", 2e-3),
-        (Part::Volume, "greatest von Mises", 1e-4),
-        (Part::LifeIntegral, "integral, m = 10", 5e-4),
+        (StudiedPart::DryHertz, "pressure, L2", 2e-3),
+        (StudiedPart::Deflection, "deflection, r < a/2", 1e-5),
+        (StudiedPart::SmoothFilm, "central film", 5e-3),
+        (StudiedPart::Slice, "worst component, z > a/4", 2e-3),
+        (StudiedPart::Volume, "greatest von Mises", 1e-4),
+        (StudiedPart::LifeIntegral, "integral, m = 10", 5e-4),
     ] {
         let error = least_error(&result, part, quantity);
         println!("{}, {quantity}: least error {error:.1e}", part.name());
@@ -68,7 +68,7 @@ fn accuracy_shows_the_orders_of_the_schemes() {
     let deflections: Vec<_> = result
         .rows
         .iter()
-        .filter(|row| row.part == Part::Deflection)
+        .filter(|row| row.part == StudiedPart::Deflection)
         .collect();
     for pair in deflections.chunks(2) {
         assert!((pair[0].error - pair[1].error).abs() < 1e-6 + 0.1 * pair[1].error);
@@ -77,7 +77,7 @@ fn accuracy_shows_the_orders_of_the_schemes() {
     let tolerance: Vec<_> = result
         .rows
         .iter()
-        .filter(|row| row.part == Part::DryHertz && row.varied == Varied::Tolerance)
+        .filter(|row| row.part == StudiedPart::DryHertz && row.varied == Varied::Tolerance)
         .collect();
     assert!(tolerance.len() >= 4);
     for pair in tolerance.windows(2) {
@@ -113,7 +113,7 @@ fn a_failure_names_the_nearest_setting_that_works() {
     let [row] = &result.rows[..] else {
         panic!("{} rows", result.rows.len());
     };
-    let Ending::Refused(reason) = &row.trial.ending else {
+    let TrialEnd::Refused(reason) = &row.trial.ending else {
         panic!("{:?}", row.trial.ending);
     };
     let after = |text: &str, word: &str| -> f64 {

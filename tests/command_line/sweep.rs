@@ -2,14 +2,15 @@
 //! files are refused by name.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering;
 
 use asperity::plan::Plan;
 use asperity::sweep::{
-    Against, Began, CaseEnd, Existing, Folder, Progress, Rows, Shard, Sweep, against_cold, cost,
-    points_csv, presets, run,
+    CaseEnd, CaseStart, ColdComparison, Existing, Folder, Progress, Rows, Shard, Sweep,
+    against_cold, cost, points, points_csv, presets, run,
 };
 
 /// A coarse scene that still has everything; 8 cases in 4 chains of 2.
@@ -200,11 +201,11 @@ fn life_falls_with_sliding_and_more_for_the_slower_body() {
         "{TREND}[vary]\nmotion.slide_roll = [-1.0, -0.5, 0.0, 0.5, 1.0]\n[chain]\nlongest = 5\n"
     ));
     let rows = whole(&sweep);
-    assert_eq!(rows.records[0].began, Began::Cold);
+    assert_eq!(rows.records[0].began, CaseStart::Cold);
     assert!(
         rows.records[1..]
             .iter()
-            .all(|record| record.began == Began::Warm)
+            .all(|record| record.began == CaseStart::Warm)
     );
     assert_eq!(rows.worst(), CaseEnd::Converged);
     let column = |name: &str| rows.column(&sweep, name).unwrap();
@@ -266,7 +267,7 @@ fn a_warm_case_is_what_a_cold_one_is() {
     );
     let sweep = sweep(&text);
     let rows = whole(&sweep);
-    let against: Against = against_cold(&sweep, &rows, 2, &Progress::default())
+    let against: ColdComparison = against_cold(&sweep, &rows, 2, &Progress::default())
         .unwrap()
         .unwrap();
     println!("life and film, warm over cold: {:?}", against.ratios);
@@ -404,6 +405,47 @@ fn built_in_sweeps_are_whole_and_a_folder_keeps_one_that_is_the_same() {
             sweep.scene(case).unwrap();
         }
     }
+}
+
+#[test]
+fn points_come_one_by_one() {
+    // On the second, soft body the contact would be too wide for a half-space.
+    let sweep = sweep(
+        "scene = \"demonstration\"\n[set]\ncontact.rx_m = 1e-3\ncontact.ry_m = 1e-3\nload.force_n = 100.0\nbody_1.surface.kind = \"smooth\"\n\
+         body_2.surface.kind = \"smooth\"\n[vary]\nbody_1.young_pa = [2e11, 1e8]\n",
+    );
+    let ends: Vec<bool> = points(&sweep).map(|line| line.is_ok()).collect();
+    assert_eq!(ends, [true, true, false]);
+    assert!(points_csv(&sweep).is_err());
+}
+
+#[test]
+fn a_million_points_end_with_their_reader() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("million.toml");
+    let vary = "scene = \"demonstration\"\n[vary]\nmotion.slide_roll = { from = 0.0, to = 1.0, n = 1000 }\n\
+                load.force_n = { from = 100.0, to = 900.0, n = 1000 }\n";
+    std::fs::write(&file, vary).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["sweep", file.to_str().unwrap(), "--show", "points"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let head: Vec<String> = lines.by_ref().take(3).map(Result::unwrap).collect();
+    assert!(
+        head[0].starts_with("case,load.force_n,motion.slide_roll"),
+        "{head:?}"
+    );
+    assert!(
+        head[1].starts_with("0,100,0,") && head[2].starts_with("1,100,"),
+        "{head:?}"
+    );
+    drop(lines);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "1000000 cases\n");
 }
 
 /// A table of points by name.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use asperity::observe::{Began, RunContext};
 use asperity::scene::{
-    Body, Contact, ContactKind, Event, Friction, Grid, Load, Motion, Numerics, Record, Scene,
+    Body, Contact, ContactKind, Event, Friction, GridAsked, Load, Motion, Numerics, Record, Scene,
     Surface, Time,
 };
 use asperity::sim::{
@@ -57,9 +57,9 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
             force_n_per_m: None,
             hertz_pressure_pa: None,
         },
-        grid: Grid {
+        grid: GridAsked {
             nodes,
-            ..Grid::default()
+            ..GridAsked::default()
         },
         time: Time {
             step_nodes: 1.0,

@@ -14,7 +14,7 @@ use asperity::sim::{
     Frame, LifeDetail, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage,
     StressSlice,
 };
-use asperity::sweep::{Began, Conditions, Found};
+use asperity::sweep::{CaseStart, CurvePoint, Found};
 use asperity::tui::app::{App, Effect, ErrandKind};
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use asperity::tui::{RecorderActivity, RecorderState, RunStatus, Setup, view};
@@ -92,7 +92,7 @@ pub(crate) fn scene() -> Scene {
             force_n_per_m: None,
             hertz_pressure_pa: None,
         },
-        grid: asperity::scene::Grid::default(),
+        grid: asperity::scene::GridAsked::default(),
         time: asperity::scene::Time::default(),
         numerics: asperity::scene::Numerics::default(),
         stress: Some(asperity::scene::Stress::default()),
@@ -439,13 +439,13 @@ pub(crate) fn setup_planned(scene: &Scene, name: &str, plan: &Plan) -> Setup {
 /// What a sweep would find at an S and a speed, all else as in the fixture.
 pub(crate) fn found(slide_roll: f64, entrainment_m_s: f64, life: f64) -> Found {
     Found {
-        at: Conditions {
+        at: CurvePoint {
             slide_roll,
             entrainment_m_s,
             load_n: 800.0,
             amplitude_m: [2.0e-7; 2],
         },
-        began: Began::Warm,
+        began: CaseStart::Warm,
         life: Some([0.5 * life, life, 2.0 * life]),
         friction: 0.03 + 0.01 / entrainment_m_s,
         lambda: Some(1.08 * entrainment_m_s.powf(0.67)),

@@ -135,7 +135,7 @@ fn solved(scene: &Scene) -> (f64, f64) {
     let plan = Plan::new(scene).unwrap();
     let film = plan.film.unwrap();
     let truncation = film.truncation();
-    let said = truncation.error(&plan.domain) + truncation.mesh_error(plan.domain.dx_a());
+    let said = plan.domain.edge_error(&truncation) + truncation.mesh_error(plan.domain.dx_a());
     let mut sim = Simulation::new(scene, plan, 1).unwrap();
     while !sim.is_done() {
         sim.step().unwrap();

@@ -25,7 +25,7 @@ use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{Iterate, NewtonReport, Tolerance, Verdict};
 use asperity::solve::reynolds::Medium;
 use asperity::solve::stress::{SliceOut, StressEngine, StressSpec};
-use asperity::study::Table;
+use asperity::study::MarkdownTable;
 
 /// Time that the runs of a case take together, s, and how many they are.
 const ENOUGH_S: f64 = 0.5;
@@ -263,7 +263,7 @@ fn subsurface(n: usize, depths: usize) -> Result<Row, String> {
 }
 
 /// The cases on one thread: lines of a table whose columns are those of `peers.py`.
-fn cases(sizes: &[usize]) -> Table {
+fn cases(sizes: &[usize]) -> MarkdownTable {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
@@ -277,7 +277,7 @@ fn cases(sizes: &[usize]) -> Table {
         rows
     };
     let rows = sizes.iter().flat_map(|&n| pool.install(|| of_size(n)));
-    let mut table = Table::new(&[
+    let mut table = MarkdownTable::new(&[
         "case",
         "code",
         "n",

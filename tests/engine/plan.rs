@@ -372,7 +372,7 @@ fn a_light_load_moves_the_edges_out_as_far_as_the_mesh_allows() {
     assert!(film.groups.m < 10.0, "{}", film.groups.m);
     let wedge = (2.0 * film.central).sqrt();
     assert!(domain.x_min_a < -10.0 * wedge, "{domain:?} {wedge}");
-    let said = film.truncation().error(&domain);
+    let said = domain.edge_error(&film.truncation());
     let warned = light.warnings.iter().find_map(|warning| match warning {
         Warning::ShortDomain { error, .. } => Some(*error),
         _ => None,

@@ -7,6 +7,7 @@ mod damage;
 mod formula;
 mod integrals;
 mod passages;
+mod patch;
 mod reference;
 mod settled;
 mod stress_closed_forms;

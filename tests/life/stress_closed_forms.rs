@@ -1,9 +1,9 @@
 //! The closed forms of subsurface stress against each other, against published maxima, and against
 //! the equations of equilibrium. Every test prints the number that it asserts.
 
+use super::patch::{point_harmonics, rectangle_harmonics};
 use asperity::physics::invariants::Stress6;
 use asperity::physics::stress_exact::{hertz_axis_maximum, hertz_sliding, westergaard};
-use asperity::physics::stress_exact_patch::{point_harmonics, rectangle_harmonics};
 
 const NU: f64 = 0.3;
 

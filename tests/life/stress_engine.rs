@@ -1,9 +1,9 @@
 //! The stress engine against the closed forms, against itself on other grids and threads.
 //! Every test prints the numbers that it asserts.
 
+use super::patch::rectangle_harmonics;
 use asperity::physics::invariants::Stress6;
 use asperity::physics::stress_exact::hertz_sliding;
-use asperity::physics::stress_exact_patch::rectangle_harmonics;
 use asperity::scene::StressMeasure;
 use asperity::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry};
 

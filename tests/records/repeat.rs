@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::common::keeper::{Kept, kept_request};
 use asperity::observe::rerun::{Recorded, Recorder};
 use asperity::observe::{Observer as _, Overwrite, Queue, RunContext, WhenFull};
-use asperity::run::{Command, Ending, Request, Session, Turn, Watcher};
+use asperity::run::{Command, Ending, HandTurn, Request, Session, Watcher};
 use asperity::scene::{Override, Record, Scene};
 use asperity::sim::Knob;
 
@@ -69,7 +69,7 @@ fn a_session_with_turned_knobs_repeats_bit_for_bit() {
     assert_eq!(recorded.turns[0].steps_made, 0);
     let again = Scene::from_toml(&recorded.scene_toml).unwrap();
     assert_eq!(again, scene);
-    let turns = recorded.turns.iter().map(|turn| Turn {
+    let turns = recorded.turns.iter().map(|turn| HandTurn {
         steps_made: turn.steps_made,
         knob: Knob::from_key(&turn.key).unwrap(),
         value: turn.value,

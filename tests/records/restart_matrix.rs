@@ -197,38 +197,100 @@ fn over(cases: &[Case], work: impl Fn(&Case) -> [usize; 2] + Sync) -> [usize; 2]
     total.into_inner().unwrap()
 }
 
+/// The frames of a run that was saved on its way to a file and taken up again from there, and how it ended.
+fn cut_in_two(case: &Case, folder: &Path) -> (Vec<String>, Outcome) {
+    let mut half = case.scene.clone();
+    half.time.passages = 0.2;
+    let (mut cut, outcome) = frames(&half, None, Ending::Passages, Session::start);
+    let path = folder.join(format!("{}.state", case.name));
+    let mut file = std::fs::File::create(&path).unwrap();
+    let checkpoint = outcome.checkpoint.unwrap();
+    checkpoint.write(&mut file).unwrap();
+    let saved = Checkpoint::read(&path).unwrap();
+    let text = |checkpoint: &Checkpoint| format!("{checkpoint:?}");
+    assert!(text(&saved) == text(&checkpoint), "{}", case.name);
+    std::fs::remove_file(&path).unwrap();
+    let resume = |request| Session::resume(request, saved);
+    let (rest, again) = frames(&case.scene, None, Ending::Passages, resume);
+    assert!(rest.len() > 4 && cut.len() > 1, "{}", case.name);
+    cut.extend(rest);
+    (cut, again)
+}
+
+/// A recording of a run, to be repeated from it.
+#[cfg(feature = "rerun")]
+mod recorded {
+    use super::*;
+    use asperity::observe::rerun::{Recorded, Recorder};
+    use asperity::observe::{Overwrite, Queue, WhenFull};
+    use asperity::scene::Record;
+
+    pub(super) fn watcher(path: &Path) -> Option<Watcher> {
+        let recorder = Recorder::create(path, Overwrite::Refuse, &Record::default()).unwrap();
+        let queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
+        Some(Watcher::new("recording", Box::new(queue), 4))
+    }
+
+    /// The frames of the run once more, as far as the recording goes.
+    pub(super) fn repeated(path: &Path) -> Option<Vec<String>> {
+        let recorded = Recorded::read(path).unwrap();
+        std::fs::remove_file(path).unwrap();
+        let scene = Scene::from_toml(&recorded.scene_toml).unwrap();
+        let name = path.display();
+        assert!(
+            recorded.turns.is_empty(),
+            "{name}: nothing was turned by hand"
+        );
+        let ending = Ending::Steps(recorded.last_step);
+        let (again, _) = frames(&scene, None, ending, |request| {
+            Session::repeat(request, Vec::new())
+        });
+        assert!(again.len() > 8, "{name}");
+        Some(again)
+    }
+}
+#[cfg(not(feature = "rerun"))]
+mod recorded {
+    use super::*;
+
+    pub(super) fn watcher(_: &Path) -> Option<Watcher> {
+        None
+    }
+
+    pub(super) fn repeated(_: &Path) -> Option<Vec<String>> {
+        None
+    }
+}
+
+/// The run itself is made once for both comparisons.
 #[test]
-fn a_run_cut_in_two_is_the_whole_run() {
+fn a_run_cut_in_two_or_repeated_is_the_whole_run() {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(folder.path());
     assert_eq!(cases.len(), 144);
+    let n_repeated = AtomicUsize::new(0);
     let [rows, differing] = over(&cases, |case| {
-        let (whole, end) = frames(&case.scene, None, Ending::Passages, Session::start);
-        let mut half = case.scene.clone();
-        half.time.passages = 0.2;
-        let (mut cut, outcome) = frames(&half, None, Ending::Passages, Session::start);
-        let path = folder.path().join(format!("{}.state", case.name));
-        let mut file = std::fs::File::create(&path).unwrap();
-        let checkpoint = outcome.checkpoint.unwrap();
-        checkpoint.write(&mut file).unwrap();
-        let saved = Checkpoint::read(&path).unwrap();
-        let text = |checkpoint: &Checkpoint| format!("{checkpoint:?}");
-        assert!(text(&saved) == text(&checkpoint), "{}", case.name);
-        std::fs::remove_file(&path).unwrap();
-        let resume = |request| Session::resume(request, saved);
-        let (rest, again) = frames(&case.scene, None, Ending::Passages, resume);
-        assert!(rest.len() > 4 && rest.len() < whole.len(), "{}", case.name);
-        cut.extend(rest);
+        let path = folder.path().join(format!("{}.rrd", case.name));
+        let watcher = recorded::watcher(&path);
+        let (whole, end) = frames(&case.scene, watcher, Ending::Passages, Session::start);
+        assert!(end.output_errors.is_empty(), "{}", case.name);
+        let (cut, cut_end) = cut_in_two(case, folder.path());
         let timeless = |outcome: Outcome| {
             let mut summary = outcome.summary.unwrap();
             (summary.wall_s, summary.steps_per_s) = (0.0, None);
             summary
         };
-        assert_eq!(timeless(end), timeless(again), "{}", case.name);
-        [whole.len(), self::differing(&whole, &cut)]
+        assert_eq!(timeless(end), timeless(cut_end), "{}", case.name);
+        let again = recorded::repeated(&path).unwrap_or_default();
+        n_repeated.fetch_add(again.len(), Ordering::Relaxed);
+        let of_cut = self::differing(&whole, &cut);
+        [
+            whole.len(),
+            of_cut + self::differing(&whole[..again.len()], &again),
+        ]
     });
     println!(
-        "restart matrix: {} cases, {rows} rows, {differing} differ",
+        "restart matrix: {} cases, {rows} rows cut in two and {n_repeated:?} repeated, {differing} differ",
         cases.len()
     );
     assert_eq!(differing, 0);
@@ -267,61 +329,6 @@ fn a_workspace_thrown_away_before_a_step_changes_nothing() {
     });
     println!(
         "thrown away: {} cases, {rows} rows, {differing} differ",
-        cases.len()
-    );
-    assert_eq!(differing, 0);
-}
-
-#[cfg(feature = "rerun")]
-#[test]
-fn a_recording_repeated_is_the_run() {
-    use asperity::observe::rerun::{Recorded, Recorder};
-    use asperity::observe::{Overwrite, Queue, WhenFull};
-    use asperity::run::Turn;
-    use asperity::scene::Record;
-    use asperity::sim::Knob;
-
-    let folder = tempfile::tempdir().unwrap();
-    let cases = cases(folder.path());
-    let [rows, differing] = over(&cases, |case| {
-        let path = folder.path().join(format!("{}.rrd", case.name));
-        let recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
-        let queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
-        let recording = Watcher::new("recording", Box::new(queue), 4);
-        let (whole, outcome) = frames(
-            &case.scene,
-            Some(recording),
-            Ending::Passages,
-            Session::start,
-        );
-        assert!(outcome.output_errors.is_empty(), "{}", case.name);
-        let recorded = Recorded::read(&path).unwrap();
-        std::fs::remove_file(&path).unwrap();
-        let scene = Scene::from_toml(&recorded.scene_toml).unwrap();
-        let turns: Vec<Turn> = recorded
-            .turns
-            .iter()
-            .map(|turn| Turn {
-                steps_made: turn.steps_made,
-                knob: Knob::from_key(&turn.key).unwrap(),
-                value: turn.value,
-            })
-            .collect();
-        assert!(
-            turns.is_empty(),
-            "{}: nothing was turned by hand",
-            case.name
-        );
-        let ending = Ending::Steps(recorded.last_step);
-        let (again, _) = frames(&scene, None, ending, |request| {
-            Session::repeat(request, turns)
-        });
-        let until = again.len();
-        assert!(until > 8, "{}", case.name);
-        [until, self::differing(&whole[..until], &again)]
-    });
-    println!(
-        "repeated: {} cases, {rows} rows, {differing} differ",
         cases.len()
     );
     assert_eq!(differing, 0);

@@ -9,7 +9,7 @@ use asperity::plan::Plan;
 use asperity::run::{Command, End, Ending, Request, Session, Settled};
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Follow, Frame, Knob, Simulation, Stage, State};
-use asperity::sweep::{Along, Background, Began, Found, Ground, Order};
+use asperity::sweep::{Along, Background, CaseStart, CurveOrder, Found, Ground};
 
 fn small() -> Scene {
     scene(&["grid.nodes=65", "stress.depths=8"])
@@ -168,7 +168,7 @@ fn state_of(scene: &Scene, turns: &[(Knob, f64)]) -> State {
     state.unwrap()
 }
 
-fn swept(made: &Scene, state: State, order: Order) -> Vec<Found> {
+fn swept(made: &Scene, state: State, order: CurveOrder) -> Vec<Found> {
     let all = order.values.len();
     let scene = Arc::new(made.clone());
     let sweep = Background::start(Ground { scene, state }, order, 2);
@@ -217,9 +217,9 @@ fn a_sweep_finds_the_lives_of_runs_of_their_own() {
         (
             vec![(Knob::Amplitude1M, amplitude_m)],
             vec![1.0, 0.25],
-            Began::Warm,
+            CaseStart::Warm,
         ),
-        (vec![(Knob::ForceN, force_n)], vec![0.25], Began::Cold),
+        (vec![(Knob::ForceN, force_n)], vec![0.25], CaseStart::Cold),
     ] {
         let mut now = scene.clone();
         for (knob, value) in &turns {
@@ -230,7 +230,7 @@ fn a_sweep_finds_the_lives_of_runs_of_their_own() {
                 _ => now.body_1.surface.set_amplitude_m(*value),
             }
         }
-        let order = Order {
+        let order = CurveOrder {
             along: Along::SlideRoll,
             values,
             scene: now.clone(),
@@ -249,7 +249,7 @@ fn a_sweep_finds_the_lives_of_runs_of_their_own() {
 #[test]
 fn a_sweep_of_the_speed_goes_along_stribecks_curve() {
     let scene = repeating();
-    let order = Order {
+    let order = CurveOrder {
         along: Along::Entrainment,
         values: vec![0.05, 0.8],
         scene: scene.clone(),
@@ -274,7 +274,7 @@ fn a_sweep_of_the_speed_goes_along_stribecks_curve() {
 #[test]
 fn a_sweep_that_is_called_off_ends() {
     let scene = repeating();
-    let order = Order {
+    let order = CurveOrder {
         along: Along::SlideRoll,
         values: (0..40).map(|k| 0.05 * f64::from(k)).collect(),
         scene: scene.clone(),

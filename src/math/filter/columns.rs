@@ -12,7 +12,7 @@ use crate::math::quarter_wave::QuarterWave;
 use crate::math::turned::Turned;
 
 /// Transforms along y.
-pub(super) enum Columns<T: FftNum> {
+pub(super) enum ColumnFilter<T: FftNum> {
     /// Of whole columns.
     Whole {
         forward: Arc<dyn Fft<T>>,
@@ -26,7 +26,7 @@ pub(super) enum Columns<T: FftNum> {
     QuarterWave(QuarterWave<T>),
 }
 
-impl<T: FftNum> Columns<T> {
+impl<T: FftNum> ColumnFilter<T> {
     /// The transforms for length `ly`, the values of a column, the scratch.
     pub(super) fn plan(symmetry: Symmetry, padding: Padding, ly: usize) -> (Self, usize, usize) {
         match symmetry {

@@ -11,7 +11,7 @@ use super::moves::copy_row;
 use crate::math::halfway::Halfway;
 
 /// Transforms of real rows.
-pub(super) enum Rows<T: FftNum> {
+pub(super) enum RowFilter<T: FftNum> {
     /// At the usual frequencies, for rows that repeat.
     Usual {
         length: usize,
@@ -22,7 +22,7 @@ pub(super) enum Rows<T: FftNum> {
     Halfway { length: usize, plan: Halfway<T> },
 }
 
-impl<T: FftNum> Rows<T> {
+impl<T: FftNum> RowFilter<T> {
     /// The transforms for length `lx`.
     pub(super) fn plan(padding: Padding, lx: usize) -> Self {
         match padding {

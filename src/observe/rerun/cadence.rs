@@ -11,7 +11,7 @@
 //! passed, and the steps between two recorded frames grow about as the time that has passed. A
 //! recording is thinned and says so; it never stops.
 
-use crate::plan::recording::{ALWAYS_BYTES, OWN_SHARE, Rhythm, SCALARS_BYTES, left_bytes};
+use crate::plan::recording::{ALWAYS_BYTES, OWN_SHARE, RecordingRhythm, SCALARS_BYTES, left_bytes};
 use crate::scene::Record;
 
 /// Part of the raw bytes that reaches the disk after compression: 0.12 MB of 0.32 MB were measured in the
@@ -88,7 +88,8 @@ impl Cadence {
         let steps = expected_steps.max(1.0);
         let last = ALWAYS_BYTES + spent[1];
         let frame = COMPRESSED * frame_bytes.max(1) as f64;
-        let rhythm = Rhythm::new(record, steps, frame, left_bytes(record, spent[0] + last));
+        let rhythm =
+            RecordingRhythm::new(record, steps, frame, left_bytes(record, spent[0] + last));
         let every = |steps| Every { steps, next: 0 };
         Self {
             fields: every(rhythm.fields),

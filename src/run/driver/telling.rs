@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::Driver;
 use crate::observe::{ObserveError, ObserverReport, RunEvent, RunEventKind};
 use crate::run::outcome::End;
-use crate::run::session::{Ending, SessionEvent, lock};
+use crate::run::shared::{Ending, SessionEvent, lock};
 use crate::run::stepper::Stepper;
 use crate::run::watcher::Watcher;
 use crate::sim::Stage;

@@ -139,7 +139,7 @@ impl Simulation {
     /// Whether a knob can stand there, on its way too.
     fn can_stand_at(&self, knob: Knob, value: f64) -> bool {
         match knob {
-            Knob::SlideRoll => value.abs() <= 2.0,
+            Knob::SlideRoll => knob.takes(value),
             Knob::ForceN | Knob::ForceNPerM => {
                 let most = self.plan.decided.most_force_n() * (1.0 + 1e-9);
                 value > 0.0 && (knob != self.plan.door.load_knob() || value <= most)

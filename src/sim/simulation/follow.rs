@@ -29,7 +29,7 @@ const FINE: f64 = 1.1;
 /// Steps of settling over those of the passage.
 pub(super) const COARSE: f64 = 2.0;
 /// Knobs that a neighbour may differ in.
-const FREE: [Knob; 3] = [Knob::SlideRoll, Knob::Amplitude1M, Knob::Amplitude2M];
+const FREE: [Knob; 3] = Knob::OF_ROUGHNESS_AND_SLIDING;
 /// Speed, in U, at which a surface is led at most.
 const LEAD: f64 = 0.5;
 /// Shortest way over which surfaces are led, in a.

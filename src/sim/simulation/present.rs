@@ -15,7 +15,7 @@ impl Simulation {
 
     /// Relative error of stress by the mesh, of the bodies that are rough now.
     pub(super) fn stress_error_now(&self) -> f64 {
-        let amplitudes = [Knob::Amplitude1M, Knob::Amplitude2M];
+        let amplitudes = Knob::AMPLITUDES;
         self.plan
             .stress_error(amplitudes.map(|knob| self.state.drive.get(knob).now))
     }
@@ -86,7 +86,7 @@ impl Simulation {
                     y_half_b: domain.y_half_b / size,
                     ..*domain
                 };
-                film.truncation().error(&seen)
+                seen.edge_error(&film.truncation())
             }),
             ..self.plan.grounds
         };

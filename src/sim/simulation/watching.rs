@@ -90,7 +90,7 @@ impl Simulation {
         let s = self.state.drive.get(Knob::SlideRoll).now;
         let mut frequencies = [0.0; 4];
         for (body, speed) in [1.0 - 0.5 * s, 1.0 + 0.5 * s].into_iter().enumerate() {
-            let amplitude = [Knob::Amplitude1M, Knob::Amplitude2M][body];
+            let amplitude = Knob::AMPLITUDES[body];
             if self.state.drive.get(amplitude).now != 0.0 {
                 for (plane, k) in self.work.terrain.wavenumbers(body).into_iter().enumerate() {
                     frequencies[2 * body + plane] = k * speed / std::f64::consts::TAU;

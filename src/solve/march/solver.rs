@@ -13,7 +13,7 @@ use crate::math::grid::Grid;
 use crate::scene::Order;
 
 /// A solution that nobody has committed yet.
-pub(super) struct Trial {
+pub(super) struct TriedState {
     pub(super) pressure: Vec<f64>,
     pub(super) film: Vec<f64>,
     pub(super) h0: f64,
@@ -31,7 +31,7 @@ pub struct Solver {
     pub newton: Newton,
     /// Solver of dry contacts: a knob may take the film away.
     pub dry: Dry,
-    pub(super) trial: Trial,
+    pub(super) trial: TriedState,
     /// C*; of dry steps, which convect nothing, the gap with u^s.
     pub(super) c_star: Vec<f64>,
     s: Vec<f64>,
@@ -63,7 +63,7 @@ impl Solver {
             gap: macroscopic.clone(),
             macroscopic,
             newton,
-            trial: Trial {
+            trial: TriedState {
                 pressure: zero.clone(),
                 film: zero.clone(),
                 h0: 0.0,
@@ -254,7 +254,7 @@ impl Solver {
         if self.flow != Flow::Dry {
             self.gather_mass();
         }
-        let Trial { pressure, film, h0 } = &self.trial;
+        let TriedState { pressure, film, h0 } = &self.trial;
         let mass = match self.flow {
             Flow::Dry => film,
             Flow::Film | Flow::MassConserving => &self.mass,

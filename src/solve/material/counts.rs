@@ -2,22 +2,22 @@
 //!
 //! Part of `material.rs`.
 
-use super::{DamageBasis, MaterialTracker, Tally};
-use crate::solve::tally::mean;
+use super::{CycleCount, DamageBasis, MaterialTracker};
+use crate::solve::cycle_count::mean;
 
 impl MaterialTracker {
     /// Mean over the points' last whole crossings of the pressure's cycles; `None` until one is finished.
-    pub fn pressure_cycles(&self) -> Option<Tally> {
+    pub fn pressure_cycles(&self) -> Option<CycleCount> {
         mean(self.points.iter().filter_map(|p| p.pressure.last))
     }
 
     /// Same of the signed shear at depth `k`.
-    pub fn shear_cycles(&self, k: usize) -> Option<Tally> {
+    pub fn shear_cycles(&self, k: usize) -> Option<CycleCount> {
         mean(self.points.iter().filter_map(|p| p.shear.get(k)?.last))
     }
 
     /// Same of the effective stress at depth `k`; sizes are peaks.
-    pub fn effective_cycles(&self, k: usize) -> Option<Tally> {
+    pub fn effective_cycles(&self, k: usize) -> Option<CycleCount> {
         mean(self.points.iter().filter_map(|p| p.effective.get(k)?.last))
     }
 
@@ -31,14 +31,14 @@ impl MaterialTracker {
     ) -> bool {
         let mut known = !counted.is_empty();
         for (k, (counted, equivalent)) in counted.iter_mut().zip(equivalent).enumerate() {
-            let tally = match basis {
+            let cycles = match basis {
                 DamageBasis::Ranges => self.shear_cycles(k),
                 DamageBasis::Peaks => self.effective_cycles(k),
             };
-            known &= tally.is_some();
-            let tally = tally.unwrap_or_default();
+            known &= cycles.is_some();
+            let cycles = cycles.unwrap_or_default();
             // What never passes the gate is one loading cycle all the same.
-            (*counted, *equivalent) = (tally.count.max(1.0), tally.equivalent.max(1.0));
+            (*counted, *equivalent) = (cycles.count.max(1.0), cycles.equivalent.max(1.0));
         }
         known
     }
@@ -61,7 +61,7 @@ impl MaterialTracker {
         let mut below = own / fastest;
         for k in (0..self.spec.depths).rev() {
             let histories = || self.points.iter().map(|point| &point.shear[k]);
-            let open: f64 = histories().map(|h| h.tally.damage).sum();
+            let open: f64 = histories().map(|h| h.cycles.damage).sum();
             let greatest = self.greatest_damage(k);
             if greatest > 0.0 {
                 below = own / fastest + (self.ended[k] + open) / (passages * greatest);

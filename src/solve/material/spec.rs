@@ -4,8 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::solve::cycle_count::DamageBasis;
 use crate::solve::damage::BlockSpec;
-use crate::solve::tally::DamageBasis;
 
 /// What is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -27,7 +27,7 @@
 use rayon::prelude::*;
 
 use super::super::faces::log_mean;
-use super::super::fluidity::Way;
+use super::super::fluidity::FlowDirection;
 use super::{ROWS, Reynolds, face_below};
 use crate::math::grid::{Grid, Symmetry};
 
@@ -95,7 +95,7 @@ fn lacking(f: [f64; 3], around: &Around, most: f64) -> f64 {
 
 impl Reynolds {
     /// What the correction of the face between the middle two of these nodes needs.
-    fn around(&self, at: &Guessed, way: Way, nodes: [usize; 4]) -> Around {
+    fn around(&self, at: &Guessed, way: FlowDirection, nodes: [usize; 4]) -> Around {
         let fluidities = self.fluidity.nodes(way, &self.q, 0..self.q.len());
         Around {
             h: nodes.map(|n| at.h[n]),
@@ -114,7 +114,7 @@ impl Reynolds {
         let flow = |n: usize| self.east[n] * (at.p[n + 1] - at.p[n]);
         let flows = [flow(n - 1), flow(n), flow(n + 1)];
         let most = at.most(grid.flow_weights().0, n, n + 1);
-        let around = self.around(at, Way::Along, [n - 1, n, n + 1, n + 2]);
+        let around = self.around(at, FlowDirection::Along, [n - 1, n, n + 1, n + 2]);
         lacking(flows, &around, most)
     }
 
@@ -136,7 +136,7 @@ impl Reynolds {
             self.north[above] * (p[high] - p[above]),
         ];
         let most = at.most(grid.flow_weights().1, here, above);
-        lacking(flows, &self.around(at, Way::Across, nodes), most)
+        lacking(flows, &self.around(at, FlowDirection::Across, nodes), most)
     }
 
     /// Adds to `c_star` what the flow of second order lacks, and takes it off F. Properties, faces and F are those of the

@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 
 use super::super::faces::Faces;
-use super::super::fluidity::Way;
+use super::super::fluidity::FlowDirection;
 use super::super::jacobian::{STENCIL, localise};
 use super::super::reynolds_rows::{flow_row, scale_row, storage_row};
 use super::closing::{conductance_slopes, keep_rising};
@@ -55,7 +55,7 @@ impl Reynolds {
     }
 
     /// Fills `faces` between the runs of nodes that begin at `a` and `b`.
-    fn fill_run(&self, way: Way, (a, b): (usize, usize), len: usize, faces: &mut Faces) {
+    fn fill_run(&self, way: FlowDirection, (a, b): (usize, usize), len: usize, faces: &mut Faces) {
         let run = |start: usize| {
             let range = start..start + len;
             let nodes = self.fluidity.nodes(way, &self.q, range.clone());
@@ -78,12 +78,27 @@ impl Reynolds {
         let nx = grid.nx;
         let (start, south, north) = (j * nx, grid.row_below(j) * nx, grid.row_above(j) * nx);
         let here = start..start + nx;
-        self.fill_run(Way::Along, (start, start + 1), nx - 1, &mut scratch.east);
+        self.fill_run(
+            FlowDirection::Along,
+            (start, start + 1),
+            nx - 1,
+            &mut scratch.east,
+        );
         if let Some(steep) = self.fluidity.steep((at.p, at.h), start, nx - 1) {
             steep.lessen_faces(&mut scratch.east);
         }
-        self.fill_run(Way::Across, (start, south), nx, &mut scratch.south);
-        self.fill_run(Way::Across, (start, north), nx, &mut scratch.north);
+        self.fill_run(
+            FlowDirection::Across,
+            (start, south),
+            nx,
+            &mut scratch.south,
+        );
+        self.fill_run(
+            FlowDirection::Across,
+            (start, north),
+            nx,
+            &mut scratch.north,
+        );
         let (row, local) = row.split_at_mut(2 * STENCIL * nx);
         row.fill(0.0);
         {

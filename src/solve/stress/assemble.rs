@@ -16,11 +16,11 @@
 //!
 //! Part of `stress/mod.rs`: its responses, added and subtracted.
 
-use super::fft::Lanes;
-use super::lanes::{LANES, V};
+use super::engine::load::{Half, Spectrum};
 use super::layer::{Layer, LowRow, Waves};
-use super::load::{Half, Spectrum};
 use super::window::LOW;
+use crate::math::lane_fft::Lanes;
+use crate::math::lanes::{LANES, V};
 
 /// The part of the load whose stress is formed: the effective stress of several loadings is reduced from the
 /// fields of these two.

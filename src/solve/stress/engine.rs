@@ -2,14 +2,21 @@
 //!
 //! Part of `stress/mod.rs`.
 
-use super::fft::{LaneFft, Lanes};
-use super::lanes::LANES;
+pub(super) mod load;
+mod plane;
+mod slice;
+mod volume;
+
+use self::load::{LoadScratch, Spectrum};
+use self::slice::SliceScratch;
+use self::volume::Worker;
 use super::layer::{Layer, Waves, layers};
-use super::load::{LoadScratch, Spectrum};
-use super::slice::SliceScratch;
 use super::spec::{Purpose, StressError, StressSpec};
 use super::sums::VolumeSums;
-use super::volume::Worker;
+use crate::math::lane_fft::{LaneFft, Lanes};
+use crate::math::lanes::LANES;
+pub use plane::{Cut, Plane};
+pub use volume::VolumeOut;
 
 /// The engine: tables, spectra of the surface loaded last, scratch.
 pub struct StressEngine {

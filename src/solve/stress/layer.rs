@@ -4,11 +4,11 @@
 
 use std::f64::consts::TAU;
 
-use super::fft::LaneFft;
-use super::fft::plan_of;
-use super::lanes::{LANES, V};
 use super::spec::{StressSpec, Symmetry};
 use super::window::{LOW, LowModes, low_modes};
+use crate::math::lane_fft::LaneFft;
+use crate::math::lane_fft::plan_of;
+use crate::math::lanes::{LANES, V};
 use crate::physics::invariants::Stress6;
 
 /// Wave numbers and directions, `[block · modes_y + ky]`, sixteen kx per block.

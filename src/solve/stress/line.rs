@@ -28,11 +28,11 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::depth::depth_rule;
+use super::engine::VolumeOut;
 use super::peak;
 use super::slice_out::{Peak, SliceOut};
 use super::spec::{Loading, StressSpec, Symmetry};
 use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
-use super::volume::VolumeOut;
 use crate::math::kernel_symbol::{REPEATING, even_kernel_symbol, odd_kernel_symbol};
 use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;

@@ -8,7 +8,7 @@
 //! asin by its square-root form with the eight-term polynomial of Abramowitz and Stegun (1964), 4.4.46 (2e-8). Sources: von Mises
 //! (1913); Tresca (1864), by Lode's angle.
 
-use super::lanes::{LANES, V};
+use crate::math::lanes::{LANES, V};
 use crate::scene::StressMeasure;
 
 /// The square of the measure of d1, d2, xy, xz, yz in every lane, times `factor`, and the greatest so

@@ -1,11 +1,11 @@
 //! Rows of a layer between its two passes, and their reduction to one measure.
 //!
-//! Part of `stress/volume.rs`.
+//! Part of `stress/engine/volume.rs`.
 
-use super::fft::Lanes;
-use super::lanes::{LANES, TILE, V, transpose_tile};
 use super::layer::Layer;
 use super::measure::{power_sum, squared};
+use crate::math::lane_fft::Lanes;
+use crate::math::lanes::{LANES, TILE, V, transpose_tile};
 use crate::scene::StressMeasure;
 
 /// Index of a layer's row (may be below the axis) in its period.

@@ -1,11 +1,11 @@
 //! The stress in the plane y = 0 as it is handed out, and the passes that write it.
 //!
-//! Part of `stress/slice.rs`.
+//! Part of `stress/engine/slice.rs`.
 
-use super::fft::Lanes;
-use super::lanes::{C, LANES, V, transpose};
 use super::measure::squared;
 use super::spec::{StressSpec, Symmetry};
+use crate::math::lane_fft::Lanes;
+use crate::math::lanes::{C, LANES, V, transpose};
 use crate::physics::invariants::Stress6;
 use crate::scene::StressMeasure;
 

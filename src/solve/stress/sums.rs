@@ -7,14 +7,13 @@
 //! The greatest is that of the samples of a layer's own grid, which leaves a swept share of Hertz up to 3 % low
 //! (m = 11.5); against a reference of the same grid it cancels.
 //!
-//! Part of `stress/volume.rs`.
+//! Part of `stress/engine/volume.rs`.
 
 use serde::{Deserialize, Serialize};
 
 use super::layer::Layer;
 use super::slice_out::Peak;
 use super::spec::{Loading, StressSpec};
-use super::volume::{Integral, Worker};
 use crate::math::ln_sum::ln_sum;
 
 /// Most laws that one pass integrates.
@@ -75,6 +74,24 @@ impl LayerSum {
             z: 0.0,
         },
     };
+}
+
+/// Sums of one layer, `[loading][law]`.
+pub(super) type LayerResult = [[LayerSum; MAX_LAWS]; 4];
+
+/// What one thread found: greatest squares of every row by loading, and the layers that it did.
+pub(super) struct LayerResults {
+    pub(super) row_tops: [Vec<f32>; 4],
+    pub(super) done: Vec<(usize, LayerResult)>,
+}
+
+/// Life integral of one loading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Integral {
+    /// ln ∫ s^m dV, s in p_h, V in a³; −∞ without stress.
+    pub ln: f64,
+    /// Greatest effective stress at the points and depths of the sum (not refined).
+    pub peak: Peak,
 }
 
 /// Sums of one surface.
@@ -176,14 +193,18 @@ impl VolumeSums {
         }
     }
 
-    /// Collects what the workers did, in order of depth.
-    pub(super) fn gather(&mut self, workers: &[Worker], laws: usize) {
+    /// Collects what the threads did, in order of depth.
+    pub(super) fn gather<'a>(
+        &mut self,
+        threads: impl Iterator<Item = &'a LayerResults> + Clone,
+        laws: usize,
+    ) {
         self.peaks = [Peak::default(); 4];
         for k in 0..self.depths {
-            let mut all = workers
-                .iter()
-                .flat_map(|w| w.done.iter().map(move |d| (w, d)));
-            let Some((worker, (_, result))) = all.find(|(_, (depth, _))| *depth == k) else {
+            let mut all = threads
+                .clone()
+                .flat_map(|thread| thread.done.iter().map(move |done| (thread, done)));
+            let Some((thread, (_, result))) = all.find(|(_, (depth, _))| *depth == k) else {
                 continue;
             };
             let from = self.first_row[k];
@@ -199,7 +220,7 @@ impl VolumeSums {
                     self.peaks[loading] = by_law[0].peak;
                 }
                 self.row_tops[loading][from..until]
-                    .copy_from_slice(&worker.row_tops[loading][from..until]);
+                    .copy_from_slice(&thread.row_tops[loading][from..until]);
             }
         }
     }

@@ -5,7 +5,7 @@
 //! T_h(kx, ky; z) = ∫∫ K_h(x, y; z) W(ρ) e^{−i(kx x + ky y)} dx dy,   ρ² = (x/Lx)² + (y/Ly)²
 //! W(ρ) = ½ erfc((ρ − ½)/δ)
 //! ```
-//! K_h are the harmonics of a unit point force ([`crate::physics::stress_exact_patch`]), Lx × Ly the
+//! K_h are the harmonics of a unit point force ([`point_radial`]), Lx × Ly the
 //! period. W is 1 near the source and 0 at its nearest image; being a function of x/Lx and y/Ly it
 //! also fits long ellipses. Its spectrum falls as e^{−(πδm)²} in the mode number m, so from m = 16 on
 //! the kernel's own spectrum serves. The integral is taken in polar coordinates of the stretched plane:
@@ -18,9 +18,8 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::depth::gauss_legendre;
-use crate::physics::stress_exact::{Directions, Harmonics};
-use crate::physics::stress_exact_patch::point_radial;
+use crate::math::quadrature::gauss_legendre;
+use crate::physics::stress_exact::{Directions, Harmonics, point_radial};
 
 /// Modes per direction that are tabulated.
 pub(super) const LOW: usize = 16;

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use super::row::{AccuracyRow, Against, Part, Varied, against_finest, timed};
+use super::row::{AccuracyRow, Against, StudiedPart, Varied, against_finest, timed};
 use crate::solve::material::{Line, MaterialTracker, TrackerSpec};
 
 const SPEEDS: (f64, f64) = (1.0, 2.0);
@@ -22,7 +22,7 @@ pub(super) fn counted(samples: &[usize]) -> Vec<AccuracyRow> {
         .map(|&samples| {
             let ((count, steps), time) = timed(|| count(samples));
             AccuracyRow {
-                part: Part::CountedCycles,
+                part: StudiedPart::CountedCycles,
                 quantity: "cycles a crossing",
                 varied: Varied::Samples,
                 setting: samples as f64,
@@ -75,7 +75,7 @@ fn count(samples: usize) -> (f64, u64) {
         tracker.step(SPEEDS.0 * dt, &line);
     }
     (
-        tracker.pressure_cycles().map_or(0.0, |tally| tally.count),
+        tracker.pressure_cycles().map_or(0.0, |cycles| cycles.count),
         steps,
     )
 }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::PI;
 
-use super::row::{AccuracyRow, Against, Part, Timed, Varied, timed};
+use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, timed};
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::scene::Order;
@@ -82,7 +82,7 @@ fn exact(grid: &Grid, n: usize) -> f64 {
 pub(super) fn hertz(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<AccuracyRow>, String> {
     let mut rows = Vec::new();
     let row = |solved: &Solved, quantity, varied, setting, fixed: String, error| AccuracyRow {
-        part: Part::DryHertz,
+        part: StudiedPart::DryHertz,
         quantity,
         varied,
         setting,
@@ -158,7 +158,7 @@ pub(super) fn deflection(sizes: &[usize]) -> Vec<AccuracyRow> {
         let widened: Vec<f64> = single_u.iter().map(|&u| f64::from(u)).collect();
         for (bits, field, time) in [(32.0, &widened, single), (64.0, &u, double)] {
             rows.push(AccuracyRow {
-                part: Part::Deflection,
+                part: StudiedPart::Deflection,
                 quantity: "deflection, r < a/2",
                 varied: Varied::Precision,
                 setting: bits,

@@ -13,13 +13,13 @@ mod row;
 mod smooth;
 mod stress;
 
-pub use passage::{LifeLimit, LifeRun, LifeValue, Setting};
+pub use passage::{LifeLimit, LifeRun, LifeValue, Resolution};
 pub use plot::{life_plot, work_precision_plot};
 pub use report::{accuracy_table, accuracy_text};
-pub use row::{AccuracyRow, Against, Part, Varied};
+pub use row::{AccuracyRow, Against, StudiedPart, Varied};
 
-use super::{Extent, Progress, StudyError};
-use passage::Series;
+use super::{Extent, StudyError, StudyProgress};
+use passage::StudySeries;
 
 /// The study's result.
 #[derive(Debug, Clone, PartialEq)]
@@ -115,32 +115,38 @@ fn series(
     (base, step): (usize, f64),
     steps: &[f64],
     depths: &[usize],
-) -> Vec<Series> {
-    let at = Setting {
+) -> Vec<StudySeries> {
+    let at = Resolution {
         nodes: base,
         step,
-        ..Setting::USUAL
+        ..Resolution::USUAL
     };
-    let over = |varied, settings: Vec<Setting>| (varied, settings);
+    let over = |varied, settings: Vec<Resolution>| (varied, settings);
     let mut all = vec![
         over(
             Varied::Nodes,
-            sizes.iter().map(|&nodes| Setting { nodes, ..at }).collect(),
+            sizes
+                .iter()
+                .map(|&nodes| Resolution { nodes, ..at })
+                .collect(),
         ),
         over(
             Varied::Step,
-            steps.iter().map(|&step| Setting { step, ..at }).collect(),
+            steps
+                .iter()
+                .map(|&step| Resolution { step, ..at })
+                .collect(),
         ),
         over(
             Varied::Tolerance,
             [1e-2, 1e-3, 1e-4]
                 .iter()
-                .map(|&tolerance| Setting { tolerance, ..at })
+                .map(|&tolerance| Resolution { tolerance, ..at })
                 .collect(),
         ),
     ];
     if !depths.is_empty() {
-        let settings = depths.iter().map(|&depths| Setting { depths, ..at });
+        let settings = depths.iter().map(|&depths| Resolution { depths, ..at });
         all.push(over(Varied::Depths, settings.collect()));
     }
     all
@@ -153,56 +159,56 @@ fn series(
 pub fn accuracy(
     extent: Extent,
     threads: usize,
-    progress: &mut Progress,
+    progress: &mut StudyProgress,
 ) -> Result<Accuracy, StudyError> {
     let sizes = Sizes::of(extent);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .map_err(|error| StudyError::Scene(error.to_string()))?;
-    let failed = |part: Part| {
+    let failed = |part: StudiedPart| {
         move |reason: String| StudyError::Run {
             case: part.name().to_owned(),
             reason,
         }
     };
     let mut done = 0;
-    let all = Part::ALL.len();
-    let mut tell = |part: Part| {
+    let all = StudiedPart::ALL.len();
+    let mut tell = |part: StudiedPart| {
         progress(part.name(), done, all);
         done += 1;
     };
     let mut rows = Vec::new();
-    tell(Part::DryHertz);
+    tell(StudiedPart::DryHertz);
     let tolerances = [1e-2, 1e-3, 1e-4, 1e-6, 1e-8];
     rows.extend(
         pool.install(|| hertz::hertz(sizes.hertz, &tolerances))
-            .map_err(failed(Part::DryHertz))?,
+            .map_err(failed(StudiedPart::DryHertz))?,
     );
-    tell(Part::Deflection);
+    tell(StudiedPart::Deflection);
     rows.extend(pool.install(|| hertz::deflection(sizes.hertz)));
-    tell(Part::SmoothFilm);
+    tell(StudiedPart::SmoothFilm);
     let tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-6];
     rows.extend(
         pool.install(|| smooth::smooth(sizes.smooth, &tolerances))
-            .map_err(failed(Part::SmoothFilm))?,
+            .map_err(failed(StudiedPart::SmoothFilm))?,
     );
-    tell(Part::Slice);
+    tell(StudiedPart::Slice);
     let decays = [1e-2, 1e-3, 1e-4, 1e-6, 1e-8];
     rows.extend(
         pool.install(|| stress::stress(sizes.stress, &[8, 12, 16, 24, 32, 48], &decays))
-            .map_err(failed(Part::Volume))?,
+            .map_err(failed(StudiedPart::Volume))?,
     );
-    tell(Part::CountedCycles);
+    tell(StudiedPart::CountedCycles);
     rows.extend(counted::counted(sizes.samples));
-    tell(Part::RoughFilm);
+    tell(StudiedPart::RoughFilm);
     let of_film = series(sizes.rough, sizes.rough_base, sizes.steps, &[]);
-    rows.extend(passage::rough(&of_film, threads).map_err(failed(Part::RoughFilm))?);
+    rows.extend(passage::rough(&of_film, threads).map_err(failed(StudiedPart::RoughFilm))?);
     let of_life = series(sizes.whole, sizes.whole_base, sizes.steps, &[8, 16, 32, 64]);
     let (more, lives, limit) = passage::life(&of_life, sizes.passages, threads, |name| {
         progress(name, all - 1, all);
     })
-    .map_err(failed(Part::Life))?;
+    .map_err(failed(StudiedPart::Life))?;
     rows.extend(more);
     row::observe_orders(&mut rows);
     row::mark_front(&mut rows);

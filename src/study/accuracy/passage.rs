@@ -4,14 +4,14 @@
 //! series is measured against its own finest case. *Life*: the default scene; besides the series, every run is
 //! measured against what all of them tend to, which is what the recommendation goes by.
 
-use super::row::{AccuracyRow, Against, Part, Varied, against_finest, timed};
+use super::row::{AccuracyRow, Against, StudiedPart, Varied, against_finest, timed};
 use crate::plan::Plan;
 use crate::scene::{Override, Scene};
 use crate::sim::{Simulation, Summary};
 
 /// Settings of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setting {
+pub struct Resolution {
     /// Nodes per side.
     pub nodes: usize,
     /// Time step, nodes.
@@ -22,7 +22,7 @@ pub struct Setting {
     pub depths: usize,
 }
 
-impl Setting {
+impl Resolution {
     /// What the presets use.
     pub const USUAL: Self = Self {
         nodes: 129,
@@ -117,10 +117,10 @@ fn run(sets: &[String], domain: Option<&Plan>, threads: usize) -> Result<Finishe
 }
 
 fn row(
-    part: Part,
+    part: StudiedPart,
     quantity: &'static str,
     varied: Varied,
-    setting: Setting,
+    setting: Resolution,
     ran: &FinishedRun,
     threads: usize,
 ) -> AccuracyRow {
@@ -145,10 +145,10 @@ fn row(
 }
 
 /// A series: what is varied, and the settings from coarse to fine.
-pub(super) type Series = (Varied, Vec<Setting>);
+pub(super) type StudySeries = (Varied, Vec<Resolution>);
 
 /// Central film and greatest pressure of moving waves, by series.
-pub(super) fn rough(series: &[Series], threads: usize) -> Result<Vec<AccuracyRow>, String> {
+pub(super) fn rough(series: &[StudySeries], threads: usize) -> Result<Vec<AccuracyRow>, String> {
     let common = [
         "stress=none",
         "life=none",
@@ -172,7 +172,14 @@ pub(super) fn rough(series: &[Series], threads: usize) -> Result<Vec<AccuracyRow
                 .into_iter()
                 .enumerate()
             {
-                let mut row = row(Part::RoughFilm, quantity, *varied, *setting, &ran, threads);
+                let mut row = row(
+                    StudiedPart::RoughFilm,
+                    quantity,
+                    *varied,
+                    *setting,
+                    &ran,
+                    threads,
+                );
                 row.value = Some(values[k]);
                 by_quantity[k].push(row);
             }
@@ -208,7 +215,7 @@ impl LifeValue {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LifeRun {
     /// Settings.
-    pub setting: Setting,
+    pub setting: Resolution,
     /// How its life was had.
     pub value: LifeValue,
     /// Relative life.
@@ -234,7 +241,7 @@ pub struct LifeLimit {
 /// ln L* = ln L(h) + [ln L(h) − ln L(2h)]/3        the last two of the first series: half the mesh, half the step
 /// ```
 pub(super) fn life(
-    series: &[Series],
+    series: &[StudySeries],
     passages: f64,
     threads: usize,
     mut heard: impl FnMut(&str),
@@ -258,7 +265,7 @@ pub(super) fn life(
             let ran = run(&sets, None, threads)?;
             let life = ran.summary.life_relative.unwrap_or(f64::NAN);
             let mut row = row(
-                Part::Life,
+                StudiedPart::Life,
                 "relative life",
                 *varied,
                 *setting,
@@ -290,7 +297,7 @@ pub(super) fn life(
 /// Every run whose companion on half the nodes is there too; the companion's time counts.
 fn extrapolated(runs: &[LifeRun]) -> Vec<LifeRun> {
     let companion = |of: &LifeRun| {
-        let setting = Setting {
+        let setting = Resolution {
             nodes: (of.setting.nodes - 1) / 2 + 1,
             ..of.setting
         };
@@ -307,12 +314,12 @@ fn extrapolated(runs: &[LifeRun]) -> Vec<LifeRun> {
         .collect()
 }
 
-fn is_of(row: &AccuracyRow, setting: Setting) -> bool {
+fn is_of(row: &AccuracyRow, setting: Resolution) -> bool {
     (row.setting, &row.fixed) == (setting.value(row.varied), &setting.fixed(row.varied))
 }
 
-fn limit(series: &[Series], runs: &[LifeRun]) -> LifeLimit {
-    let ln_life = |setting: &Setting| {
+fn limit(series: &[StudySeries], runs: &[LifeRun]) -> LifeLimit {
+    let ln_life = |setting: &Resolution| {
         let run = runs.iter().find(|run| run.setting == *setting);
         run.map_or(f64::NAN, |run| run.life.ln())
     };
@@ -330,7 +337,7 @@ fn limit(series: &[Series], runs: &[LifeRun]) -> LifeLimit {
     }
 }
 
-impl Setting {
+impl Resolution {
     /// Whether nothing is coarser than in `other`.
     fn is_as_fine_as(self, other: Self) -> bool {
         self.nodes >= other.nodes
@@ -360,10 +367,10 @@ mod tests {
     #[test]
     fn errors_that_cancel_recommend_nothing() {
         let run = |nodes, step, error, seconds| LifeRun {
-            setting: Setting {
+            setting: Resolution {
                 nodes,
                 step,
-                ..Setting::USUAL
+                ..Resolution::USUAL
             },
             value: LifeValue::Computed,
             life: 1.0,

@@ -1,6 +1,6 @@
 //! Work-precision diagrams.
 
-use super::{Accuracy, LEVELS, LifeRun, Part, Varied};
+use super::{Accuracy, LEVELS, LifeRun, StudiedPart, Varied};
 use crate::observe::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
 
 /// Error against time over the nodes (cycles: the samples), one curve a part.
@@ -9,7 +9,7 @@ use crate::observe::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
 /// What the drawing library says.
 pub fn work_precision_plot(result: &Accuracy) -> Result<String, String> {
     let mut curves = Vec::new();
-    for part in Part::ALL {
+    for part in StudiedPart::ALL {
         let first = result.rows.iter().find(|row| row.part == part);
         let Some(quantity) = first.map(|row| row.quantity) else {
             continue;
@@ -19,7 +19,8 @@ pub fn work_precision_plot(result: &Accuracy) -> Result<String, String> {
             .iter()
             .filter(|row| (row.part, row.quantity) == (part, quantity) && row.error > 0.0)
             .filter(|row| {
-                matches!(row.varied, Varied::Nodes | Varied::Samples) || part == Part::Deflection
+                matches!(row.varied, Varied::Nodes | Varied::Samples)
+                    || part == StudiedPart::Deflection
             })
             .map(|row| (row.seconds, row.error))
             .collect();

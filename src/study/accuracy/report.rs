@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use super::super::table::{Table, figure};
-use super::{Accuracy, LEVELS, Part, Varied};
+use super::super::table::{MarkdownTable, figure};
+use super::{Accuracy, LEVELS, StudiedPart, Varied};
 
 /// Every row.
-pub fn accuracy_table(result: &Accuracy) -> Table {
-    let mut table = Table::new(&[
+pub fn accuracy_table(result: &Accuracy) -> MarkdownTable {
+    let mut table = MarkdownTable::new(&[
         "part", "error of", "varied", "setting", "rest", "error", "against", "order", "ms", "runs",
         "threads", "work", "unit", "MB", "front",
     ]);
@@ -61,7 +61,7 @@ fn push_orders(text: &mut String, result: &Accuracy) {
     text.push_str(
         "\n## Observed orders\n\n| part | error of | varied | order |\n|---|---|---|---|\n",
     );
-    for part in Part::ALL {
+    for part in StudiedPart::ALL {
         let rows: Vec<_> = result.rows.iter().filter(|row| row.part == part).collect();
         for (at, row) in rows.iter().enumerate() {
             let next = rows.get(at + 1);

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 /// What is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Part {
+pub enum StudiedPart {
     /// Dry Hertz contact by conjugate gradients.
     DryHertz,
     /// Deflection by a transform pair, in both precisions.
@@ -25,7 +25,7 @@ pub enum Part {
     Life,
 }
 
-impl Part {
+impl StudiedPart {
     /// Every part.
     pub const ALL: [Self; 9] = [
         Self::DryHertz,
@@ -130,7 +130,7 @@ impl Varied {
 #[derive(Debug, Clone, PartialEq)]
 pub struct AccuracyRow {
     /// Part.
-    pub part: Part,
+    pub part: StudiedPart,
     /// What the error is an error of.
     pub quantity: &'static str,
     /// What is varied.
@@ -274,7 +274,7 @@ mod tests {
 
     fn row(setting: f64, value: f64, error: f64, seconds: f64, against: Against) -> AccuracyRow {
         AccuracyRow {
-            part: Part::Slice,
+            part: StudiedPart::Slice,
             quantity: "x",
             varied: Varied::Nodes,
             setting,

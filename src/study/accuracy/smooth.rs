@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 
 use super::hertz::{CIRCLE, LOAD};
-use super::row::{AccuracyRow, Against, Part, Timed, Varied, against_finest, timed};
+use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, against_finest, timed};
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::solve::march::{Conditions, Flow, Guess, March};
@@ -32,7 +32,7 @@ struct SmoothFilm {
 /// Film over nodes against the table, over the tolerance against the tightest.
 pub(super) fn smooth(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<AccuracyRow>, String> {
     let row = |film: &SmoothFilm, time: Timed, quantity, value: f64, error| AccuracyRow {
-        part: Part::SmoothFilm,
+        part: StudiedPart::SmoothFilm,
         quantity,
         varied: Varied::Nodes,
         setting: 0.0,

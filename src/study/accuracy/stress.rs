@@ -4,7 +4,7 @@
 //! the axis ([`hertz_axis_maximum`]), and ∫ σ^10 dV = 2.878184e-3 p_h^10 a³ (ν = 0.3, by quadrature of the closed
 //! field). The stress engine works in single precision.
 
-use super::row::{AccuracyRow, Against, Part, Timed, Varied, timed};
+use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, timed};
 use crate::physics::stress_exact::{hertz_axis_maximum, hertz_sliding};
 use crate::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry};
 
@@ -61,7 +61,7 @@ fn loaded(setting: EngineSetting) -> Result<LoadedCase, String> {
 }
 
 fn row(
-    (part, quantity): (Part, &'static str),
+    (part, quantity): (StudiedPart, &'static str),
     (varied, value): (Varied, f64),
     setting: EngineSetting,
     engine: &StressEngine,
@@ -121,7 +121,7 @@ fn slice(setting: EngineSetting, varied: (Varied, f64)) -> Result<AccuracyRow, S
             }
         }
     }
-    let what = (Part::Slice, "worst component, z > a/4");
+    let what = (StudiedPart::Slice, "worst component, z > a/4");
     Ok(row(what, varied, setting, &engine, (worst, time)))
 }
 
@@ -140,14 +140,14 @@ fn volume(setting: EngineSetting, varied: (Varied, f64)) -> Result<[AccuracyRow;
     let integral = (out.normal.ln.exp() / INTEGRAL - 1.0).abs();
     Ok([
         row(
-            (Part::Volume, "greatest von Mises"),
+            (StudiedPart::Volume, "greatest von Mises"),
             varied,
             setting,
             &engine,
             (peak, time),
         ),
         row(
-            (Part::LifeIntegral, "integral, m = 10"),
+            (StudiedPart::LifeIntegral, "integral, m = 10"),
             varied,
             setting,
             &engine,

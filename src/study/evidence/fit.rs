@@ -94,7 +94,7 @@ pub(super) fn read(scene: &Scene, plan: &Plan, omega: f64, reach: f64) -> Result
 
 /// Two wavenumbers that a row is made of, in 1/a.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Waves {
+pub(super) struct FittedWaves {
     /// Of what is bound to the body.
     pub(super) bound: f64,
     /// Of the other one, with its decay.
@@ -103,7 +103,7 @@ pub(super) struct Waves {
     pub(super) grows: bool,
 }
 
-impl Waves {
+impl FittedWaves {
     fn at(self, x: f64) -> [Complex<f64>; 3] {
         let i = Complex::new(0.0, 1.0);
         let bound = (i * self.bound * x).exp();
@@ -187,7 +187,7 @@ mod tests {
             .iter()
             .map(|&x| (i * bound * x).exp() * (0.3 + 0.1 * x) + (i * other * x).exp() * 0.8)
             .collect();
-        let waves = Waves {
+        let waves = FittedWaves {
             bound,
             other: Complex::new(4.5, 0.3),
             grows: true,
@@ -198,7 +198,7 @@ mod tests {
         assert!((one.norm() - 0.3).abs() < 2e-3 && (two.norm() - 0.8).abs() < 2e-3);
         assert!(rest < 1e-4, "{rest}");
         // Without the growth something is left.
-        let stiff = Waves {
+        let stiff = FittedWaves {
             grows: false,
             ..found
         };

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rustfft::num_complex::Complex;
 
 use super::dent::dent;
-use super::fit::{Waves, read};
+use super::fit::{FittedWaves, read};
 use super::set::{EvidenceCase, Measure, Values, planned};
 use crate::physics::film_ripple::FlatFilm;
 use crate::physics::fluid::{Density, Viscosity};
@@ -114,7 +114,7 @@ fn two_waves(scene: &Scene, plan: &Plan) -> Result<Values, String> {
     let k = TAU / wave_m;
     let read = read(scene, plan, k * body_m_s, TWO_REACH)?;
     let bound = k * plan.hertz.a_m;
-    let waves = Waves {
+    let waves = FittedWaves {
         bound,
         other: Complex::new(bound * body_m_s / scene.motion.entrainment_m_s, 0.0),
         grows: false,
@@ -151,7 +151,7 @@ fn hooke(scene: &Scene, plan: &Plan) -> Result<Values, String> {
         compressibility_per_pa: slope / rho / p_h,
         entrainment_m_s: scene.motion.entrainment_m_s,
     };
-    let waves = Waves {
+    let waves = FittedWaves {
         bound: k * a_m,
         other: flat.convected(wave_m, body_m_s) * a_m,
         grows: true,

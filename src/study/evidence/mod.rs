@@ -20,12 +20,12 @@ pub use set::{
     Comparison, EvidenceCase, EvidenceClaim, EvidenceNumber, EvidencePoint, EvidenceSet,
     Experiment, Forecast, Grade, Measure, planned,
 };
-pub use tried::{Damage, Judged, Tried, word};
+pub use tried::{Judged, Tried, TriedDamage, word};
 
 use std::time::Instant;
 
 use super::crew::share_out;
-use super::{Extent, Progress, StudyError, refuse_nothing};
+use super::{Extent, StudyError, StudyProgress, refuse_nothing};
 use crate::scene::CycleBasis;
 
 /// A number of a case.
@@ -101,7 +101,7 @@ enum EvidenceJob<'a> {
 /// What came of it.
 enum EvidenceResult {
     Case(Result<Values, String>),
-    Point(Result<Damage, String>),
+    Point(Result<TriedDamage, String>),
 }
 
 impl EvidenceJob<'_> {
@@ -142,7 +142,7 @@ pub fn evidence(
     extent: Extent,
     only: Option<&str>,
     workers: usize,
-    progress: &mut Progress,
+    progress: &mut StudyProgress,
 ) -> Result<Evidence, StudyError> {
     let clock = Instant::now();
     let set = EvidenceSet::shipped().map_err(StudyError::Scene)?;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::super::table::{Table, figure};
+use super::super::table::{MarkdownTable, figure};
 use super::tried::{Judged, Tried, word};
 use super::{Evidence, EvidenceRow};
 use crate::scene::CycleBasis;
@@ -11,8 +11,8 @@ use crate::scene::CycleBasis;
 const UNKNOWN: &str = "no cause is known";
 
 /// Every computed number.
-pub fn evidence_table(result: &Evidence) -> Table {
-    let mut table = Table::new(&[
+pub fn evidence_table(result: &Evidence) -> MarkdownTable {
+    let mut table = MarkdownTable::new(&[
         "grade",
         "case",
         "source",
@@ -148,7 +148,7 @@ fn push_experiment(text: &mut String, tried: &Tried) {
     let rule = "|---".repeat(countings.len());
     let _ = writeln!(text, "| point | scene | {head} |\n|---|---{rule}|");
     for (point, found) in experiment.point.iter().zip(&tried.damages) {
-        let cell = |found: &Result<super::Damage, String>| match found {
+        let cell = |found: &Result<super::TriedDamage, String>| match found {
             Ok(damage) if point.depth_m.is_some() => {
                 format!("stress {}", figure(Some(damage.value)))
             }

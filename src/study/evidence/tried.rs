@@ -22,7 +22,7 @@ pub fn word(basis: CycleBasis) -> String {
 
 /// A point by one counting.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Damage {
+pub struct TriedDamage {
     /// 1/life in own loading cycles, or the stress over that of the smooth contact.
     pub value: f64,
     /// Speed of the body, m/s: its loading cycles in a time.
@@ -48,14 +48,17 @@ pub struct Tried {
     /// The experiment.
     pub experiment: Experiment,
     /// Damages of its points, by counting; why there is none.
-    pub damages: Vec<Vec<Result<Damage, String>>>,
+    pub damages: Vec<Vec<Result<TriedDamage, String>>>,
     /// Its claims.
     pub judged: Vec<Judged>,
 }
 
 impl Tried {
     /// Judges the claims by the damages found.
-    pub(super) fn new(experiment: &Experiment, damages: Vec<Vec<Result<Damage, String>>>) -> Self {
+    pub(super) fn new(
+        experiment: &Experiment,
+        damages: Vec<Vec<Result<TriedDamage, String>>>,
+    ) -> Self {
         let of = |label: &str, counting: usize| {
             let at = experiment.point.iter().position(|p| p.label == label)?;
             damages[at][counting].as_ref().ok().copied()
@@ -66,9 +69,9 @@ impl Tried {
                     let more = of(&claim.more, counting);
                     let less = match &claim.less {
                         Some(label) => of(label, counting),
-                        None => more.map(|more| Damage { value: 1.0, ..more }),
+                        None => more.map(|more| TriedDamage { value: 1.0, ..more }),
                     };
-                    let ratio = |(more, less): (Damage, Damage)| {
+                    let ratio = |(more, less): (TriedDamage, TriedDamage)| {
                         let time = if claim.per_time {
                             more.speed_m_s / less.speed_m_s
                         } else {
@@ -115,7 +118,7 @@ pub(super) fn damage(
     point: &EvidencePoint,
     basis: CycleBasis,
     nodes: usize,
-) -> Result<Damage, String> {
+) -> Result<TriedDamage, String> {
     let mut set = point.set.clone();
     set.push(format!("life.cycles={}", word(basis)));
     let (scene, plan) = on_grid(&point.scene, &set, nodes, nodes)?;
@@ -130,7 +133,7 @@ pub(super) fn damage(
         1.0 / life.ok_or("no life")?
     };
     if value.is_finite() {
-        Ok(Damage { value, speed_m_s })
+        Ok(TriedDamage { value, speed_m_s })
     } else {
         Err(format!("damage {value}"))
     }

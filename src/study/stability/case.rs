@@ -43,7 +43,7 @@ pub enum Texture {
 /// Who turns a knob in mid-run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Turned {
+pub enum TurnedBy {
     /// An event of the scene: the plan foresees it.
     #[default]
     ByScript,
@@ -73,7 +73,7 @@ pub struct Case {
     pub quick: bool,
     /// Who turns the knobs of its jumps.
     #[serde(default)]
-    pub turned: Turned,
+    pub turned: TurnedBy,
     /// Keys with their usual and their extreme value.
     #[serde(default)]
     pub push: BTreeMap<String, [f64; 2]>,
@@ -176,8 +176,8 @@ impl CaseSet {
             }
         }
         let foreseen = match case.turned {
-            Turned::ByScript => &jumps[..],
-            Turned::ByHand => &[],
+            TurnedBy::ByScript => &jumps[..],
+            TurnedBy::ByHand => &[],
         };
         let smooth = ["body_1", "body_2"].map(|body| format!("{body}.surface.kind=smooth"));
         let mut bare = texts.clone();

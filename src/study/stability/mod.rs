@@ -1,7 +1,7 @@
 //! Stiff and extreme cases: every one ends converged or by name.
 //!
 //! The cases are data ([`CaseSet::shipped`]). Each is run from Hertz through its start-up and its passage on one
-//! thread under a work limit; every step and every field is judged ([`Ending`]). A case that does not converge
+//! thread under a work limit; every step and every field is judged ([`TrialEnd`]). A case that does not converge
 //! is searched back towards its usual setting until it does. A long run of the default scene shows whether
 //! anything creeps ([`Drift`]).
 
@@ -14,11 +14,11 @@ use std::fmt::Write as _;
 
 pub use case::{Case, CaseSet, Texture};
 pub use drift::Drift;
-pub use trial::{Ending, Trial};
+pub use trial::{Trial, TrialEnd};
 
 use super::crew::share_out;
-use super::table::{Table, figure};
-use super::{Extent, Progress, StudyError, refuse_nothing};
+use super::table::{MarkdownTable, figure};
+use super::{Extent, StudyError, StudyProgress, refuse_nothing};
 
 /// A case and how it went.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,7 +81,7 @@ pub fn stability(
     extent: Extent,
     only: Option<&str>,
     workers: usize,
-    progress: &mut Progress,
+    progress: &mut StudyProgress,
 ) -> Result<Stability, StudyError> {
     let set = CaseSet::shipped().map_err(StudyError::Scene)?;
     let (nodes, drift_nodes, drift_steps) = match extent {
@@ -133,8 +133,8 @@ fn run_case(set: &CaseSet, case: &Case, nodes: usize) -> StabilityRow {
 }
 
 /// The table.
-pub fn stability_table(result: &Stability) -> Table {
-    let mut table = Table::new(&[
+pub fn stability_table(result: &Stability) -> MarkdownTable {
+    let mut table = MarkdownTable::new(&[
         "group",
         "case",
         "ending",

@@ -24,7 +24,7 @@ const THIN_FILM: f64 = 0.1;
 
 /// How a case ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Ending {
+pub enum TrialEnd {
     /// Every step converged and what came out is sane.
     Converged,
     /// It ran through, and so many steps did not converge; each is named by the run.
@@ -39,7 +39,7 @@ pub enum Ending {
     Quiet(String),
 }
 
-impl Ending {
+impl TrialEnd {
     /// Whether all is well.
     pub fn is_converged(&self) -> bool {
         *self == Self::Converged
@@ -67,7 +67,7 @@ impl Ending {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial {
     /// How it ended.
-    pub ending: Ending,
+    pub ending: TrialEnd,
     /// Steps of the passage.
     pub steps: u64,
     /// Worst relative change of pressure.
@@ -96,7 +96,7 @@ impl Trial {
     /// A case that did not come to a run.
     pub(super) fn refused(reason: String) -> Self {
         Self {
-            ending: Ending::Refused(reason),
+            ending: TrialEnd::Refused(reason),
             steps: 0,
             residual: 0.0,
             load_error: 0.0,
@@ -125,7 +125,7 @@ pub(super) fn run(ready: &Ready) -> Trial {
             trial.stats = *sim.stats();
             trial.ending = watch.judge(end, &mut trial, ready);
         }
-        Err(error) => trial.ending = Ending::Refused(error.to_string()),
+        Err(error) => trial.ending = TrialEnd::Refused(error.to_string()),
     }
     trial.seconds = clock.elapsed().as_secs_f64();
     trial
@@ -178,7 +178,7 @@ fn drive(
     ready: &Ready,
     trial: &mut Trial,
     watch: &mut TrialWatch,
-) -> Result<(), Ending> {
+) -> Result<(), TrialEnd> {
     let wanted = steps_wanted(ready);
     let jump_at = (JUMP_AT * wanted as f64) as u64;
     let mut jumps = ready.jumps.clone();
@@ -196,18 +196,18 @@ fn drive(
         if sim.stage() == Stage::Passage && done >= jump_at {
             for (knob, value) in jumps.drain(..) {
                 let turned = sim.set(knob, value);
-                turned.map_err(|error| Ending::Refused(error.to_string()))?;
+                turned.map_err(|error| TrialEnd::Refused(error.to_string()))?;
             }
         }
         let stats = sim.stats();
         if stats.linear_iterations > MOST_LINEAR || stats.steps > MOST_STEPS {
-            return Err(Ending::OutOfWork(format!(
+            return Err(TrialEnd::OutOfWork(format!(
                 "{} steps and {} linear iterations",
                 stats.steps, stats.linear_iterations
             )));
         }
         if let Err(error) = sim.step() {
-            return Err(Ending::Failed(error.to_string()));
+            return Err(TrialEnd::Failed(error.to_string()));
         }
         watch.see(sim, ready, trial);
     }
@@ -271,19 +271,19 @@ impl TrialWatch {
     }
 
     /// The ending: sane results only are called converged.
-    fn judge(self, end: Result<(), Ending>, trial: &mut Trial, ready: &Ready) -> Ending {
+    fn judge(self, end: Result<(), TrialEnd>, trial: &mut Trial, ready: &Ready) -> TrialEnd {
         let film = ready.plan.film.as_ref();
         trial.film_ratio = film
             .zip(self.smooth)
             .map(|(film, (h, _))| h / film.central_m);
         if trial.not_finite > 0 {
-            return Ending::Quiet(format!("{} values are not numbers", trial.not_finite));
+            return TrialEnd::Quiet(format!("{} values are not numbers", trial.not_finite));
         }
         if self.negative > 0 {
-            return Ending::Quiet(format!("{} negative pressures", self.negative));
+            return TrialEnd::Quiet(format!("{} negative pressures", self.negative));
         }
         if let Some(overlap) = self.overlap {
-            return Ending::Quiet(format!(
+            return TrialEnd::Quiet(format!(
                 "surfaces overlap by {:.2} nm at x = {:.2} a, y = {:.2} b{}",
                 overlap.depth_nm,
                 overlap.at[0],
@@ -296,15 +296,15 @@ impl TrialWatch {
             ));
         }
         if let Some(wrong) = self.wrong {
-            return Ending::Quiet(wrong);
+            return TrialEnd::Quiet(wrong);
         }
         if let Err(ending) = end {
             return ending;
         }
         if self.unconverged > 0 {
-            return Ending::Unconverged(self.unconverged);
+            return TrialEnd::Unconverged(self.unconverged);
         }
-        insane(ready, self.smooth, trial.film_ratio).map_or(Ending::Converged, Ending::Quiet)
+        insane(ready, self.smooth, trial.film_ratio).map_or(TrialEnd::Converged, TrialEnd::Quiet)
     }
 }
 

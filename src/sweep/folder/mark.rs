@@ -39,14 +39,14 @@ pub(super) fn text(path: &Path) -> Option<String> {
 
 /// What the folder of a sweep is marked with.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Mark {
+pub(super) struct FolderMark {
     /// Digest of the sweep.
     pub(super) digest: String,
     /// Build that fills the folder.
     pub(super) build: String,
 }
 
-impl Mark {
+impl FolderMark {
     /// The mark of a sweep that this build runs.
     pub(super) fn new(digest: String) -> Self {
         let build = BUILD.to_owned();
@@ -69,13 +69,13 @@ impl Mark {
 }
 
 /// The mark of a folder that a sweep may work in: its own, or none in a folder that is empty.
-pub(super) fn seen(root: &Path) -> Result<Option<Mark>, SweepError> {
-    let found = Mark::read(root);
+pub(super) fn seen(root: &Path) -> Result<Option<FolderMark>, SweepError> {
+    let found = FolderMark::read(root);
     let Some(name) = stranger(root).filter(|_| found.is_none()) else {
         return Ok(found);
     };
     // Another shard may have begun here since: its mark comes before all else.
-    let since = Mark::read(root);
+    let since = FolderMark::read(root);
     if since.is_none() {
         let reason = format!(
             "holds {name}, and no sweep has marked the folder: its contents are somebody else's; choose another --out"

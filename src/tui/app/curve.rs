@@ -6,7 +6,7 @@
 //! again when it is turned back.
 
 use crate::sim::{Knob, Metrics};
-use crate::sweep::{Along, Conditions, Found, Order};
+use crate::sweep::{Along, CurveOrder, CurvePoint, Found};
 use crate::tui::app::{App, Curve, Effect};
 
 /// Values of S that a sweep visits, of either sign: close where life falls fastest.
@@ -36,8 +36,8 @@ impl MeanFriction {
 }
 
 /// Where a frame was computed.
-pub(super) fn conditions(metrics: &Metrics) -> Conditions {
-    Conditions {
+pub(super) fn conditions(metrics: &Metrics) -> CurvePoint {
+    CurvePoint {
         slide_roll: metrics.slide_roll,
         entrainment_m_s: metrics.entrainment_m_s,
         load_n: metrics.load_n,
@@ -50,7 +50,7 @@ fn close(one: f64, other: f64, within: f64) -> bool {
 }
 
 /// Load and both surfaces.
-fn same_contact(one: &Conditions, other: &Conditions) -> bool {
+fn same_contact(one: &CurvePoint, other: &CurvePoint) -> bool {
     const ROUNDED: f64 = 1e-3;
     let [a, b] = [one, other].map(|at| [at.load_n, at.amplitude_m[0], at.amplitude_m[1]]);
     a.into_iter().zip(b).all(|(a, b)| close(a, b, ROUNDED))
@@ -58,8 +58,8 @@ fn same_contact(one: &Conditions, other: &Conditions) -> bool {
 
 impl App {
     /// Where the knobs are going.
-    fn aim(&self) -> Conditions {
-        Conditions {
+    fn aim(&self) -> CurvePoint {
+        CurvePoint {
             slide_roll: self.target(Knob::SlideRoll),
             entrainment_m_s: self.target(Knob::EntrainmentMS),
             // A scene has a dial for one of the two.
@@ -125,7 +125,7 @@ impl App {
         }
         self.sweeping = along;
         let scene = self.scene_now();
-        vec![Effect::Sweep(Box::new(Order {
+        vec![Effect::Sweep(Box::new(CurveOrder {
             along,
             values,
             scene,

@@ -3,7 +3,7 @@
 use crate::run::Command;
 use crate::scene::Scene;
 use crate::sim::Frame;
-use crate::sweep::Order;
+use crate::sweep::CurveOrder;
 use crate::tui::app::Leading;
 
 /// What a key does outside of the screen and the run, where the program offers it.
@@ -29,7 +29,7 @@ pub enum Effect {
     /// An errand.
     Errand(ErrandKind),
     /// Compute this beside the run, from where it has settled.
-    Sweep(Box<Order>),
+    Sweep(Box<CurveOrder>),
     /// Call that off.
     EndSweep,
     /// Run this scene in place of the present one, under this name.
@@ -77,12 +77,12 @@ pub struct Trouble {
     /// Which step.
     pub step: u64,
     /// What did not.
-    pub what: Unconverged,
+    pub what: WhyUnconverged,
 }
 
 /// What of a step did not converge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Unconverged {
+pub enum WhyUnconverged {
     /// The pressure: its residual, and how often the step was tried again.
     Pressure(f64, u32),
     /// The film: the part that is not balanced.
@@ -96,11 +96,11 @@ impl Trouble {
     pub fn of(frame: &Frame, tolerance: f64) -> Self {
         let metrics = &frame.metrics;
         let what = if metrics.residual > tolerance {
-            Unconverged::Pressure(metrics.residual, metrics.retries)
+            WhyUnconverged::Pressure(metrics.residual, metrics.retries)
         } else if metrics.overlap_m > 0.0 {
-            Unconverged::Overlap(metrics.overlap_m)
+            WhyUnconverged::Overlap(metrics.overlap_m)
         } else {
-            Unconverged::Film(metrics.film_error)
+            WhyUnconverged::Film(metrics.film_error)
         };
         Self {
             step: frame.step,

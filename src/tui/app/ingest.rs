@@ -6,10 +6,10 @@ use std::time::Duration;
 use crate::physics::estimate::OperatingPoint;
 use crate::picture::Scope;
 use crate::sim::{Frame, MaterialPoint, Stage};
-use crate::sweep::{Began, Found};
+use crate::sweep::{CaseStart, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
 use crate::tui::app::{App, Effect, LifeSample, Pace, Reached, Trouble};
-use crate::tui::dial::{Dial, knob_target};
+use crate::tui::dial::Dial;
 use crate::tui::units::nice_ceiling;
 
 /// Memory that past frames may take, bytes.
@@ -82,7 +82,8 @@ impl App {
             let quantity = dial.knob.quantity();
             dial.now = quantity.number(frame).unwrap_or(dial.now);
             let ours = set_at.is_some_and(|at| self.now < at + GRACE);
-            match knob_target(&frame.metrics, dial.knob) {
+            let target = dial.knob.target_quantity();
+            match target.and_then(|target| target.number(frame)) {
                 // A scripted event moved it, or the run refused what was asked.
                 Some(target) if !ours => dial.target = target,
                 None if set_at.is_none() => dial.target = dial.now,
@@ -140,7 +141,7 @@ impl App {
         let friction = self.friction.add(metrics.friction_coefficient);
         self.keep_point(Found {
             at: conditions(metrics),
-            began: Began::Warm,
+            began: CaseStart::Warm,
             life: Some([
                 life.life_relative_low,
                 life.life_relative,

@@ -32,7 +32,7 @@ use crate::tui::trace::{Chosen, Trace};
 use crate::tui::units::Units;
 use crate::tui::wiring::{Health, RunStatus, Setup};
 use curve::MeanFriction;
-pub use data::{Effect, ErrandKind, LifeSample, Pinned, Reached, Trouble, Unconverged};
+pub use data::{Effect, ErrandKind, LifeSample, Pinned, Reached, Trouble, WhyUnconverged};
 pub use held::PointNow;
 pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
 

@@ -4,7 +4,7 @@ use crate::run::Command;
 use crate::sim::Knob;
 use crate::tui::action::{Action, KEYS};
 use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pace, Pinned, Zoom};
-use crate::tui::dial::Life;
+use crate::tui::dial::DialState;
 
 impl App {
     /// Does what an action asks, and says what the loop has to do about it.
@@ -138,7 +138,14 @@ impl App {
 
     fn typical(&mut self, n: usize) -> Vec<Effect> {
         match self.dials[self.chosen].typical.get(n).copied() {
-            Some(value) => self.set(self.chosen, value),
+            Some((value, of)) => {
+                let effects = self.set(self.chosen, value);
+                if !of.is_empty() {
+                    let name = self.dials[self.chosen].name();
+                    self.say(format!("{name} as of {of}"));
+                }
+                effects
+            }
             None => Vec::new(),
         }
     }
@@ -146,7 +153,7 @@ impl App {
     /// Moves a knob's target; the estimate follows at once, the run when it gets there.
     pub(super) fn set(&mut self, place: usize, value: f64) -> Vec<Effect> {
         let dial = &mut self.dials[place];
-        if let Life::Dead(reason) = dial.life {
+        if let DialState::Dead(reason) = dial.life {
             let line = format!(
                 "{}: the surface is {reason}, so there is nothing to turn",
                 dial.label

@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use crate::run::Command;
 use crate::scene::Scene;
-use crate::sim::{Knob, Stage};
+use crate::sim::Stage;
 use crate::tui::action::Action;
 use crate::tui::app::{App, Effect, ErrandKind, Overlay};
 use crate::tui::choice::Draft;
-use crate::tui::dial::Dial;
 use crate::tui::lessons::TourState;
 use crate::tui::tables;
 use crate::tui::wiring::{Setup, Shown};
@@ -186,25 +185,8 @@ impl App {
         let mut scene = (*self.setup.scene).clone();
         // A knob where the scene has it leaves the scene's own words (a load given as a Hertz pressure).
         for dial in self.dials.iter().filter(|dial| dial.target != dial.home) {
-            put(&mut scene, dial);
+            dial.knob.put(&mut scene, dial.target);
         }
         scene
-    }
-}
-
-fn put(scene: &mut Scene, dial: &Dial) {
-    match dial.knob {
-        Knob::SlideRoll => scene.motion.slide_roll = dial.target,
-        Knob::ForceN => {
-            scene.load.force_n = Some(dial.target);
-            scene.load.hertz_pressure_pa = None;
-        }
-        Knob::ForceNPerM => {
-            scene.load.force_n_per_m = Some(dial.target);
-            scene.load.hertz_pressure_pa = None;
-        }
-        Knob::Amplitude1M => scene.body_1.surface.set_amplitude_m(dial.target),
-        Knob::Amplitude2M => scene.body_2.surface.set_amplitude_m(dial.target),
-        Knob::EntrainmentMS => scene.motion.entrainment_m_s = dial.target,
     }
 }

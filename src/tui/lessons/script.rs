@@ -1,13 +1,13 @@
 //! The words of the tour, with the scenes and the numbers that they speak of.
 
-use super::{Beat, Claim, Figure, Lesson, Setting, Staging};
+use super::{Beat, Claim, Figure, KnobSetting, Lesson, Staging};
 use crate::sim::Knob;
 use crate::tui::app::MapKind::{Contact, Film, Pressure, Roughness, Stress};
 use Figure::{
     ContactPercent, Counted1, Counted2, Lambda, LeftPercent, Life, N1, N2, PaperLife, PeakDepth,
     PeakPressure,
 };
-use Setting::{TimesHome, To};
+use KnobSetting::{TimesHome, To};
 
 const S: Knob = Knob::SlideRoll;
 const SPEED: Knob = Knob::EntrainmentMS;

@@ -47,9 +47,7 @@ fn title(app: &App) -> String {
         .dials
         .iter()
         .filter(|dial| away(dial) || dial.is_moving());
-    let turned: Vec<&str> = turned
-        .filter_map(|dial| dial.label.split(' ').next())
-        .collect();
+    let turned: Vec<&str> = turned.map(Dial::name).collect();
     if turned.is_empty() {
         return app.setup.scene.title.clone();
     }

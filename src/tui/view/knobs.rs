@@ -10,7 +10,7 @@ use crate::scene::CycleBasis;
 use crate::sim::Knob;
 use crate::tui::action::Action;
 use crate::tui::app::App;
-use crate::tui::dial::{Dial, Life};
+use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
 use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
@@ -114,11 +114,7 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
     let mark = if chosen { theme.pick("▸", ">") } else { " " };
     let role = if chosen { Role::Chosen } else { Role::Text };
     let whole = dial.label.chars().count() < usize::from(room);
-    let label = if whole {
-        dial.label
-    } else {
-        dial.label.split(' ').next().unwrap_or(dial.label)
-    };
+    let label = if whole { dial.label } else { dial.name() };
     let name = Line::from(vec![
         Span::styled(mark, theme.style(Role::Chosen)),
         Span::styled(ascii_text(theme, label), theme.style(role)),
@@ -138,7 +134,7 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
 /// `0.30 → 0.50` on the way, `0.50` there.
 fn value_line(app: &App, dial: &Dial) -> Line<'static> {
     let theme = app.theme;
-    if let Life::Dead(reason) = dial.life {
+    if let DialState::Dead(reason) = dial.life {
         return Line::styled(reason, theme.style(Role::Dim));
     }
     let unit = dial.unit(app.units);
@@ -180,7 +176,7 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer
     let (now, target) = (column(dial.now), column(dial.target));
     // S has its zero in the middle; other sliders fill from the left.
     let root = if dial.min < 0.0 { column(0.0) } else { 0 };
-    let dead = dial.life != Life::Live;
+    let dead = dial.life != DialState::Live;
     let filled = if place == app.chosen {
         Role::Chosen
     } else {
@@ -241,10 +237,10 @@ fn paint(
 fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let unit = dial.unit(app.units);
-    if dial.life != Life::Live {
+    if dial.life != DialState::Live {
         return;
     }
-    let is_load = matches!(dial.knob, Knob::ForceN | Knob::ForceNPerM);
+    let is_load = dial.knob.is_load();
     let stands = standing(dial.target).filter(|_| dial.knob == Knob::SlideRoll);
     if let Some(body) = stands {
         let left_out = app.setup.scene.life.as_ref();

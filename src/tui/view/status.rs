@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 use crate::scene::CycleBasis;
 use crate::sim::{CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named};
 use crate::sweep::Along;
-use crate::tui::app::{App, ErrandKind, Trouble, Unconverged};
+use crate::tui::app::{App, ErrandKind, Trouble, WhyUnconverged};
 use crate::tui::theme::Role;
 use crate::tui::units::{bytes, seconds, sig};
 use crate::tui::view::{Areas, Density, ascii_text, knobs, overlay, put, put_right};
@@ -150,11 +150,11 @@ fn quality(app: &App, frame: &Frame) -> StatusWords {
 /// Which step did not converge, and why.
 fn not_converged(app: &App, trouble: Trouble) -> String {
     let why = match trouble.what {
-        Unconverged::Pressure(residual, retries) => {
+        WhyUnconverged::Pressure(residual, retries) => {
             format!("residual {residual:.1e} after {retries} retries")
         }
-        Unconverged::Film(part) => format!("{part:.1e} of the film not balanced"),
-        Unconverged::Overlap(overlap_m) => {
+        WhyUnconverged::Film(part) => format!("{part:.1e} of the film not balanced"),
+        WhyUnconverged::Overlap(overlap_m) => {
             let overlap = app.units.film().show(overlap_m, 2);
             // A load turned by hand keeps the domain of the run's start; started anew the scene has one of its own.
             format!("surfaces overlap by {overlap}; e, Enter: wider domain")

@@ -15,7 +15,7 @@ use std::fmt::Write as _;
 
 use asperity::plan::Plan;
 use asperity::scene::{ContactKind, Override, Scene, presets};
-use asperity::study::{Table, figure, machine};
+use asperity::study::{MarkdownTable, figure, machine};
 use force::Forced;
 use measure::{Gain, PruningRow};
 
@@ -106,8 +106,8 @@ fn pruning(is_whole: bool) -> Vec<PruningRow> {
 }
 
 /// The rows as a table.
-fn pruning_table(rows: &[PruningRow]) -> Table {
-    let mut table = Table::new(&[
+fn pruning_table(rows: &[PruningRow]) -> MarkdownTable {
+    let mut table = MarkdownTable::new(&[
         "scene",
         "stage forced in",
         "pressure",

@@ -14,12 +14,12 @@
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-use super::engine::StressEngine;
-use super::layer::{Layer, layers_at};
-use super::load::{Half, Sheared};
-use super::peak::measure_of;
-use super::spec::Loading;
-use super::window::LOW;
+use super::super::layer::{Layer, layers_at};
+use super::super::peak::measure_of;
+use super::super::spec::Loading;
+use super::super::window::LOW;
+use super::StressEngine;
+use super::load::{Half, ShearedAlong};
 use crate::physics::invariants::Stress6;
 
 type ComplexMode = Complex<f32>;
@@ -195,7 +195,7 @@ impl StressEngine {
     ) {
         let kept = layer.n_x / 2;
         for ky in 0..layer.rows {
-            for kx in 0..kept.min(layer.blocks * super::lanes::LANES) {
+            for kx in 0..kept.min(layer.blocks * crate::math::lanes::LANES) {
                 sink(kx, ky as isize, self.mode(layer, loading, kx, ky, 1.0));
                 if ky > 0 {
                     sink(kx, -(ky as isize), self.mode(layer, loading, kx, ky, -1.0));
@@ -213,7 +213,7 @@ impl StressEngine {
         ky: usize,
         sign: f32,
     ) -> [ComplexMode; 6] {
-        let lanes = super::lanes::LANES;
+        let lanes = crate::math::lanes::LANES;
         let (block, l) = (kx / lanes, kx % lanes);
         let i = block * self.waves.modes_y + ky;
         let [p, x, y] = self.loads(loading, i, l, sign);
@@ -253,13 +253,15 @@ impl StressEngine {
         };
         let mirrored = sign < 0.0 && minus.is_none();
         let half: &Half = minus.unwrap_or(&self.spectrum.plus);
-        let at = |lanes: &super::fft::Lanes| ComplexMode::new(lanes.re[i].0[l], lanes.im[i].0[l]);
+        let at = |lanes: &crate::math::lane_fft::Lanes| {
+            ComplexMode::new(lanes.re[i].0[l], lanes.im[i].0[l])
+        };
         let factor = loading.traction_sign();
         let p = at(&half.p);
         match self.spectrum.sheared {
-            Sheared::No => [p, ComplexMode::default(), ComplexMode::default()],
-            Sheared::X => [p, at(&half.x) * factor, ComplexMode::default()],
-            Sheared::Xy => {
+            ShearedAlong::No => [p, ComplexMode::default(), ComplexMode::default()],
+            ShearedAlong::X => [p, at(&half.x) * factor, ComplexMode::default()],
+            ShearedAlong::Xy => {
                 let odd = if mirrored { -factor } else { factor };
                 [p, at(&half.x) * factor, at(&half.y) * odd]
             }

@@ -9,27 +9,27 @@
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// Number of lanes.
-pub(super) const LANES: usize = 16;
+pub(crate) const LANES: usize = 16;
 
 /// Numbers of sixteen rows.
-pub(super) const TILE: usize = LANES * LANES;
+pub(crate) const TILE: usize = LANES * LANES;
 
 /// Sixteen numbers.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
-pub(super) struct V(pub(super) [f32; LANES]);
+pub(crate) struct V(pub(crate) [f32; LANES]);
 
 impl V {
-    pub(super) const ZERO: Self = Self([0.0; LANES]);
+    pub(crate) const ZERO: Self = Self([0.0; LANES]);
 
     #[inline(always)]
-    pub(super) fn splat(value: f32) -> Self {
+    pub(crate) fn splat(value: f32) -> Self {
         Self([value; LANES])
     }
 
     /// From a slice that may be shorter; the rest is zero.
     #[inline(always)]
-    pub(super) fn from_part(part: &[f32]) -> Self {
+    pub(crate) fn from_part(part: &[f32]) -> Self {
         let mut v = Self::ZERO;
         let n = part.len().min(LANES);
         v.0[..n].copy_from_slice(&part[..n]);
@@ -38,7 +38,7 @@ impl V {
 
     /// `self · b + c`.
     #[inline(always)]
-    pub(super) fn fma(self, b: Self, c: Self) -> Self {
+    pub(crate) fn fma(self, b: Self, c: Self) -> Self {
         let mut out = self;
         for l in 0..LANES {
             out.0[l] = self.0[l].mul_add(b.0[l], c.0[l]);
@@ -48,7 +48,7 @@ impl V {
 
     /// `c − self · b`.
     #[inline(always)]
-    pub(super) fn fnma(self, b: Self, c: Self) -> Self {
+    pub(crate) fn fnma(self, b: Self, c: Self) -> Self {
         let mut out = self;
         for l in 0..LANES {
             out.0[l] = (-self.0[l]).mul_add(b.0[l], c.0[l]);
@@ -114,20 +114,20 @@ impl Neg for V {
 
 /// A complex lane value.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct C {
-    pub(super) re: V,
-    pub(super) im: V,
+pub(crate) struct C {
+    pub(crate) re: V,
+    pub(crate) im: V,
 }
 
 impl C {
-    pub(super) const ZERO: Self = Self {
+    pub(crate) const ZERO: Self = Self {
         re: V::ZERO,
         im: V::ZERO,
     };
 
     /// Times a real.
     #[inline(always)]
-    pub(super) fn scale(self, a: V) -> Self {
+    pub(crate) fn scale(self, a: V) -> Self {
         Self {
             re: self.re * a,
             im: self.im * a,
@@ -136,7 +136,7 @@ impl C {
 
     /// Times `i a`.
     #[inline(always)]
-    pub(super) fn scale_i(self, a: V) -> Self {
+    pub(crate) fn scale_i(self, a: V) -> Self {
         Self {
             re: -(self.im * a),
             im: self.re * a,
@@ -145,7 +145,7 @@ impl C {
 
     /// `self a + c` with a real.
     #[inline(always)]
-    pub(super) fn fma(self, a: V, c: Self) -> Self {
+    pub(crate) fn fma(self, a: V, c: Self) -> Self {
         Self {
             re: self.re.fma(a, c.re),
             im: self.im.fma(a, c.im),
@@ -154,7 +154,7 @@ impl C {
 
     /// `i a self + c` with a real.
     #[inline(always)]
-    pub(super) fn fma_i(self, a: V, c: Self) -> Self {
+    pub(crate) fn fma_i(self, a: V, c: Self) -> Self {
         Self {
             re: self.im.fnma(a, c.re),
             im: self.re.fma(a, c.im),
@@ -162,7 +162,7 @@ impl C {
     }
 
     #[inline(always)]
-    pub(super) fn plus(self, b: Self) -> Self {
+    pub(crate) fn plus(self, b: Self) -> Self {
         Self {
             re: self.re + b.re,
             im: self.im + b.im,
@@ -170,7 +170,7 @@ impl C {
     }
 
     #[inline(always)]
-    pub(super) fn minus(self, b: Self) -> Self {
+    pub(crate) fn minus(self, b: Self) -> Self {
         Self {
             re: self.re - b.re,
             im: self.im - b.im,
@@ -180,7 +180,7 @@ impl C {
 
 /// Rows become columns.
 #[inline(always)]
-pub(super) fn transpose(rows: &[V; LANES]) -> [V; LANES] {
+pub(crate) fn transpose(rows: &[V; LANES]) -> [V; LANES] {
     let mut tile = [0.0; TILE];
     for (r, row) in rows.iter().enumerate() {
         tile[r * LANES..(r + 1) * LANES].copy_from_slice(&row.0);
@@ -195,7 +195,7 @@ pub(super) fn transpose(rows: &[V; LANES]) -> [V; LANES] {
 
 /// Rows become columns, in place.
 #[inline(always)]
-pub(super) fn transpose_tile(a: &mut [f32; TILE]) {
+pub(crate) fn transpose_tile(a: &mut [f32; TILE]) {
     // A perfect shuffle of the 256 numbers turns the bits of (row, lane) by one place; after four of
     // them row and lane have changed places. Long plain loops become vector permutations; moves of
     // single rows would become 256 scalar ones.

@@ -15,13 +15,13 @@ use super::lanes::{LANES, TILE, V};
 
 /// One buffer of lane transforms: real and imaginary parts apart.
 #[derive(Debug, Clone)]
-pub(super) struct Lanes {
-    pub(super) re: Vec<V>,
-    pub(super) im: Vec<V>,
+pub(crate) struct Lanes {
+    pub(crate) re: Vec<V>,
+    pub(crate) im: Vec<V>,
 }
 
 impl Lanes {
-    pub(super) fn new(n: usize) -> Self {
+    pub(crate) fn new(n: usize) -> Self {
         Self {
             re: vec![V::ZERO; n],
             im: vec![V::ZERO; n],
@@ -42,14 +42,14 @@ struct Pass {
 
 /// A planned transform.
 #[derive(Debug, Clone)]
-pub(super) struct LaneFft {
+pub(crate) struct LaneFft {
     n: usize,
     passes: Vec<Pass>,
 }
 
 impl LaneFft {
     /// Least length of the form 2^a or 3·2^a that is at least `least` and 32.
-    pub(super) fn good_length(least: usize) -> usize {
+    pub(crate) fn good_length(least: usize) -> usize {
         let mut n = 32;
         while n < least {
             n = if n.is_power_of_two() {
@@ -62,7 +62,7 @@ impl LaneFft {
     }
 
     /// Plan for length `n`, which must be a [`Self::good_length`].
-    pub(super) fn new(n: usize) -> Self {
+    pub(crate) fn new(n: usize) -> Self {
         let mut radices = Vec::new();
         let mut rest = n;
         if rest.is_multiple_of(3) {
@@ -97,18 +97,18 @@ impl LaneFft {
     }
 
     /// Length.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.n
     }
 
     /// Transforms `x`; `other` is scratch. Both hold at least `n`; they may exchange their memory.
-    pub(super) fn inverse(&self, x: &mut Lanes, other: &mut Lanes) {
+    pub(crate) fn inverse(&self, x: &mut Lanes, other: &mut Lanes) {
         run(self, &mut x.re, &mut x.im, &mut other.re, &mut other.im);
         self.settle(x, other);
     }
 
     /// Same with `e^{−…}`.
-    pub(super) fn forward(&self, x: &mut Lanes, other: &mut Lanes) {
+    pub(crate) fn forward(&self, x: &mut Lanes, other: &mut Lanes) {
         run(self, &mut x.im, &mut x.re, &mut other.im, &mut other.re);
         self.settle(x, other);
     }
@@ -258,7 +258,7 @@ fn pass_2(pass: &Pass, from: [&[V]; 2], to_re: &mut [V], to_im: &mut [V]) {
 dispatched! {
 /// Input `u + i v` of a transform of length `n` for two real fields u and v (`None`: 0), given by the
 /// first `width` modes (a multiple of 16) that start at those places of `fields`.
-pub(super) fn pack_pair(
+pub(crate) fn pack_pair(
     n: usize,
     width: usize,
     (u, v): (usize, Option<usize>),
@@ -314,7 +314,7 @@ fn row(x: &[f32; TILE], l: usize) -> V {
 }
 
 /// Index of the plan of length `n`, made if it is not there.
-pub(super) fn plan_of(plans: &mut Vec<LaneFft>, n: usize) -> usize {
+pub(crate) fn plan_of(plans: &mut Vec<LaneFft>, n: usize) -> usize {
     plans
         .iter()
         .position(|plan| plan.len() == n)

@@ -9,32 +9,32 @@
 //!
 //! Source: Press et al. (2007), *Numerical Recipes*, §12.3: two real transforms in one.
 
-use super::engine::StressEngine;
-use super::fft::plan_of;
-use super::fft::{LaneFft, Lanes};
-use super::lanes::{LANES, V, transpose};
-use super::layer::Waves;
-use super::spec::{StressSpec, Symmetry};
+use super::super::layer::Waves;
+use super::super::spec::{StressSpec, Symmetry};
+use super::StressEngine;
+use crate::math::lane_fft::plan_of;
+use crate::math::lane_fft::{LaneFft, Lanes};
+use crate::math::lanes::{LANES, V, transpose};
 
 /// Spectra of pressure and traction at ky ≥ 0 or at −ky, `[block · modes_y + ky]`, sixteen kx each.
-pub(super) struct Half {
-    pub(super) p: Lanes,
-    pub(super) x: Lanes,
-    pub(super) y: Lanes,
+pub(in crate::solve::stress) struct Half {
+    pub(in crate::solve::stress) p: Lanes,
+    pub(in crate::solve::stress) x: Lanes,
+    pub(in crate::solve::stress) y: Lanes,
 }
 
 /// Spectrum of the surface loaded last.
-pub(super) struct Spectrum {
-    pub(super) plus: Half,
+pub(in crate::solve::stress) struct Spectrum {
+    pub(in crate::solve::stress) plus: Half,
     /// At −ky; `None` for a mirror surface, where it equals `plus`.
-    pub(super) minus: Option<Half>,
+    pub(in crate::solve::stress) minus: Option<Half>,
     /// Whether a traction was loaded.
-    pub(super) sheared: Sheared,
+    pub(in crate::solve::stress) sheared: ShearedAlong,
 }
 
 /// Whether a traction acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sheared {
+pub(in crate::solve::stress) enum ShearedAlong {
     No,
     /// Along x.
     X,
@@ -50,7 +50,7 @@ enum MirrorParity {
 }
 
 impl Spectrum {
-    pub(super) fn new(symmetry: Symmetry, waves: &Waves) -> Self {
+    pub(in crate::solve::stress) fn new(symmetry: Symmetry, waves: &Waves) -> Self {
         let half = || Half {
             p: Lanes::new(waves.blocks * waves.modes_y),
             x: Lanes::new(waves.blocks * waves.modes_y),
@@ -59,11 +59,11 @@ impl Spectrum {
         Self {
             plus: half(),
             minus: (symmetry == Symmetry::General).then(half),
-            sheared: Sheared::No,
+            sheared: ShearedAlong::No,
         }
     }
 
-    pub(super) fn lanes(&self) -> impl Iterator<Item = &Lanes> {
+    pub(in crate::solve::stress) fn lanes(&self) -> impl Iterator<Item = &Lanes> {
         std::iter::once(&self.plus)
             .chain(&self.minus)
             .flat_map(|half| [&half.p, &half.x, &half.y])
@@ -71,7 +71,7 @@ impl Spectrum {
 }
 
 /// Buffers of the two passes.
-pub(super) struct LoadScratch {
+pub(in crate::solve::stress) struct LoadScratch {
     fft_x: usize,
     fft_y: usize,
     along_y: [Lanes; 2],
@@ -82,7 +82,7 @@ pub(super) struct LoadScratch {
 }
 
 impl LoadScratch {
-    pub(super) fn new(waves: &Waves, plans: &mut Vec<LaneFft>) -> Self {
+    pub(in crate::solve::stress) fn new(waves: &Waves, plans: &mut Vec<LaneFft>) -> Self {
         let middle = waves.modes_y.div_ceil(LANES) * waves.n_x;
         let twice = |n: usize| [Lanes::new(n), Lanes::new(n)];
         Self {
@@ -95,14 +95,14 @@ impl LoadScratch {
     }
 
     /// Memory, bytes.
-    pub(super) fn bytes(&self) -> usize {
+    pub(in crate::solve::stress) fn bytes(&self) -> usize {
         let buffers = self.along_y.iter().chain(self.along_x.iter().flatten());
         let all = buffers.chain(&self.middle).map(|lanes| lanes.re.len());
         8 * LANES * all.sum::<usize>()
     }
 
     /// Plan of the whole period along x.
-    pub(super) fn fft_x(&self) -> usize {
+    pub(in crate::solve::stress) fn fft_x(&self) -> usize {
         self.fft_x
     }
 }
@@ -117,8 +117,8 @@ impl StressEngine {
     pub fn load(&mut self, p: &[f32], qx: Option<&[f32]>) {
         self.transform((p, MirrorParity::Even), qx);
         self.spectrum.sheared = match qx {
-            Some(_) => Sheared::X,
-            None => Sheared::No,
+            Some(_) => ShearedAlong::X,
+            None => ShearedAlong::No,
         };
         let scale = 0.5 / (self.waves.n_x as f64 * self.waves.n_y as f64);
         self.along_x(|z, mate, waves, ky_block, half| {
@@ -133,7 +133,7 @@ impl StressEngine {
     pub fn load_both_ways(&mut self, p: &[f32], qx: &[f32], qy: &[f32]) {
         self.load(p, Some(qx));
         self.transform((qy, MirrorParity::Odd), None);
-        self.spectrum.sheared = Sheared::Xy;
+        self.spectrum.sheared = ShearedAlong::Xy;
         let scale = 1.0 / (self.waves.n_x as f64 * self.waves.n_y as f64);
         self.along_x(|z, _, waves, ky_block, half| {
             keep(z, waves, ky_block, scale as f32, &mut half.y);

@@ -12,15 +12,15 @@
 //!
 //! Part of `stress/mod.rs`. Ours: its responses as polynomials in z, so that the sums over ky are formed once.
 
-use super::engine::StressEngine;
-use super::fft::{Lanes, pack_pair};
-use super::lanes::{C, LANES, V};
-use super::layer::{Layer, LowRow, Waves};
-use super::load::{Half, Sheared, Spectrum};
-use super::peak::refine;
-use super::slice_out::{SliceOut, turn_depths, write_rows};
-use super::spec::{Loading, StressSpec, Symmetry};
-use super::window::LOW;
+use super::super::layer::{Layer, LowRow, Waves};
+use super::super::peak::refine;
+use super::super::slice_out::{SliceOut, turn_depths, write_rows};
+use super::super::spec::{Loading, StressSpec, Symmetry};
+use super::super::window::LOW;
+use super::StressEngine;
+use super::load::{Half, ShearedAlong, Spectrum};
+use crate::math::lane_fft::{Lanes, pack_pair};
+use crate::math::lanes::{C, LANES, V};
 use crate::physics::cycles::BodyId;
 
 /// Most columns: seven even, four odd, two of the traction along y.
@@ -31,7 +31,7 @@ const ODD: usize = 7;
 const ALONG_Y: usize = 11;
 
 /// Columns and sums.
-pub(super) struct SliceScratch {
+pub(in crate::solve::stress) struct SliceScratch {
     /// `[(block · modes_y + ky) · COLUMNS + column]`.
     columns: Vec<C>,
     /// Summed spectra, `[(component · depth blocks + depth block) · kx + i]`, sixteen depths each.
@@ -42,7 +42,7 @@ pub(super) struct SliceScratch {
 }
 
 impl SliceScratch {
-    pub(super) fn new(spec: &StressSpec, waves: &Waves) -> Self {
+    pub(in crate::solve::stress) fn new(spec: &StressSpec, waves: &Waves) -> Self {
         let depth_blocks = spec.depths.len().div_ceil(LANES);
         Self {
             columns: vec![C::ZERO; waves.blocks * waves.modes_y * COLUMNS],
@@ -53,7 +53,7 @@ impl SliceScratch {
     }
 
     /// Memory, bytes.
-    pub(super) fn bytes(&self) -> usize {
+    pub(in crate::solve::stress) fn bytes(&self) -> usize {
         let lanes = self.along_x.iter().map(|l| l.re.len()).sum::<usize>();
         8 * LANES * (self.columns.len() + self.fields.re.len() + lanes + self.other.re.len())
     }
@@ -65,7 +65,7 @@ struct SliceCase {
     loading: Loading,
     material: usize,
     nu: f64,
-    sheared: Sheared,
+    sheared: ShearedAlong,
 }
 
 /// Spectra of one depth and block: xx, yy, zz, xz, xy, yz.
@@ -91,7 +91,7 @@ impl StressEngine {
             material: spec.material(loading.body()),
             nu: spec.poisson(loading.body()),
             sheared: match loading {
-                Loading::Normal(_) => Sheared::No,
+                Loading::Normal(_) => ShearedAlong::No,
                 Loading::Full(_) => self.spectrum.sheared,
             },
         };
@@ -197,9 +197,9 @@ fn folded(spectrum: &Spectrum, case: SliceCase, i: usize, y: usize, sign: V) -> 
         im: lanes.im[i],
     };
     let at = |half: &Half| match case.sheared {
-        Sheared::No => (c(&half.p), C::ZERO, C::ZERO),
-        Sheared::X => (c(&half.p), c(&half.x).scale(factor), C::ZERO),
-        Sheared::Xy => (
+        ShearedAlong::No => (c(&half.p), C::ZERO, C::ZERO),
+        ShearedAlong::X => (c(&half.p), c(&half.x).scale(factor), C::ZERO),
+        ShearedAlong::Xy => (
             c(&half.p),
             c(&half.x).scale(factor),
             c(&half.y).scale(factor),
@@ -255,7 +255,7 @@ fn sum_depth(
         let [x, a0, d, kd] = odd_sums(&e[first..], &columns[first * COLUMNS..]);
         six[4] = x.scale_i(V::splat(1.0)).plus(d.scale(kx * z)).minus(a0.scale(kx));
         six[5] = kd.scale_i(z);
-        if case.sheared == Sheared::Xy {
+        if case.sheared == ShearedAlong::Xy {
             let which = [ALONG_Y, ALONG_Y + 1, ALONG_Y, ALONG_Y + 1];
             let [along_y, by_k, ..] = four_sums(&e[first..], &columns[first * COLUMNS..], which);
             six[4] = by_k.fma_i(kx, six[4]);
@@ -279,11 +279,11 @@ fn negative(c: C) -> C {
 
 /// Σ E c of the seven even columns: p̂, kD, D, A0/k², D/k, q̂, q̂/k.
 #[inline(always)]
-fn even_sums(e: &[V], columns: &[C], sheared: Sheared) -> [C; 7] {
+fn even_sums(e: &[V], columns: &[C], sheared: ShearedAlong) -> [C; 7] {
     let [p, kd, a0, d_by_k] = four_sums(e, columns, [0, 1, 3, 4]);
     match sheared {
-        Sheared::No => [p, kd, p, a0, d_by_k, C::ZERO, C::ZERO],
-        Sheared::X | Sheared::Xy => {
+        ShearedAlong::No => [p, kd, p, a0, d_by_k, C::ZERO, C::ZERO],
+        ShearedAlong::X | ShearedAlong::Xy => {
             let [d, x, x_by_k, _] = four_sums(e, columns, [2, 5, 6, 6]);
             [p, kd, d, a0, d_by_k, x, x_by_k]
         }
@@ -335,7 +335,7 @@ fn add_low(layer: &Layer, spectrum: &Spectrum, case: SliceCase, columns: &[C], s
         *yy = x.fma_i(u_yy, p.fma(t_yy, *yy));
         *zz = x.fma_i(u[2], p.fma(t[2], *zz));
         *xz = x.fma(u[4], p.fma_i(t[4], *xz));
-        if case.sheared == Sheared::Xy {
+        if case.sheared == ShearedAlong::Xy {
             let along_y = folded(spectrum, case, y, y, V::splat(1.0)).y_other;
             let w_yy = w[1] + w[2];
             *xx = along_y.fma_i(w[0] + w_yy, *xx);

@@ -8,7 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::physics::rainflow::{Cycle, Ends, Rainflow};
+use crate::physics::rainflow::{Cycle, HistoryEnds, Rainflow};
 
 /// What a cycle's damage is taken from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,7 +21,7 @@ pub enum DamageBasis {
 
 /// Cycles of one history.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Tally {
+pub struct CycleCount {
     /// Cycles with a range above the gate.
     pub count: f64,
     /// Σ count · s^m, s the range (or, of effective stress, the peak) in p_h: damage by Miner's rule.
@@ -32,7 +32,7 @@ pub struct Tally {
     pub equivalent: f64,
 }
 
-impl Tally {
+impl CycleCount {
     fn add(&mut self, cycle: Cycle, basis: DamageBasis, exponent: f64) {
         let size = match basis {
             DamageBasis::Ranges => cycle.range,
@@ -50,17 +50,19 @@ impl Tally {
     }
 }
 
-/// One history: its counter and tally.
+/// One history: its counter and what it has counted.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct History {
+pub(super) struct CrossingHistory {
     flow: Rainflow,
     basis: DamageBasis,
-    pub(super) tally: Tally,
-    /// Tally of the last whole crossing.
-    pub(super) last: Option<Tally>,
+    // The name that saved states have.
+    #[serde(rename = "tally")]
+    pub(super) cycles: CycleCount,
+    /// CycleCount of the last whole crossing.
+    pub(super) last: Option<CycleCount>,
 }
 
-impl History {
+impl CrossingHistory {
     /// Open reversals of a crossing's pressure: far more than the crests of any contact that a grid resolves.
     pub(super) const OPEN: usize = 512;
     /// Same at a depth, where there are many histories: twice the crests on the rising side of a contact
@@ -69,9 +71,9 @@ impl History {
 
     pub(super) fn new(gate: f64, basis: DamageBasis, open: usize) -> Self {
         Self {
-            flow: Rainflow::new(Ends::Repeating, gate, open),
+            flow: Rainflow::new(HistoryEnds::Repeating, gate, open),
             basis,
-            tally: Tally::default(),
+            cycles: CycleCount::default(),
             last: None,
         }
     }
@@ -88,9 +90,12 @@ impl History {
 
     pub(super) fn push(&mut self, value: f64, exponent: f64) {
         let Self {
-            flow, tally, basis, ..
+            flow,
+            cycles,
+            basis,
+            ..
         } = self;
-        flow.push(value, &mut |cycle| tally.add(cycle, *basis, exponent));
+        flow.push(value, &mut |cycle| cycles.add(cycle, *basis, exponent));
     }
 
     /// Least and greatest value so far.
@@ -101,7 +106,7 @@ impl History {
     /// Starts a crossing at zero stress.
     pub(super) fn start(&mut self, exponent: f64) {
         self.flow.reset();
-        self.tally = Tally::default();
+        self.cycles = CycleCount::default();
         self.push(0.0, exponent);
     }
 
@@ -111,12 +116,12 @@ impl History {
         let Self {
             flow,
             basis,
-            tally,
+            cycles,
             last,
         } = self;
-        flow.finish(&mut |cycle| tally.add(cycle, *basis, exponent));
+        flow.finish(&mut |cycle| cycles.add(cycle, *basis, exponent));
         if crossing == Crossing::Whole {
-            *last = Some(*tally);
+            *last = Some(*cycles);
         }
     }
 }
@@ -133,16 +138,16 @@ pub(super) enum Crossing {
 }
 
 /// Mean of several crossings; `None` for none.
-pub(super) fn mean(tallies: impl Iterator<Item = Tally>) -> Option<Tally> {
-    let (mut sum, mut count) = (Tally::default(), 0.0);
-    for tally in tallies {
-        sum.count += tally.count;
-        sum.damage += tally.damage;
-        sum.equivalent += tally.equivalent;
-        sum.range = sum.range.max(tally.range);
+pub(super) fn mean(all: impl Iterator<Item = CycleCount>) -> Option<CycleCount> {
+    let (mut sum, mut count) = (CycleCount::default(), 0.0);
+    for cycles in all {
+        sum.count += cycles.count;
+        sum.damage += cycles.damage;
+        sum.equivalent += cycles.equivalent;
+        sum.range = sum.range.max(cycles.range);
         count += 1.0;
     }
-    (count > 0.0).then(|| Tally {
+    (count > 0.0).then(|| CycleCount {
         count: sum.count / count,
         damage: sum.damage / count,
         equivalent: sum.equivalent / count,

@@ -18,27 +18,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::assemble::{Part, block_inputs};
-use super::engine::StressEngine;
-use super::fft::{LaneFft, Lanes, pack_pair};
-use super::lanes::{LANES, V};
-use super::layer::{Layer, Waves};
-use super::load::{Sheared, Spectrum};
-use super::measure::excess;
-use super::rows::{squares_of, turn_rows, unfold_rows, weighted_sum};
-use super::slice_out::Peak;
-use super::spec::{Loading, StressSpec, Symmetry};
-use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
+use super::super::assemble::{Part, block_inputs};
+use super::super::layer::{Layer, Waves};
+use super::super::measure::excess;
+use super::super::rows::{squares_of, turn_rows, unfold_rows, weighted_sum};
+use super::super::slice_out::Peak;
+use super::super::spec::{Loading, StressSpec, Symmetry};
+use super::super::sums::{
+    Integral, LayerResult, LayerResults, LayerSum, MAX_LAWS, StressLaw, VolumeSums,
+};
+use super::StressEngine;
+use super::load::{ShearedAlong, Spectrum};
+use crate::math::lane_fft::{LaneFft, Lanes, pack_pair};
+use crate::math::lanes::{LANES, V};
 use crate::physics::cycles::BodyId;
-
-/// Life integral of one loading.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Integral {
-    /// ln ∫ s^m dV, s in p_h, V in a³; −∞ without stress.
-    pub ln: f64,
-    /// Greatest effective stress at the points and depths of the sum (not refined).
-    pub peak: Peak,
-}
 
 /// Integrals of one surface under one law, both bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +46,7 @@ pub struct VolumeOut {
 
 impl VolumeOut {
     /// Under the first law of the sums.
-    pub(super) fn of(sums: &VolumeSums) -> Self {
+    pub(in crate::solve::stress) fn of(sums: &VolumeSums) -> Self {
         let integral = |loading| sums.integral(loading, 0);
         Self {
             normal: integral(Loading::Normal(BodyId::One)),
@@ -64,7 +57,7 @@ impl VolumeOut {
 }
 
 /// One thread's buffers and results.
-pub(super) struct Worker {
+pub(in crate::solve::stress) struct Worker {
     /// Inputs of the y pass.
     along_y: Vec<Lanes>,
     other: Lanes,
@@ -75,15 +68,15 @@ pub(super) struct Worker {
     fields: [Lanes; 2],
     squares: Vec<V>,
     beyond: Vec<V>,
-    pub(super) row_tops: [Vec<f32>; 4],
-    pub(super) done: Vec<(usize, LayerResult)>,
+    results: LayerResults,
 }
 
-/// Sums of one layer, `[loading][law]`.
-pub(super) type LayerResult = [[LayerSum; MAX_LAWS]; 4];
-
 impl Worker {
-    pub(super) fn new(symmetry: Symmetry, waves: &Waves, layers: &[Layer]) -> Self {
+    pub(in crate::solve::stress) fn new(
+        symmetry: Symmetry,
+        waves: &Waves,
+        layers: &[Layer],
+    ) -> Self {
         // Buffers trade places in the transforms: all have the longer of the two lengths.
         let longest = waves.n_x.max(waves.n_y);
         let (buffers, rows) = match symmetry {
@@ -99,15 +92,17 @@ impl Worker {
             fields: [Lanes::new(fields), Lanes::new(fields)],
             squares: vec![V::ZERO; waves.n_x],
             beyond: vec![V::ZERO; waves.n_x],
-            row_tops: [0, 1, 2, 3].map(|_| vec![0.0; all_rows]),
-            done: Vec::with_capacity(layers.len()),
+            results: LayerResults {
+                row_tops: [0, 1, 2, 3].map(|_| vec![0.0; all_rows]),
+                done: Vec::with_capacity(layers.len()),
+            },
         }
     }
 
-    pub(super) fn bytes(&self) -> usize {
+    pub(in crate::solve::stress) fn bytes(&self) -> usize {
         let buffers = self.along_y.iter().chain(self.along_x.iter().flatten());
         let lanes: usize = buffers.chain(&self.fields).map(|l| l.re.len()).sum();
-        let tops: usize = self.row_tops.iter().map(Vec::len).sum();
+        let tops: usize = self.results.row_tops.iter().map(Vec::len).sum();
         8 * LANES * (lanes + self.other.re.len() + self.squares.len()) + 4 * tops
     }
 }
@@ -157,7 +152,7 @@ impl StressEngine {
             .par_iter_mut()
             .with_max_len(1)
             .for_each(|worker| {
-                worker.done.clear();
+                worker.results.done.clear();
                 loop {
                     // Shallow layers are the largest and come first.
                     let k = next.fetch_add(1, Ordering::Relaxed);
@@ -165,10 +160,11 @@ impl StressEngine {
                         break;
                     }
                     let result = job.layer(worker, k);
-                    worker.done.push((k, result));
+                    worker.results.done.push((k, result));
                 }
             });
-        self.sums.gather(&self.workers, laws.len());
+        let results = self.workers.iter().map(|worker| &worker.results);
+        self.sums.gather(results, laws.len());
         for loading in Loading::ALL {
             if !wanted[..count].contains(&loading) {
                 let same = stands_for(loading, &wanted[..count]);
@@ -186,7 +182,7 @@ impl StressEngine {
     /// The loadings that differ, and how many: both bodies are alike without traction.
     fn wanted(&self, bodies: &[BodyId]) -> ([Loading; 4], usize) {
         let (mut list, mut count) = (Loading::ALL, 0);
-        let sheared = self.spectrum.sheared != Sheared::No;
+        let sheared = self.spectrum.sheared != ShearedAlong::No;
         for body in BodyId::BOTH {
             let own = self.spec.materials() == 2 && bodies.contains(&body);
             let first = body == BodyId::One && self.spec.materials() == 1;
@@ -224,9 +220,9 @@ impl LayerInput<'_> {
             }
             self.pass_along_y(worker, layer, Part::Normal, material);
             let part = match self.spectrum.sheared {
-                Sheared::No => None,
-                Sheared::X => Some(Part::AlongX),
-                Sheared::Xy => Some(Part::AlongBoth),
+                ShearedAlong::No => None,
+                ShearedAlong::X => Some(Part::AlongX),
+                ShearedAlong::Xy => Some(Part::AlongBoth),
             };
             if let Some(part) = part {
                 self.pass_along_y(worker, layer, part, material);
@@ -316,7 +312,7 @@ impl LayerInput<'_> {
         let tops = squares_of(self.spec.measure, normal, tangential, weights, squares);
         let row = self.first_row[k] + row_block * LANES;
         let rows = (layer.inside_y - row_block * LANES).min(LANES);
-        worker.row_tops[loading.index()][row..row + rows].copy_from_slice(&tops.0[..rows]);
+        worker.results.row_tops[loading.index()][row..row + rows].copy_from_slice(&tops.0[..rows]);
         let top = tops.0.into_iter().fold(0.0, f32::max);
         for (law, sums) in self.laws.iter().zip(sums) {
             let half = (0.5 * law.exponent) as f32;

@@ -1,9 +1,7 @@
 //! Exact stress under a uniform traction on a rectangle (Love 1929) and under point forces
-//! (Boussinesq, Cerruti), as harmonics of [`super::stress_exact`].
+//! (Boussinesq, Cerruti), as harmonics of [`asperity::physics::stress_exact`].
 //!
 //! ```text
-//! point      f_m = w^m (z + mR)/(2πR³)      g_m = z w^m [(m²−1)R² + 3z² + 3mzR]/(2πR⁵)
-//!            R = √(r² + z²),  w = r/(R + z)
 //! rectangle  value = [C(++) + C(−−) − C(+−) − C(−+)]/2π at the corners (x ± hx, y ± hy)
 //!  f: 1 atan2(xy, zR)   nx² atan2(xy(R−z), x²R + y²z)   inx asinh(y/√(x²+z²))   iny asinh(x/√(y²+z²))
 //!     nxny ln(R+z)      inx²ny x/(R+z)                  inxny² y/(R+z)
@@ -14,33 +12,10 @@
 
 use std::f64::consts::PI;
 
-use super::stress_exact::{Directions, Harmonics};
-
-/// Radial functions `f_m`, `g_m`, m = 0..3, of a unit point force, at distance r and depth z > 0.
-pub fn point_radial(r: f64, z: f64) -> ([f64; 4], [f64; 4]) {
-    let big_r = r.hypot(z);
-    let w = r / (big_r + z);
-    let r2 = big_r * big_r;
-    let (by_r3, by_r5) = (
-        1.0 / (2.0 * PI * r2 * big_r),
-        1.0 / (2.0 * PI * r2 * r2 * big_r),
-    );
-    let (mut f, mut g) = ([0.0; 4], [0.0; 4]);
-    let mut power = 1.0;
-    for m in 0..4 {
-        let order = m as f64;
-        f[m] = power * (z + order * big_r) * by_r3;
-        g[m] = z
-            * power
-            * ((order * order - 1.0) * r2 + 3.0 * z * z + 3.0 * order * z * big_r)
-            * by_r5;
-        power *= w;
-    }
-    (f, g)
-}
+use asperity::physics::stress_exact::{Directions, Harmonics, point_radial};
 
 /// Harmonics of a unit point force at the origin, z > 0.
-pub fn point_harmonics(x: f64, y: f64, z: f64) -> Harmonics {
+pub(crate) fn point_harmonics(x: f64, y: f64, z: f64) -> Harmonics {
     let r = x.hypot(y);
     let (cos, sin) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
     let (f, g) = point_radial(r, z);
@@ -51,7 +26,7 @@ pub fn point_harmonics(x: f64, y: f64, z: f64) -> Harmonics {
 }
 
 /// Harmonics of a unit traction on the rectangle |x| < hx, |y| < hy, z > 0.
-pub fn rectangle_harmonics(x: f64, y: f64, z: f64, hx: f64, hy: f64) -> Harmonics {
+pub(crate) fn rectangle_harmonics(x: f64, y: f64, z: f64, hx: f64, hy: f64) -> Harmonics {
     let corners = [
         (x + hx, y + hy, 1.0),
         (x - hx, y - hy, 1.0),

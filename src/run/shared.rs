@@ -1,0 +1,73 @@
+//! What the simulation's thread and the session that watches it share.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::settled::Settled;
+use super::watcher::WatcherStatus;
+use crate::observe::{ObserveError, RunEvent};
+use crate::sim::{SimError, Stage};
+
+/// When a session ends by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// After the passages that the scene asks for, or when an output fails.
+    Passages,
+    /// After so many steps of the passage, or when an output fails.
+    Steps(u64),
+    /// Never: only when told to stop (the explorer). An output that fails is reported and left out.
+    OnStop,
+}
+
+/// Something that happened, for a screen to show.
+#[derive(Debug, Clone)]
+pub enum SessionEvent {
+    /// A knob was set, a caption came up, a step did not converge.
+    Run(RunEvent),
+    /// A command was refused.
+    Refused(SimError),
+    /// An output failed.
+    OutputFailed(ObserveError),
+}
+
+/// Where a session is.
+#[derive(Debug, Clone, Default)]
+pub struct Status {
+    /// Part of the run.
+    pub stage: Stage,
+    /// How much is done, 0 to 1.
+    pub progress: f64,
+    /// Time steps after the start-up.
+    pub steps: u64,
+    /// Steps that did not converge.
+    pub n_unconverged: u64,
+    /// Outputs.
+    pub outputs: Vec<WatcherStatus>,
+    /// What went wrong, once the run has ended by a failure.
+    pub failure: Option<String>,
+}
+
+/// Events that wait to be shown at most; a screen takes them at each drawing.
+const EVENTS_KEPT: usize = 256;
+
+#[derive(Debug, Default)]
+pub(super) struct SharedStatus {
+    pub(super) status: Status,
+    pub(super) settled: Option<Arc<Settled>>,
+    pub(super) events: VecDeque<SessionEvent>,
+}
+
+impl SharedStatus {
+    /// Keeps an event for the screen; the oldest makes room.
+    pub(super) fn show(&mut self, event: SessionEvent) {
+        if self.events.len() == EVENTS_KEPT {
+            self.events.pop_front();
+        }
+        self.events.push_back(event);
+    }
+}
+
+pub(super) fn lock(shared: &Mutex<SharedStatus>) -> MutexGuard<'_, SharedStatus> {
+    // Every write leaves the value whole, so a panic elsewhere does not spoil it.
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
