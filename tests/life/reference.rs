@@ -278,6 +278,7 @@ fn going_on_from_a_state_in_the_middle_is_the_same_bit_for_bit() {
     again
         .restore(serde_json::from_slice(&text).unwrap())
         .unwrap();
+    again.count_from(*sim.stats()).unwrap();
     let (mut one, mut two) = (Frame::default(), Frame::default());
     for _ in 0..60 {
         sim.step().unwrap();
