@@ -254,10 +254,11 @@ impl Look {
         parts.map(|value| value / self.unit.per_si).collect()
     }
 
-    /// A number of the legend: it says at an end of the range that its colour holds beyond, too.
+    /// A number of the legend: it says at an end of the range that its colour holds beyond, too. Fringes go on.
     pub fn number(&self, value: f64) -> String {
         let [low, high] = self.range;
-        let is_at = |end: f64| (value - end).abs() < 1e-9 * (high - low);
+        let holds = self.palette != Palette::Fringes;
+        let is_at = |end: f64| holds && (value - end).abs() < 1e-9 * (high - low);
         let sign = match self.above {
             AboveRange::Top if is_at(high) => "≥",
             AboveRange::Top if is_at(low) && low < 0.0 => "≤",
@@ -423,6 +424,10 @@ mod tests {
         assert_eq!(film.note().as_deref(), Some("dark: >1"));
         assert_eq!(film.tint(1.1e-6, true), Tint::Plain(CONTACT));
         assert_eq!(film.tint(f64::NAN, false), Tint::Blank);
+        assert_eq!(
+            Look::of(Subject::Interferogram, &ranges()).number(1e-6),
+            "1"
+        );
     }
 
     #[test]

@@ -22,7 +22,7 @@ use super::damage;
 use super::interferogram::INTERFEROGRAM;
 use super::kymograph;
 use super::maps;
-use super::moment::{STEP, check_clock};
+use super::moment::{SIMULATED_TIME, STEP, check_clock};
 use super::plot::{Margin, PlotBox};
 use super::series::{YIELDED, by_itself, entity};
 use super::slice;
@@ -33,10 +33,15 @@ use crate::observe::ObserveError;
 use crate::picture::Subject;
 use crate::scene::ContactKind;
 
+/// Time that a passage of 4 a takes when it is played, s.
+const PASSAGE_SHOWN_S: f64 = 10.0;
+
 /// What the first frame tells the layout.
 pub(super) struct Shown {
     /// Whether the run goes on while it is shown.
     pub(super) live: bool,
+    /// Time of a passage of 4 a, s; `None` where nothing moves.
+    pub(super) passage_s: Option<f64>,
     pub(super) kind: ContactKind,
     pub(super) map: PlotBox,
     pub(super) interferogram: PlotBox,
@@ -60,10 +65,16 @@ pub(super) fn send(stream: &Stream, shown: &Shown) -> Result<(), ObserveError> {
     let tabs = tabs(&mut views, shown);
     let time = TimePanel::new()
         .with_state(PanelState::Collapsed)
-        .with_timeline(STEP)
         .with_play_state(PlayState::Following)
         .with_loop_mode(loop_mode(shown.live))
         .with_fps(15.0);
+    // Milliseconds, so slowly that a passage can be followed; where nothing moves there are only steps.
+    let time = match shown.passage_s {
+        Some(passage_s) => time
+            .with_timeline(SIMULATED_TIME)
+            .with_playback_speed(passage_s / PASSAGE_SHOWN_S),
+        None => time.with_timeline(STEP),
+    };
     let blueprint = Blueprint::new(Tabs::new(tabs))
         .with_auto_layout(false)
         .with_auto_views(false)

@@ -153,8 +153,10 @@ impl Views {
     }
 
     fn shown(&self, first: &Frame, live: bool) -> Shown {
+        let speed = first.metrics.entrainment_m_s.abs();
         Shown {
             live,
+            passage_s: (speed > 0.0).then(|| 4.0 * first.a_m / speed),
             kind: first.kind,
             map: maps::plot_box(self.geometry),
             interferogram: self.maps.interferogram().plot().clone(),
