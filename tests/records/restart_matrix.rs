@@ -158,7 +158,7 @@ fn bits(frame: &Frame) -> String {
 /// The frames of a session, and how it ended.
 fn frames(
     scene: &Scene,
-    more: Option<Watcher>,
+    more: impl IntoIterator<Item = Watcher>,
     ending: Ending,
     start: impl FnOnce(Request) -> Result<Session, asperity::run::RunError>,
 ) -> (Vec<String>, Outcome) {
@@ -225,14 +225,14 @@ mod recorded {
     use asperity::observe::{Overwrite, Queue, WhenFull};
     use asperity::scene::Record;
 
-    pub(super) fn watcher(path: &Path) -> Option<Watcher> {
+    pub(super) fn watcher(path: &Path) -> Vec<Watcher> {
         let recorder = Recorder::create(path, Overwrite::Refuse, &Record::default()).unwrap();
         let queue = Queue::spawn("record", 8, WhenFull::Wait, Box::new(recorder)).unwrap();
-        Some(Watcher::new("recording", Box::new(queue), 4))
+        vec![Watcher::new("recording", Box::new(queue), 4)]
     }
 
     /// The frames of the run once more, as far as the recording goes.
-    pub(super) fn repeated(path: &Path) -> Option<Vec<String>> {
+    pub(super) fn repeated(path: &Path) -> Vec<String> {
         let recorded = Recorded::read(path).unwrap();
         std::fs::remove_file(path).unwrap();
         let scene = Scene::from_toml(&recorded.scene_toml).unwrap();
@@ -246,19 +246,19 @@ mod recorded {
             Session::repeat(request, Vec::new())
         });
         assert!(again.len() > 8, "{name}");
-        Some(again)
+        again
     }
 }
 #[cfg(not(feature = "rerun"))]
 mod recorded {
     use super::*;
 
-    pub(super) fn watcher(_: &Path) -> Option<Watcher> {
-        None
+    pub(super) fn watcher(_: &Path) -> Vec<Watcher> {
+        Vec::new()
     }
 
-    pub(super) fn repeated(_: &Path) -> Option<Vec<String>> {
-        None
+    pub(super) fn repeated(_: &Path) -> Vec<String> {
+        Vec::new()
     }
 }
 
@@ -281,7 +281,7 @@ fn a_run_cut_in_two_or_repeated_is_the_whole_run() {
             summary
         };
         assert_eq!(timeless(end), timeless(cut_end), "{}", case.name);
-        let again = recorded::repeated(&path).unwrap_or_default();
+        let again = recorded::repeated(&path);
         n_repeated.fetch_add(again.len(), Ordering::Relaxed);
         let of_cut = self::differing(&whole, &cut);
         [

@@ -196,7 +196,7 @@ impl VolumeSums {
     /// Collects what the threads did, in order of depth.
     pub(super) fn gather<'a>(
         &mut self,
-        threads: impl Iterator<Item = &'a LayerResults> + Clone,
+        threads: &(impl Iterator<Item = &'a LayerResults> + Clone),
         laws: usize,
     ) {
         self.peaks = [Peak::default(); 4];

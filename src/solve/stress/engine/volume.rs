@@ -164,7 +164,7 @@ impl StressEngine {
                 }
             });
         let results = self.workers.iter().map(|worker| &worker.results);
-        self.sums.gather(results, laws.len());
+        self.sums.gather(&results, laws.len());
         for loading in Loading::ALL {
             if !wanted[..count].contains(&loading) {
                 let same = stands_for(loading, &wanted[..count]);
