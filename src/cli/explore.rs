@@ -18,7 +18,7 @@ use super::Engine;
 use super::args::RunArgs;
 use super::failure::{Failure, tell};
 use super::names::Names;
-use super::outputs::{Outputs, Pace, Recording};
+use super::outputs::{Outputs, RecorderPace, Recording};
 use super::run::conclude;
 use super::scenes::{self, Prepared};
 use super::{report, shown, view};
@@ -82,7 +82,7 @@ pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
         None => free_name(&prepared)?,
     };
     Names::of(args, &prepared.scene, &path).check()?;
-    let outputs = Outputs::open(args, &prepared.scene, &path, Pace::Live)?;
+    let outputs = Outputs::open(args, &prepared.scene, &path, RecorderPace::Live)?;
     let interrupt = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&interrupt);
     ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))
@@ -169,7 +169,8 @@ fn rebuild(engine: Engine, args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool
             .and_then(|run| run.prepared.scene.record.clone());
         let prepared = scenes::finish(&next, scene, name.to_owned()).map_err(words)?;
         let path = free_name(&prepared).map_err(words)?;
-        let outputs = Outputs::open(&next, &prepared.scene, &path, Pace::Live).map_err(words)?;
+        let outputs =
+            Outputs::open(&next, &prepared.scene, &path, RecorderPace::Live).map_err(words)?;
         let run = start(engine, threads, prepared, outputs).map_err(words)?;
         // It ends by itself while the new one starts; what it holds goes when the next one comes.
         if let Some(old) = runs.last_mut() {

@@ -16,7 +16,7 @@ use super::scenes::print;
 
 /// Who waits when the recorder is slower than the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Pace {
+pub(crate) enum RecorderPace {
     /// The run: the file is complete.
     Headless,
     /// Nobody: frames are skipped and counted.
@@ -24,7 +24,7 @@ pub(crate) enum Pace {
     Live,
 }
 
-impl Pace {
+impl RecorderPace {
     fn when_full(self) -> WhenFull {
         match self {
             Self::Headless => WhenFull::Wait,
@@ -71,7 +71,7 @@ impl Outputs {
         args: &RunArgs,
         scene: &Scene,
         recording: &Path,
-        pace: Pace,
+        pace: RecorderPace,
     ) -> Result<Self, Failure> {
         let overwrite = Overwrite::from_force(args.force);
         let mut outputs = Self {
@@ -111,7 +111,7 @@ impl Outputs {
         scene: &Scene,
         path: &Path,
         overwrite: Overwrite,
-        pace: Pace,
+        pace: RecorderPace,
     ) -> Result<(), ObserveError> {
         use asperity::observe::rerun::Recorder;
         let Some(record) = &scene.record else {
@@ -191,7 +191,7 @@ impl Outputs {
         _scene: &Scene,
         _path: &Path,
         _overwrite: Overwrite,
-        _pace: Pace,
+        _pace: RecorderPace,
     ) -> Result<(), ObserveError> {
         Ok(())
     }

@@ -14,7 +14,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::args::{HeadlessArgs, RunArgs};
 use super::failure::{Failure, tell};
 use super::names::Names;
-use super::outputs::{Outputs, Pace};
+use super::outputs::{Outputs, RecorderPace};
 use super::repeat::{self, Repetition};
 use super::{report, scenes};
 
@@ -62,7 +62,7 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     }
     // From the first file on a signal ends the run in order.
     let interrupt = stop_on_signals()?;
-    let mut outputs = Outputs::open(args, &prepared.scene, &path, Pace::Headless)?;
+    let mut outputs = Outputs::open(args, &prepared.scene, &path, RecorderPace::Headless)?;
     let request = Request {
         name: prepared.name.clone(),
         scene: prepared.scene.clone(),

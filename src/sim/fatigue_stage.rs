@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::counting::Counting;
 use super::estimates::{LifeDetail, LifeEstimate, Repeat};
 use super::settling::Settling;
-use super::smooth::Conditions;
+use super::smooth::LoadAndSpeed;
 use super::stress_stage::StressStage;
 use super::variant::{Shared, Variant, models};
 use crate::math::ln_sum::ln_sum;
@@ -70,7 +70,7 @@ pub(super) struct LifeStage {
     /// Hertz half-width, over the scene's, for which the reference was computed.
     reference_size: f64,
     /// Load and speed for which it was.
-    pub(super) reference_at: Conditions,
+    pub(super) reference_at: LoadAndSpeed,
     /// Cycles of the smooth contact of that size.
     reference_cycles: Option<f64>,
     settling: Settling,
@@ -123,7 +123,7 @@ impl LifeStage {
                 ContactKind::Line => 1.0,
             },
             reference_size: 1.0,
-            reference_at: Conditions::default(),
+            reference_at: LoadAndSpeed::default(),
             reference_cycles: None,
             settling: Settling::new(law, scene.numerics.tolerance),
             damage: Marks::new(),

@@ -6,7 +6,7 @@ use crate::math::grid::Grid;
 
 /// Travelled ways and the time since the last disturbance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Motion {
+pub(super) struct Travel {
     /// Way of body 1 and 2, in a.
     pub(super) travelled: [f64; 2],
     /// Where both bodies were when the passage began; `None`: it has not begun.
@@ -26,7 +26,7 @@ pub(super) struct Way {
     pub(super) in_passage: Option<f64>,
 }
 
-impl Motion {
+impl Travel {
     /// Bodies at their origin.
     pub(super) fn new() -> Self {
         Self {

@@ -9,7 +9,7 @@
 
 use super::drive::Drive;
 use super::sim_plan::SimPlan;
-use super::smooth::Conditions;
+use super::smooth::LoadAndSpeed;
 use crate::plan::FilmPlan;
 use crate::scene::Knob;
 use crate::scene::Order;
@@ -27,14 +27,14 @@ impl SimPlan {
     /// The smooth film by formula at the knobs' present values; `None`: the scene has no oil.
     pub(super) fn film_now(&self, drive: &Drive) -> Option<FilmPlan> {
         let now = |knob| drive.get(knob).now;
-        self.film_at(Conditions {
+        self.film_at(LoadAndSpeed {
             load: now(self.door.load_knob()),
             speed_m_s: now(Knob::EntrainmentMS),
         })
     }
 
     /// The same at a load and a speed.
-    pub(super) fn film_at(&self, at: Conditions) -> Option<FilmPlan> {
+    pub(super) fn film_at(&self, at: LoadAndSpeed) -> Option<FilmPlan> {
         let base = self.base();
         let (speed, load) = (at.speed_m_s / base.speed_m_s, at.load / base.load);
         self.decided.film.map(|film| film.at(speed, load))
@@ -48,8 +48,8 @@ impl SimPlan {
     }
 
     /// The scene's own load and speed.
-    pub(super) fn base(&self) -> Conditions {
-        Conditions {
+    pub(super) fn base(&self) -> LoadAndSpeed {
+        LoadAndSpeed {
             load: self.decided.force_n,
             speed_m_s: self.scene.motion.entrainment_m_s.abs(),
         }

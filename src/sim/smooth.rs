@@ -14,12 +14,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::drive::Drive;
-use super::motion::Motion;
-use crate::solve::march::State;
+use super::motion::Travel;
+use crate::solve::march::ContactState;
 
 /// Load (N, of a line N/m) and entrainment speed (m/s).
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct Conditions {
+pub(super) struct LoadAndSpeed {
     pub(super) load: f64,
     pub(super) speed_m_s: f64,
 }
@@ -29,10 +29,10 @@ pub(super) struct Conditions {
 pub(super) struct Smooth {
     /// Nodes per side of its grid.
     pub(super) nodes: usize,
-    pub(super) contact: State,
+    pub(super) contact: ContactState,
     pub(super) drive: Drive,
-    pub(super) motion: Motion,
-    pub(super) at: Conditions,
+    pub(super) motion: Travel,
+    pub(super) at: LoadAndSpeed,
     /// Steps to go on this grid.
     pub(super) left: u64,
 }

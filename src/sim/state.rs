@@ -13,7 +13,7 @@ use super::counting_spec::counting_spec;
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
 use super::measure::Measured;
-use super::motion::Motion;
+use super::motion::Travel;
 use super::orbit::Orbit;
 use super::pace::Pace;
 use super::sim_plan::SimPlan;
@@ -42,11 +42,11 @@ pub(super) enum Phase {
 pub struct State {
     /// Nodes per side of the grid that the contact is on: the start-up climbs through several.
     pub(super) nodes: usize,
-    pub(super) contact: march::State,
+    pub(super) contact: march::ContactState,
     pub(super) drive: Drive,
     /// The knobs as they were asked for; in the smooth start-up the drive does not follow yet.
     pub(super) wanted: Drive,
-    pub(super) motion: Motion,
+    pub(super) motion: Travel,
     /// What both bodies have yielded; `None`: they are elastic.
     pub(super) yielded: Option<Yielded>,
     /// Where both bodies were when they were looked at last, in a.
@@ -104,7 +104,7 @@ impl State {
             contact,
             drive: wanted.smooth(),
             wanted,
-            motion: Motion::new(),
+            motion: Travel::new(),
             yielded: yields.then(|| Yielded::new(&fine, scene.softer(), repeats)),
             watched: [0.0; 2],
             counting,

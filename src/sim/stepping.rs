@@ -12,14 +12,14 @@
 use super::door::Door;
 use super::drive::Drive;
 use super::frame::Metrics;
-use super::motion::Motion;
+use super::motion::Travel;
 use super::pace::{Judgement, Stepping};
 use super::sim_plan::SimPlan;
 use super::terrain::Terrain;
 use super::yielded::Yielded;
 use super::{StepError, Unsolved};
 use crate::scene::Knob;
-use crate::solve::march::{Conditions, Flow, Guess, Solver, State};
+use crate::solve::march::{Conditions, ContactState, Flow, Guess, Solver};
 use crate::solve::newton::{NewtonReport, Verdict};
 
 /// Most times a step is halved.
@@ -131,7 +131,7 @@ pub(super) fn place_surfaces(
     solver: &mut Solver,
     terrain: &mut Terrain,
     door: &Door,
-    (drive, motion): (&Drive, &Motion),
+    (drive, motion): (&Drive, &Travel),
     yielded: Option<&Yielded>,
 ) {
     let grid = &solver.grid;
@@ -162,11 +162,11 @@ fn amplitudes(door: &Door, drive: &Drive) -> [f64; 2] {
 
 /// Everything that a step moves.
 pub(super) struct Mover<'a> {
-    pub(super) state: &'a mut State,
+    pub(super) state: &'a mut ContactState,
     pub(super) solver: &'a mut Solver,
     pub(super) terrain: &'a mut Terrain,
     pub(super) drive: &'a mut Drive,
-    pub(super) motion: &'a mut Motion,
+    pub(super) motion: &'a mut Travel,
     pub(super) plan: &'a SimPlan,
     pub(super) stepping: Stepping,
     /// What has yielded; `None`: elastic.
@@ -222,7 +222,7 @@ impl Mover<'_> {
     }
 
     /// All that comes after the first rung; a step that fails leaves everything as it was `before`, its first parts too.
-    fn in_parts(&mut self, nodes: f64, before: (Drive, Motion), done: &mut Attempted) {
+    fn in_parts(&mut self, nodes: f64, before: (Drive, Travel), done: &mut Attempted) {
         let contact = self.state.clone();
         let yielded = self.yielded.as_deref().cloned();
         (*self.drive, *self.motion) = before.clone();
@@ -350,7 +350,7 @@ impl Mover<'_> {
 
     fn with_conditions(
         &mut self,
-        solve: impl FnOnce(&mut Solver, &State, &Conditions) -> NewtonReport,
+        solve: impl FnOnce(&mut Solver, &ContactState, &Conditions) -> NewtonReport,
     ) -> NewtonReport {
         let value = |knob| self.drive.get(knob).now;
         let flow = self.plan.flow_now(self.drive);

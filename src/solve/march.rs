@@ -1,4 +1,4 @@
-//! A contact that marches in time on one grid: what it is ([`State`]) and what solves its steps ([`Solver`]).
+//! A contact that marches in time on one grid: what it is ([`ContactState`]) and what solves its steps ([`Solver`]).
 //!
 //! ```text
 //! attempt   trial ← solution of (state, conditions)       the state is read, nothing of it changes
@@ -25,7 +25,7 @@ use crate::scene::Order;
 
 /// What a restart needs: the last committed step and its past.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct State {
+pub struct ContactState {
     /// P, shape ny × nx.
     pub pressure: Vec<f64>,
     /// H.
@@ -38,7 +38,7 @@ pub struct State {
     pub history: History,
 }
 
-impl State {
+impl ContactState {
     /// Whether every field has `len` nodes; `unlike`: with deflection by traction.
     pub fn fits(&self, len: usize, unlike: bool) -> bool {
         let Self {
@@ -140,7 +140,7 @@ pub enum Flow {
 /// A state with its own solver, for contacts without a simulation around them.
 pub struct March {
     /// State.
-    pub state: State,
+    pub state: ContactState,
     /// Solver.
     pub solver: Solver,
 }

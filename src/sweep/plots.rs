@@ -14,7 +14,7 @@ use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::{Combine, Sweep};
 use super::table::Rows;
-use crate::observe::chart::{Cells, Chart, Corner, Curve, Figure, Mark, Scale};
+use crate::observe::chart::{Chart, Corner, Curve, Figure, HeatMap, Mark, Scale};
 use crate::scene::Knob;
 
 /// Most curves of one picture.
@@ -256,7 +256,7 @@ fn against_lambda(
 }
 
 /// Life over the last two axes of a grid; of more axes, at the first values of the others.
-fn life_map(sweep: &Sweep, rows: &Rows) -> Option<Cells> {
+fn life_map(sweep: &Sweep, rows: &Rows) -> Option<HeatMap> {
     let [.., y, x] = sweep.axes.as_slice() else {
         return None;
     };
@@ -269,7 +269,7 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<Cells> {
     if !rising(&xs) || !rising(&ys) {
         return None;
     }
-    Some(Cells {
+    Some(HeatMap {
         title: title(sweep),
         rows: lives
             .chunks(xs.len())

@@ -52,7 +52,7 @@ impl Staging {
 
 /// A number that a caption points at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
+pub enum LessonFigure {
     /// n of body 1 by formula.
     N1,
     /// n of body 2 by formula.
@@ -78,7 +78,7 @@ pub enum Figure {
     PaperLife,
 }
 
-impl Figure {
+impl LessonFigure {
     /// Name on the screen.
     pub fn name(self) -> &'static str {
         match self {
@@ -151,7 +151,7 @@ fn ripple_left(frame: &Frame) -> Option<f64> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Claim {
     /// Which number: it is shown beside the caption.
-    pub figure: Figure,
+    pub figure: LessonFigure,
     /// Least value.
     pub least: f64,
     /// Greatest value.
@@ -287,7 +287,7 @@ mod tests {
     /// claim at all the first.
     #[test]
     fn no_claim_holds_where_nothing_is_counted() {
-        let counts = [Figure::Counted1, Figure::Counted2];
+        let counts = [LessonFigure::Counted1, LessonFigure::Counted2];
         let mut idle = Frame::default();
         (idle.nx, idle.p_hertz_pa) = (3, 1.0);
         (idle.metrics.n_body_1, idle.metrics.n_body_2) = (Some(14.0), Some(9.0));
@@ -317,8 +317,16 @@ mod tests {
         for beat in LESSONS.iter().flat_map(|lesson| lesson.beats) {
             let claims = |figure| beat.claims.iter().any(|claim| claim.figure == figure);
             let lonely = |n, counted| claims(n) && !claims(counted);
-            assert!(!lonely(Figure::N1, Figure::Counted1), "{}", beat.caption);
-            assert!(!lonely(Figure::N2, Figure::Counted2), "{}", beat.caption);
+            assert!(
+                !lonely(LessonFigure::N1, LessonFigure::Counted1),
+                "{}",
+                beat.caption
+            );
+            assert!(
+                !lonely(LessonFigure::N2, LessonFigure::Counted2),
+                "{}",
+                beat.caption
+            );
             assert!(!beat.claims.is_empty(), "{}", beat.caption);
         }
     }

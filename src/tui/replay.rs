@@ -12,7 +12,7 @@ const SPEEDS: [f64; 2] = [1.0 / 64.0, 16.0];
 
 /// Whether a replay moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Motion {
+pub enum ReplayMotion {
     /// It does.
     Going,
     /// It stands, to be looked at frame by frame.
@@ -28,7 +28,7 @@ pub struct Replay {
     /// Simulated per wall time at speed 1.
     usual: f64,
     speed: f64,
-    motion: Motion,
+    motion: ReplayMotion,
 }
 
 impl Replay {
@@ -44,13 +44,13 @@ impl Replay {
             settled,
             at_s: 0.0,
             speed: 1.0,
-            motion: Motion::Going,
+            motion: ReplayMotion::Going,
         })
     }
 
     /// So much wall time went by, s.
     pub fn advance(&mut self, wall_s: f64) {
-        if self.motion == Motion::Going {
+        if self.motion == ReplayMotion::Going {
             self.at_s += wall_s * self.usual * self.speed;
         }
     }
@@ -98,15 +98,15 @@ impl Replay {
     }
 
     /// Whether it moves.
-    pub fn motion(&self) -> Motion {
+    pub fn motion(&self) -> ReplayMotion {
         self.motion
     }
 
     /// Stops it, or lets it go on.
     pub fn toggle(&mut self) {
         self.motion = match self.motion {
-            Motion::Going => Motion::Frozen,
-            Motion::Frozen => Motion::Going,
+            ReplayMotion::Going => ReplayMotion::Frozen,
+            ReplayMotion::Frozen => ReplayMotion::Going,
         };
     }
 
@@ -117,7 +117,7 @@ impl Replay {
 
     /// Stops and goes so many frames on (negative: back).
     pub fn step(&mut self, frames: i32) {
-        self.motion = Motion::Frozen;
+        self.motion = ReplayMotion::Frozen;
         let each = self.settled.period_s / self.settled.frames.len() as f64;
         let here = (self.at_s / each + 1e-6).floor();
         // In the middle of a frame's time, so that rounding does not skip one.

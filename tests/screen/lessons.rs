@@ -6,7 +6,7 @@ use asperity::plan::Plan;
 use asperity::scene::{ContactKind, Scene};
 use asperity::sim::{Frame, Knob, Simulation, Stage};
 use asperity::tui::dial::dials;
-use asperity::tui::lessons::{Beat, Claim, Figure, LESSONS};
+use asperity::tui::lessons::{Beat, Claim, LESSONS, LessonFigure};
 
 /// The scene of a beat. Point contacts take half the nodes of the explorer: the claims are no finer than that.
 fn staged(beat: &Beat) -> Option<Scene> {
@@ -58,7 +58,12 @@ fn nothing_counted_is_seen(beat: &Beat, frame: &Frame) {
         let mut wiped = frame.clone();
         wiped.metrics.n_counted_body_1 = nothing;
         wiped.metrics.n_counted_body_2 = nothing;
-        let counts = |claim: &&Claim| matches!(claim.figure, Figure::Counted1 | Figure::Counted2);
+        let counts = |claim: &&Claim| {
+            matches!(
+                claim.figure,
+                LessonFigure::Counted1 | LessonFigure::Counted2
+            )
+        };
         for claim in beat.claims.iter().filter(counts) {
             assert!(
                 !claim.holds(&wiped),
@@ -138,7 +143,11 @@ fn figures_are_read_from_the_frame() {
         run.sim.step().unwrap();
         run.sim.fill(&mut run.frame);
     }
-    let n_2 = Figure::N2.of(&run.frame).unwrap();
+    let n_2 = LessonFigure::N2.of(&run.frame).unwrap();
     assert!(n_2 > 3.0, "{n_2}");
-    assert_eq!(Figure::N1.of(&run.frame), Some(1.0), "body 2 is smooth");
+    assert_eq!(
+        LessonFigure::N1.of(&run.frame),
+        Some(1.0),
+        "body 2 is smooth"
+    );
 }

@@ -13,7 +13,7 @@ const EMPTY: RGBColor = RGBColor(230, 230, 230);
 
 /// A figure of cells: `rows[j][i]` at the i-th x, the j-th y.
 #[derive(Debug, Clone)]
-pub(crate) struct Cells {
+pub(crate) struct HeatMap {
     /// Above it.
     pub(crate) title: String,
     /// Label and values, rising.
@@ -26,7 +26,7 @@ pub(crate) struct Cells {
     pub(crate) rows: Vec<Vec<f64>>,
 }
 
-impl Chart for Cells {
+impl Chart for HeatMap {
     fn draw<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Result<Drawn, String> {
         let values = self.rows.iter().flatten();
         let places = values.filter_map(|v| self.value.1.place(*v));
@@ -44,7 +44,7 @@ impl Chart for Cells {
     }
 }
 
-impl Cells {
+impl HeatMap {
     fn draw_cells<DB: DrawingBackend>(
         &self,
         area: &DrawingArea<DB, Shift>,
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn the_least_is_dark_the_greatest_light_and_what_is_missing_grey() {
-        let map = Cells {
+        let map = HeatMap {
             title: "Map".to_owned(),
             x: ("S".to_owned(), vec![0.0, 1.0]),
             y: ("A, m".to_owned(), vec![1e-7]),
@@ -162,7 +162,7 @@ mod tests {
             text.contains("#E6E6E6") && text.contains("#470155"),
             "{text:.2000}"
         );
-        let none = Cells {
+        let none = HeatMap {
             rows: vec![vec![0.0, f64::NAN]],
             ..map
         };

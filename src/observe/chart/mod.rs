@@ -12,7 +12,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::register_font;
 
-pub(crate) use cells::Cells;
+pub(crate) use cells::HeatMap;
 pub(crate) use curves::{Corner, Curve, Figure, Mark};
 pub(crate) use scale::Scale;
 

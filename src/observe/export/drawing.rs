@@ -31,11 +31,11 @@ pub(super) struct Drawing<'a> {
 }
 
 /// Curves over x with an axis at each side.
-pub(super) struct Figure {
+pub(super) struct ExportedFigure {
     pub(super) x: [f64; 2],
     pub(super) left_top: f64,
     pub(super) left_title: String,
-    pub(super) left: Vec<Curve>,
+    pub(super) left: Vec<DrawnCurve>,
     pub(super) right: Right,
 }
 
@@ -43,11 +43,11 @@ pub(super) struct Figure {
 pub(super) struct Right {
     pub(super) top: f64,
     pub(super) title: String,
-    pub(super) curve: Curve,
+    pub(super) curve: DrawnCurve,
 }
 
 /// A curve of a figure.
-pub(super) struct Curve {
+pub(super) struct DrawnCurve {
     pub(super) name: &'static str,
     pub(super) colour: [u8; 3],
     pub(super) points: Vec<(f64, f64)>,
@@ -76,7 +76,7 @@ impl Drawing<'_> {
     ///
     /// # Errors
     /// What went wrong, in words.
-    pub(super) fn figure(&self, figure: &Figure) -> Result<(), String> {
+    pub(super) fn figure(&self, figure: &ExportedFigure) -> Result<(), String> {
         let root = self.begin(WIDE + 2 * LEFT, 420 + ABOVE + BELOW)?;
         draw_figure(&root, figure).map_err(|error| error.to_string())?;
         root.present().map_err(|error| error.to_string())
@@ -225,7 +225,7 @@ fn draw_bar<'a>(area: &Area<'a>, picture: &Picture, tall: u32) -> DrawingResult<
     area.draw(&Text::new(look.title(), (left - 8, top - 28), title))
 }
 
-fn draw_figure<'a>(area: &Area<'a>, figure: &Figure) -> DrawingResult<'a> {
+fn draw_figure<'a>(area: &Area<'a>, figure: &ExportedFigure) -> DrawingResult<'a> {
     let x = figure.x[0]..figure.x[1];
     let mut chart = ChartBuilder::on(area)
         .margin_top(ABOVE)
@@ -278,12 +278,12 @@ fn draw_figure<'a>(area: &Area<'a>, figure: &Figure) -> DrawingResult<'a> {
         .draw()
 }
 
-fn style(curve: &Curve) -> ShapeStyle {
+fn style(curve: &DrawnCurve) -> ShapeStyle {
     let [r, g, b] = curve.colour;
     RGBColor(r, g, b).stroke_width(2)
 }
 
-fn legend(series: &mut SeriesAnno<'_, BitMapBackend<'_>>, curve: &Curve) {
+fn legend(series: &mut SeriesAnno<'_, BitMapBackend<'_>>, curve: &DrawnCurve) {
     let style = style(curve);
     series
         .label(curve.name)

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::drawing::{Curve, Drawing, Figure, Right};
+use super::drawing::{Drawing, DrawnCurve, ExportedFigure, Right};
 use crate::math::number::{GPA, MM, UM, plain};
 use crate::picture::{Picture, Ranges, Scope, Subject};
 use crate::scene::{ContactKind, Scene};
@@ -129,7 +129,7 @@ fn state(frame: &Frame) -> String {
 }
 
 /// Pressure with Hertz's behind it, and the film, along y = 0.
-fn centre_line(frame: &Frame, ranges: Ranges) -> Figure {
+fn centre_line(frame: &Frame, ranges: Ranges) -> ExportedFigure {
     let nx = frame.nx;
     let row = (frame.ny / 2) * nx..(frame.ny / 2 + 1) * nx;
     let x = |i: usize| (frame.x_min_m + frame.dx_m * i as f64) * MM;
@@ -144,17 +144,17 @@ fn centre_line(frame: &Frame, ranges: Ranges) -> Figure {
         let share = (1.0 - t * t).max(0.0).sqrt();
         (t * frame.a_m * MM, share * GPA.of(frame.p_hertz_pa))
     });
-    Figure {
+    ExportedFigure {
         x: [x(0), x(nx - 1)],
         left_top: GPA.of(ranges.pressure_pa),
         left_title: "pressure, GPa".to_owned(),
         left: vec![
-            Curve {
+            DrawnCurve {
                 name: "Hertz pressure",
                 colour: [150, 155, 165],
                 points: hertz.collect(),
             },
-            Curve {
+            DrawnCurve {
                 name: "pressure",
                 colour: [213, 94, 0],
                 points: along(&frame.pressure_pa, GPA.per_si),
@@ -163,7 +163,7 @@ fn centre_line(frame: &Frame, ranges: Ranges) -> Figure {
         right: Right {
             top: UM.of(ranges.film_m),
             title: "film, µm".to_owned(),
-            curve: Curve {
+            curve: DrawnCurve {
                 name: "film (right axis)",
                 colour: [0, 114, 178],
                 points: along(&frame.film_m, UM.per_si),

@@ -3,7 +3,7 @@
 use rerun::{LineStrips2D, Radius};
 
 use super::colour::{GREY, ORANGE, SKY, faded};
-use super::gathered::Pen;
+use super::gathered::LineStyle;
 use super::geometry::Geometry;
 use super::plot::{PlotBox, points, ticks_at};
 use super::stream::{Holds, Stream};
@@ -117,7 +117,7 @@ impl CentreLine {
     }
 
     /// The parts of a curve that lie inside the axes; what is above them is left out, not bent.
-    fn draw(&self, values: &[f32], top: f64, pen: &mut Pen) {
+    fn draw(&self, values: &[f32], top: f64, pen: &mut LineStyle) {
         let height = self.plot.y[0];
         for (i, &value) in values.iter().enumerate() {
             let share = f64::from(value) / top;

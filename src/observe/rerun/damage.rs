@@ -11,9 +11,9 @@ use rerun::{Rgba32, SegmentationImage};
 
 use super::colour::{BACKGROUND, GREEN, WHITE, faded};
 use super::depths::Depths;
-use super::picture::{Field, Pixels};
+use super::picture::{Field, PixelField};
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Height, Raster};
+use super::raster::{Height, RasterEntity};
 use super::stream::Stream;
 use super::waiting::ClassImage;
 use crate::math::number::{UM, Unit, sig, ticks};
@@ -43,7 +43,7 @@ pub(super) struct Damage {
 
 struct Block {
     entity: &'static str,
-    raster: Raster,
+    raster: RasterEntity,
     /// Covers what has not crossed yet.
     cover: ClassImage,
     depths: Depths,
@@ -104,7 +104,7 @@ impl Block {
             ..plot_box()
         };
         let size = [WIDTH / damage.columns as f64, HEIGHT / depths.len() as f64];
-        let pixels = Pixels {
+        let pixels = PixelField {
             columns: damage.columns,
             rows: depths.len(),
             first: size.map(|side| 0.5 * side),
@@ -125,7 +125,7 @@ impl Block {
             .with_show_labels(true)
             .with_draw_order(26.0);
         stream.log_static(worst_point(entity), &style)?;
-        let raster = Raster::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
+        let raster = RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
         // What is no number must not colour its neighbours.
         let sharp =
             DepthImage::update_fields().with_magnification_filter(MagnificationFilter::Nearest);
@@ -205,7 +205,7 @@ pub(super) fn powers(block: &DamageBlock, shown: usize, least: f32) -> Vec<f32> 
 }
 
 /// What covers the picture is of the colour behind it: as if nothing were drawn.
-fn log_cover(stream: &Stream, entity: &str, pixels: &Pixels) -> Result<(), ObserveError> {
+fn log_cover(stream: &Stream, entity: &str, pixels: &PixelField) -> Result<(), ObserveError> {
     let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
     let image = SegmentationImage::update_fields()
         .with_format(format)

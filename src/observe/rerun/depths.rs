@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::plot::Tick;
+use super::plot::AxisTick;
 use crate::math::number::{UM, plain};
 use crate::sim::StressSlice;
 
@@ -72,7 +72,7 @@ impl Depths {
     }
 
     /// Ticks at 1, 2 and 5 times powers of ten, µm, in a picture of that height.
-    pub(super) fn ticks(&self, height: f64) -> Vec<Tick> {
+    pub(super) fn ticks(&self, height: f64) -> Vec<AxisTick> {
         let decades = (-2..6).flat_map(|k| [1.0, 2.0, 5.0].map(|step| step * 10_f64.powi(k)));
         let mut ticks = vec![(0.0, "0".to_owned())];
         let mut last = 0.0;

@@ -13,7 +13,7 @@ use rerun::log::{Chunk, ChunkError, ChunkId};
 use rerun::{ComponentDescriptor, EntityPath, LineStrips2D, Mesh3D, SerializedComponentColumn};
 
 use super::moment::{Moment, time_columns};
-use super::weight::Density;
+use super::weight::Compression;
 
 /// What a row adds.
 #[derive(Debug, Clone, Copy)]
@@ -111,7 +111,7 @@ pub(super) struct Images<T> {
     rows: GatheredRows,
     buffer: ComponentDescriptor,
     pixels: GatheredColumn<T>,
-    density: Density,
+    density: Compression,
 }
 
 impl<T: ArrowNativeType> Images<T> {
@@ -121,7 +121,7 @@ impl<T: ArrowNativeType> Images<T> {
             rows: GatheredRows::of(entity),
             buffer,
             pixels: GatheredColumn::default(),
-            density: Density::default(),
+            density: Compression::default(),
         }
     }
 
@@ -165,7 +165,7 @@ pub(super) struct Sheets {
     /// x, y and z of each vertex; none for a mesh that stays where it is.
     positions: GatheredColumn<f32>,
     colours: GatheredColumn<u32>,
-    densities: [Density; 2],
+    densities: [Compression; 2],
 }
 
 impl Sheets {
@@ -228,20 +228,20 @@ impl Sheets {
 #[derive(Debug)]
 pub(super) struct Strips {
     rows: GatheredRows,
-    pen: Pen,
+    pen: LineStyle,
     /// Curves up to the end of each row.
     ends: Vec<usize>,
-    density: Density,
+    density: Compression,
 }
 
 /// Draws curves.
 #[derive(Debug)]
-pub(super) struct Pen {
+pub(super) struct LineStyle {
     /// x and y of each point; a row for each curve.
     points: GatheredColumn<f32>,
 }
 
-impl Pen {
+impl LineStyle {
     /// Goes on to a point.
     pub(super) fn to(&mut self, at: [f32; 2]) {
         self.points.values.extend_from_slice(&at);
@@ -269,16 +269,16 @@ impl Strips {
     pub(super) fn new(entity: EntityPath) -> Self {
         Self {
             rows: GatheredRows::of(entity),
-            pen: Pen {
+            pen: LineStyle {
                 points: GatheredColumn::default(),
             },
             ends: Vec::new(),
-            density: Density::default(),
+            density: Compression::default(),
         }
     }
 
     /// Adds the curves of a moment.
-    pub(super) fn push(&mut self, at: Moment, fill: impl FnOnce(&mut Pen)) -> Added {
+    pub(super) fn push(&mut self, at: Moment, fill: impl FnOnce(&mut LineStyle)) -> Added {
         let before = self.pen.points.values().len();
         self.rows.moments.push(at);
         fill(&mut self.pen);

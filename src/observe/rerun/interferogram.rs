@@ -15,7 +15,7 @@ use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, Segmenta
 
 use super::colour::{GREY, WHITE};
 use super::geometry::Geometry;
-use super::picture::{Pixels, log_styled};
+use super::picture::{PixelField, log_styled};
 use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES, ticks_at};
 use super::stream::Stream;
 use super::waiting::ClassImage;
@@ -133,11 +133,11 @@ impl Interferogram {
         across.extend(pairs.map(|(low, other)| (other - low) * pixel));
     }
 
-    fn pixels(&self) -> Pixels {
+    fn pixels(&self) -> PixelField {
         let g = self.geometry;
         let finer = self.finer as f64;
         let last_y = g.y(self.from[1] + self.nodes[1] - 1);
-        Pixels {
+        PixelField {
             columns: (self.nodes[0] - 1) * self.finer + 1,
             rows: (self.nodes[1] - 1) * self.finer + 1,
             first: [g.x(self.from[0]), -last_y],
@@ -146,7 +146,7 @@ impl Interferogram {
     }
 
     fn plot_box(&self) -> PlotBox {
-        let Pixels {
+        let PixelField {
             columns,
             rows,
             first,
@@ -202,7 +202,7 @@ impl Interferogram {
         let plot = &self.plot;
         let (w, h) = (plot.x[1] - plot.x[0], plot.y[1] - plot.y[0]);
         let (left, wide) = (plot.x[1] + 0.04 * w, 0.035 * w);
-        let bar = Pixels {
+        let bar = PixelField {
             columns: 1,
             rows: usize::from(SHARP),
             first: [left + 0.5 * wide, plot.y[0] + 0.5 * h / f64::from(SHARP)],
@@ -227,7 +227,7 @@ fn entity() -> String {
     format!("{INTERFEROGRAM}/image")
 }
 
-fn styled(pixels: &Pixels) -> SegmentationImage {
+fn styled(pixels: &PixelField) -> SegmentationImage {
     let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
     SegmentationImage::update_fields()
         .with_format(format)

@@ -12,9 +12,9 @@ use rerun::{ChannelDatatype, SegmentationImage};
 use super::classes;
 use super::colour::WHITE;
 use super::geometry::Geometry;
-use super::picture::{Pixels, log_styled};
+use super::picture::{PixelField, log_styled};
 use super::plot::{PlotBox, ticks_at};
-use super::raster::{Height, Raster};
+use super::raster::{Height, RasterEntity};
 use super::stream::{Holds, Stream};
 use crate::math::number::ticks;
 use crate::observe::ObserveError;
@@ -29,12 +29,12 @@ const ROWS: usize = 512;
 const ON_THE_WAY: f64 = 0.05;
 
 /// One kymograph.
-pub(super) struct Kymograph {
+pub(super) struct KymographEntity {
     entity: &'static str,
     subject: Subject,
     look: Look,
     geometry: Geometry,
-    raster: Raster,
+    raster: RasterEntity,
     plot: PlotBox,
     values: Vec<f32>,
     /// Where bodies touch; empty where that is not marked.
@@ -52,7 +52,7 @@ pub(super) struct Kymograph {
     spare_rows: usize,
 }
 
-impl Kymograph {
+impl KymographEntity {
     /// Sets up the picture for so many steps.
     pub(super) fn new(
         stream: &Stream,
@@ -77,7 +77,7 @@ impl Kymograph {
             titles: vec![(0.1, "time, ms".into(), WHITE)],
             ..PlotBox::default()
         };
-        let pixels = Pixels {
+        let pixels = PixelField {
             columns: geometry.nx,
             rows,
             first: [geometry.x_min, 0.5 * row_height],
@@ -100,7 +100,7 @@ impl Kymograph {
             look,
             row_bytes,
             geometry,
-            raster: Raster::new(stream, entity, look, pixels, &plot, Height::Growing)?,
+            raster: RasterEntity::new(stream, entity, look, pixels, &plot, Height::Growing)?,
             touches,
             plot,
             values: vec![0.0; geometry.nx * rows],

@@ -37,7 +37,7 @@ use crate::scene::ContactKind;
 const PASSAGE_SHOWN_S: f64 = 10.0;
 
 /// What the first frame tells the layout.
-pub(super) struct Shown {
+pub(super) struct ShownViews {
     /// Whether the run goes on while it is shown.
     pub(super) live: bool,
     /// Time of a passage of 4 a, s; `None` where nothing moves.
@@ -60,7 +60,7 @@ pub(super) struct Shown {
 }
 
 /// Sends the layout to a recording.
-pub(super) fn send(stream: &Stream, shown: &Shown) -> Result<(), ObserveError> {
+pub(super) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveError> {
     let mut views = Views::default();
     let tabs = tabs(&mut views, shown);
     let time = TimePanel::new()
@@ -94,7 +94,7 @@ fn loop_mode(live: bool) -> LoopMode {
     if live { LoopMode::Off } else { LoopMode::All }
 }
 
-fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
+fn tabs(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
     let mut tabs = vec![contact_tab(views, shown), maps_tab(views, shown)];
     if shown.trace.is_some() {
         tabs.push(point_tab(views, shown));
@@ -107,7 +107,7 @@ fn tabs(views: &mut Views, shown: &Shown) -> Vec<ContainerLike> {
     tabs
 }
 
-fn contact_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+fn contact_tab(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let mut upper = Vec::new();
     let mut shares = Vec::new();
     if let Some(camera) = shown.camera {
@@ -166,7 +166,7 @@ fn life_series(views: &mut Views) -> ContainerLike {
     view
 }
 
-fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+fn maps_tab(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let map = &shown.map;
     let mut all = vec![
         views.map(
@@ -211,7 +211,7 @@ fn maps_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     Grid::new(all).with_grid_columns(4).with_name("Maps").into()
 }
 
-fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+fn point_tab(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let mut upper = Vec::new();
     if let Some(plot) = &shown.trace {
         upper.push(views.plot(
@@ -251,7 +251,7 @@ fn point_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
     .into()
 }
 
-fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+fn life_tab(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let left = Vertical::new([
         life_series(views),
         views.series("Factors of life, log10", &["life/log10_factors"]),
@@ -292,7 +292,7 @@ fn life_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
         .into()
 }
 
-fn convergence_tab(views: &mut Views, shown: &Shown) -> ContainerLike {
+fn convergence_tab(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let kind = shown.kind;
     let mut all = vec![
         views.series("Errors, log10", &["convergence/log10_errors"]),

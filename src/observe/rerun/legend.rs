@@ -4,7 +4,7 @@ use rerun::ChannelDatatype;
 use rerun::components::ImageFormat;
 
 use super::colour::{GREY, WHITE};
-use super::picture::{Pixels, log_styled, range, stored, styled};
+use super::picture::{PixelField, log_styled, range, stored, styled};
 use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES};
 use super::stream::{Holds, Stream};
 use crate::observe::ObserveError;
@@ -34,7 +34,7 @@ impl Legend {
         };
         let (w, height) = (legend.width(), legend.height() / Self::ROWS as f64);
         let wide = 0.035 * w;
-        let pixels = Pixels {
+        let pixels = PixelField {
             columns: 1,
             rows: Self::ROWS,
             first: [plot.x[1] + 0.04 * w + 0.5 * wide, plot.y[0] + 0.5 * height],

@@ -7,9 +7,9 @@ use super::classes;
 use super::colour::WHITE;
 use super::geometry::Geometry;
 use super::interferogram::Interferogram;
-use super::picture::{Field, Pixels};
-use super::plot::{Hertz, PlotBox, ticks_at};
-use super::raster::{Height, Raster};
+use super::picture::{Field, PixelField};
+use super::plot::{HertzCurve, PlotBox, ticks_at};
+use super::raster::{Height, RasterEntity};
 use super::stream::Stream;
 use super::text::Widened;
 use super::waiting::ClassImage;
@@ -42,7 +42,7 @@ const MAPS: [(&str, Subject); 5] = [
 struct Map {
     entity: &'static str,
     subject: Subject,
-    raster: Raster,
+    raster: RasterEntity,
 }
 
 impl Map {
@@ -66,7 +66,7 @@ pub(super) struct Maps {
     interferogram: Interferogram,
     contact: ClassImage,
     film: Look,
-    hertz: Hertz,
+    hertz: HertzCurve,
 }
 
 impl Maps {
@@ -84,7 +84,7 @@ impl Maps {
         let shown = listed.map(|(entity, subject)| {
             let look = Look::of(subject, ranges);
             let (pixels, plot) = (pixels(geometry), plot_box(geometry));
-            let raster = Raster::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
+            let raster = RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
             Ok(Map {
                 entity,
                 subject,
@@ -97,7 +97,7 @@ impl Maps {
             interferogram: Interferogram::new(stream, geometry)?,
             contact: stream.class_image(CONTACT),
             film: Look::of(Subject::Film, ranges),
-            hertz: Hertz::default(),
+            hertz: HertzCurve::default(),
         };
         let pixels = pixels(geometry);
         let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
@@ -108,7 +108,7 @@ impl Maps {
     }
 
     /// The images, for the notes in the recording and for what is told of them.
-    pub(super) fn rasters(&self) -> impl Iterator<Item = (&'static str, &Raster)> {
+    pub(super) fn rasters(&self) -> impl Iterator<Item = (&'static str, &RasterEntity)> {
         self.shown.iter().map(|map| (map.entity, &map.raster))
     }
 
@@ -161,8 +161,8 @@ impl Maps {
     }
 }
 
-fn pixels(g: Geometry) -> Pixels {
-    Pixels {
+fn pixels(g: Geometry) -> PixelField {
+    PixelField {
         columns: g.nx,
         rows: g.ny,
         first: [g.x_min, -g.y_max()],

@@ -11,7 +11,7 @@ pub(super) const COARSE: [usize; 2] = [48, 24];
 /// Every so-many-th node of a window of the grid: from the plane y = 0 backwards (the front half is
 /// cut away), around the contact in x.
 #[derive(Debug, Clone)]
-pub(super) struct Window {
+pub(super) struct MeshWindow {
     nodes: Vec<usize>,
     xy: Vec<[f32; 2]>,
     columns: usize,
@@ -19,7 +19,7 @@ pub(super) struct Window {
     spacing: [f32; 2],
 }
 
-impl Window {
+impl MeshWindow {
     /// The window |x| ≤ `reach_x`, 0 ≤ y ≤ `reach_y`; `None` if it holds no whole cell.
     pub(super) fn new(
         g: Geometry,
@@ -143,7 +143,7 @@ mod tests {
                 a: 1.0,
                 b: 1.0,
             };
-            let window = Window::new(g, [1.4, 1.2], FINE).expect("a window");
+            let window = MeshWindow::new(g, [1.4, 1.2], FINE).expect("a window");
             assert!(window.columns <= FINE[0] && window.rows <= FINE[1]);
             assert!(
                 window

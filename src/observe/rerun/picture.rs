@@ -145,7 +145,7 @@ dispatched! {
 
 /// A rectangle of pixels in a view: the centres of the first and the last pixel of both axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pixels {
+pub(super) struct PixelField {
     pub(super) columns: usize,
     pub(super) rows: usize,
     /// Centre of the upper left pixel.
@@ -154,7 +154,7 @@ pub(super) struct Pixels {
     pub(super) size: [f64; 2],
 }
 
-impl Pixels {
+impl PixelField {
     /// From pixel units of the image to the view.
     pub(super) fn transform(&self) -> Transform3D {
         let corner = [
@@ -175,7 +175,7 @@ pub(super) fn log_styled(
     stream: &Stream,
     entity: &str,
     style: &dyn AsComponents,
-    pixels: &Pixels,
+    pixels: &PixelField,
 ) -> Result<(), ObserveError> {
     stream.log_static(entity, &[style, &pixels.transform()])
 }

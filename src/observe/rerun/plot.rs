@@ -19,7 +19,7 @@ pub(super) const TITLES: f64 = 0.13;
 pub(super) const HALF_LABEL: f64 = 0.022;
 
 /// A tick: where, in units of the view, and its text.
-pub(super) type Tick = (f64, String);
+pub(super) type AxisTick = (f64, String);
 
 /// The frame of a plot.
 #[derive(Debug, Clone, Default)]
@@ -28,9 +28,9 @@ pub(super) struct PlotBox {
     pub(super) x: [f64; 2],
     /// Upper and lower edge (y points down).
     pub(super) y: [f64; 2],
-    pub(super) x_ticks: Vec<Tick>,
-    pub(super) left_ticks: Vec<Tick>,
-    pub(super) right_ticks: Vec<Tick>,
+    pub(super) x_ticks: Vec<AxisTick>,
+    pub(super) left_ticks: Vec<AxisTick>,
+    pub(super) right_ticks: Vec<AxisTick>,
     /// Below the horizontal ticks.
     pub(super) x_title: String,
     /// Above the frame, each centred at a share of its width.
@@ -182,11 +182,11 @@ impl Labels {
 
 /// Where Hertz's contact is at the load of now. Logged when it has changed.
 #[derive(Debug, Default)]
-pub(super) struct Hertz {
+pub(super) struct HertzCurve {
     shown_m: Option<[f64; 2]>,
 }
 
-impl Hertz {
+impl HertzCurve {
     /// Whether the half-widths are others than last time.
     fn changes(&mut self, frame: &Frame) -> bool {
         let now = Some([frame.a_m, frame.b_m]);
@@ -257,7 +257,7 @@ pub(super) fn points(strip: &[[f64; 2]]) -> Vec<[f32; 2]> {
 }
 
 /// Ticks at round values; `place` says where in the view a value lies.
-pub(super) fn ticks_at(values: &[f64], place: impl Fn(f64) -> f64) -> Vec<Tick> {
+pub(super) fn ticks_at(values: &[f64], place: impl Fn(f64) -> f64) -> Vec<AxisTick> {
     values
         .iter()
         .map(|&value| (place(value), plain(value)))

@@ -11,7 +11,7 @@ use rerun::components::ImageFormat;
 use rerun::{ChannelDatatype, DepthImage};
 
 use super::legend::Legend;
-use super::picture::{Beyond, Field, Pixels, log_styled, range, store, stored, styled, top};
+use super::picture::{Beyond, Field, PixelField, log_styled, range, store, stored, styled, top};
 use super::plot::PlotBox;
 use super::stream::Stream;
 use super::waiting::LevelImage;
@@ -29,7 +29,7 @@ pub(super) enum Height {
 
 /// An image of a field that changes.
 #[derive(Debug, Clone)]
-pub(super) struct Raster {
+pub(super) struct RasterEntity {
     entity: String,
     image: LevelImage,
     look: Look,
@@ -40,14 +40,14 @@ pub(super) struct Raster {
     all: Cell<Beyond>,
 }
 
-impl Raster {
+impl RasterEntity {
     /// Logs all that stays: format, colours and place, and of a picture with a fixed height its axes; then the range and the
     /// legend, from now on.
     pub(super) fn new(
         stream: &Stream,
         entity: &str,
         look: Look,
-        pixels: Pixels,
+        pixels: PixelField,
         plot: &PlotBox,
         height: Height,
     ) -> Result<Self, ObserveError> {

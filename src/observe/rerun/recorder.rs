@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use rerun::TextLogLevel;
 
-use self::views::Views;
+use self::views::ViewState;
 use super::file::RecordingFile;
 use super::live::Live;
 use super::moment::Moment;
@@ -27,7 +27,7 @@ pub struct Recorder {
     stream: Stream,
     record: Record,
     scene: Option<Arc<Scene>>,
-    views: Option<Views>,
+    views: Option<ViewState>,
     caption: String,
     /// What happened before the first frame: it is logged with it, so that the recording begins with a picture.
     early: Vec<RunEvent>,
@@ -103,7 +103,8 @@ impl Recorder {
         let views = match &mut self.views {
             Some(views) => views,
             empty => {
-                let views = Views::new(&self.stream, &self.record, self.scene.as_deref(), frame)?;
+                let views =
+                    ViewState::new(&self.stream, &self.record, self.scene.as_deref(), frame)?;
                 empty.insert(views)
             }
         };
@@ -177,7 +178,7 @@ impl Recorder {
 impl Recorder {
     /// Whether enough was sent to a viewer that has not answered.
     fn is_unheard(&self) -> bool {
-        let frame = |views: &Views| views::frame_bytes(views.geometry);
+        let frame = |views: &ViewState| views::frame_bytes(views.geometry);
         let sent = self
             .frames
             .saturating_mul(self.views.as_ref().map_or(0, frame));
@@ -216,7 +217,7 @@ impl Observer for Recorder {
         self.passages = frame.passages;
         self.log_frame(frame)?;
         self.last = Some(properties::Last::of(frame));
-        let full = |views: &Views| views.series.is_full();
+        let full = |views: &ViewState| views.series.is_full();
         if self.stream.is_due() || self.views.as_ref().is_some_and(full) {
             self.send_on()?;
         }
@@ -258,7 +259,11 @@ impl Observer for Recorder {
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        let (clipped, clipped_words) = self.views.as_ref().map(Views::clipped).unwrap_or_default();
+        let (clipped, clipped_words) = self
+            .views
+            .as_ref()
+            .map(ViewState::clipped)
+            .unwrap_or_default();
         if self.views.is_none() && !self.stream.is_gone() {
             // A run without a frame still tells what happened.
             self.stream.set_time(Moment::new(0, 0.0, 0.0));

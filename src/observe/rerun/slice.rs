@@ -8,9 +8,9 @@ use rerun::{LineStrips2D, Points2D, Radius};
 use super::colour::{GREEN, WHITE, faded};
 use super::depths::Depths;
 use super::geometry::Geometry;
-use super::picture::{Field, Pixels};
-use super::plot::{Hertz, PlotBox, ticks_at};
-use super::raster::{Height, Raster};
+use super::picture::{Field, PixelField};
+use super::plot::{HertzCurve, PlotBox, ticks_at};
+use super::raster::{Height, RasterEntity};
 use super::stream::Stream;
 use super::text::Widened;
 use crate::math::number::{MM, ticks};
@@ -34,10 +34,10 @@ const HEIGHT: f64 = 0.72;
 pub(super) struct Slice {
     geometry: Geometry,
     depths: Depths,
-    effective: Raster,
-    tau_xz: Raster,
+    effective: RasterEntity,
+    tau_xz: RasterEntity,
     plot: PlotBox,
-    hertz: Hertz,
+    hertz: HertzCurve,
     /// Depth of the path that was logged last.
     path_m: Option<f64>,
 }
@@ -58,7 +58,7 @@ impl Slice {
         };
         let plot = plot_box(geometry, &depths);
         let row_height = plot.y[1] / depths.len() as f64;
-        let pixels = Pixels {
+        let pixels = PixelField {
             columns: geometry.nx,
             rows: depths.len(),
             first: [geometry.x_min, 0.5 * row_height],
@@ -67,7 +67,7 @@ impl Slice {
         log_dots(stream)?;
         let image = |entity, subject| {
             let look = Look::of(subject, ranges);
-            Raster::new(stream, entity, look, pixels, &plot, Height::Fixed)
+            RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed)
         };
         Ok(Some(Self {
             geometry,
@@ -75,7 +75,7 @@ impl Slice {
             tau_xz: image(TAU_XZ, Subject::ShearStress)?,
             depths,
             plot,
-            hertz: Hertz::default(),
+            hertz: HertzCurve::default(),
             path_m: None,
         }))
     }
@@ -103,7 +103,7 @@ impl Slice {
     }
 
     /// The images, for the notes in the recording and for what is told of them.
-    pub(super) fn rasters(&self) -> [(&'static str, &Raster); 2] {
+    pub(super) fn rasters(&self) -> [(&'static str, &RasterEntity); 2] {
         [(EFFECTIVE, &self.effective), (TAU_XZ, &self.tau_xz)]
     }
 

@@ -13,7 +13,7 @@ use rerun::{Arrows3D, Color, Points3D, Radius};
 use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, for_text, packed};
 use super::depths::Depths;
 use super::geometry::Geometry;
-use super::mesh::{COARSE, FINE, Window};
+use super::mesh::{COARSE, FINE, MeshWindow};
 use super::stream::Stream;
 use super::waiting::Sheet;
 use crate::math::number::{GPA, MM, plain, sig};
@@ -45,8 +45,8 @@ pub(super) struct Tops {
 /// The 3-D view.
 pub(super) struct Space {
     geometry: Geometry,
-    film: Window,
-    bodies: Window,
+    film: MeshWindow,
+    bodies: MeshWindow,
     slice: Option<SliceSheet>,
     tops: Tops,
     exaggeration: f64,
@@ -105,7 +105,7 @@ impl Space {
         tops: Tops,
     ) -> Result<Option<Self>, ObserveError> {
         let reach = [1.45 * geometry.a, 1.25 * geometry.b];
-        let window = |most| Window::new(geometry, reach, most);
+        let window = |most| MeshWindow::new(geometry, reach, most);
         let (Some(film), Some(bodies)) = (window(FINE), window(COARSE)) else {
             return Ok(None);
         };

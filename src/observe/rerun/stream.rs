@@ -16,7 +16,7 @@ use rerun::{
 
 use super::destination::Destination;
 use super::file::RecordingFile;
-use super::gathered::{Pen, chunk_of};
+use super::gathered::{LineStyle, chunk_of};
 use super::live::{self, Live};
 use super::moment::{Moment, check_clock};
 use super::waiting::{ClassImage, Curves, LevelImage, Sheet, Waiting};
@@ -186,7 +186,7 @@ impl Stream {
     pub(super) fn log_curves(
         &self,
         curves: Curves,
-        fill: impl FnOnce(&mut Pen),
+        fill: impl FnOnce(&mut LineStyle),
     ) -> Result<(), ObserveError> {
         let now = self.now.get();
         self.waiting.borrow_mut().push_curves(curves, now, fill);

@@ -22,7 +22,7 @@ const PEAKS: &str = "material_point/trace/peaks";
 const MOST_POINTS: usize = 1024;
 
 /// The trace of the crossing that goes on, and the one before it.
-pub(super) struct Trace {
+pub(super) struct TraceEntity {
     plot: PlotBox,
     pressure_top_pa: f64,
     body: u8,
@@ -94,7 +94,7 @@ enum ShownCurve {
     AsItIs,
 }
 
-impl Trace {
+impl TraceEntity {
     /// Sets up the axes.
     pub(super) fn new(
         stream: &Stream,

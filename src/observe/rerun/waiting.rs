@@ -10,7 +10,7 @@ use rerun::log::{Chunk, ChunkError, PendingRow};
 use rerun::time::TimePoint;
 use rerun::{AsComponents, DepthImage, EntityPath, SegmentationImage};
 
-use super::gathered::{Added, Images, Pen, Sheets, Strips};
+use super::gathered::{Added, Images, LineStyle, Sheets, Strips};
 use super::moment::Moment;
 use super::weight::{ROW, TEXT};
 
@@ -110,7 +110,12 @@ impl Waiting {
         Curves(self.curves.len() - 1)
     }
 
-    pub(super) fn push_curves(&mut self, curves: Curves, at: Moment, fill: impl FnOnce(&mut Pen)) {
+    pub(super) fn push_curves(
+        &mut self,
+        curves: Curves,
+        at: Moment,
+        fill: impl FnOnce(&mut LineStyle),
+    ) {
         let added = self.curves[curves.0].push(at, fill);
         self.add(added);
     }

@@ -19,12 +19,12 @@ const SELDOM: u64 = 16;
 
 /// How well rows of one kind are compressed.
 #[derive(Debug, Default)]
-pub(super) struct Density {
+pub(super) struct Compression {
     rows: u64,
     share: f64,
 }
 
-impl Density {
+impl Compression {
     /// The weight of a row with these values, bytes.
     pub(super) fn weigh<T: ArrowNativeType>(&mut self, values: &[T]) -> f64 {
         let bytes = size_of_val(values) as f64;

@@ -11,14 +11,14 @@ use super::LifeStage;
 use crate::physics::cycles::BodyId;
 use crate::physics::life_models::calibrated_reference;
 use crate::scene::VolumeIntegral;
-use crate::sim::smooth::Conditions;
+use crate::sim::smooth::LoadAndSpeed;
 use crate::sim::stress_stage::StressStage;
 use crate::sim::variant::Variant;
 use crate::solve::stress::Loading;
 
 impl LifeStage {
     /// Takes the smooth contact as the reference, and as the base.
-    pub(in crate::sim) fn set_reference(&mut self, stress: &mut StressStage, at: Conditions) {
+    pub(in crate::sim) fn set_reference(&mut self, stress: &mut StressStage, at: LoadAndSpeed) {
         (self.reference_size, self.reference_at) = (1.0, at);
         self.measure_reference(stress);
     }
@@ -29,7 +29,7 @@ impl LifeStage {
         &mut self,
         stress: &mut StressStage,
         size: f64,
-        at: Conditions,
+        at: LoadAndSpeed,
     ) {
         let mut blank = self.clone();
         blank.reference_size = size;
@@ -51,7 +51,7 @@ impl LifeStage {
     }
 
     /// Begins with the base of a stage that [`Self::fits`], which is that of the conditions `at`.
-    pub(in crate::sim) fn take_base(&mut self, other: &Self, at: Conditions) {
+    pub(in crate::sim) fn take_base(&mut self, other: &Self, at: LoadAndSpeed) {
         for (own, other) in self.variants.iter_mut().zip(&other.variants) {
             own.take_base(other);
         }

@@ -5,7 +5,7 @@
 //! are finite already: the file's format has no others.
 
 use super::Simulation;
-use crate::sim::smooth::Conditions;
+use crate::sim::smooth::LoadAndSpeed;
 use crate::sim::state::Phase;
 use crate::sim::stress_stage::StressStage;
 use crate::sim::{Knob, SimError, State, Stats};
@@ -131,7 +131,7 @@ impl Simulation {
         Ok(())
     }
 
-    fn can_be(&self, at: Conditions) -> bool {
+    fn can_be(&self, at: LoadAndSpeed) -> bool {
         self.can_stand_at(self.plan.door.load_knob(), at.load)
             && self.can_stand_at(Knob::EntrainmentMS, at.speed_m_s)
     }

@@ -1,17 +1,17 @@
 //! Steps of the smooth contact beside the run ([`Smooth`]), and what becomes of it.
 
 use super::Simulation;
-use crate::sim::motion::Motion;
+use crate::sim::motion::Travel;
 use crate::sim::pace::Stepping;
-use crate::sim::smooth::{Conditions, Smooth};
+use crate::sim::smooth::{LoadAndSpeed, Smooth};
 use crate::sim::stepping::Mover;
 use crate::sim::{Knob, StepError};
 
 impl Simulation {
     /// Load and speed that the knobs go to.
-    fn conditions(&self) -> Conditions {
+    fn conditions(&self) -> LoadAndSpeed {
         let target = |knob| self.state.drive.get(knob).target;
-        Conditions {
+        LoadAndSpeed {
             load: target(self.plan.door.load_knob()),
             speed_m_s: target(Knob::EntrainmentMS),
         }
@@ -48,7 +48,7 @@ impl Simulation {
     }
 
     /// A Hertz contact of that load on the coarsest grid.
-    fn begin_smooth(&mut self, at: Conditions) -> Smooth {
+    fn begin_smooth(&mut self, at: LoadAndSpeed) -> Smooth {
         let nodes = self.plan.first_nodes();
         let size = self
             .plan
@@ -67,13 +67,13 @@ impl Simulation {
             nodes,
             contact,
             drive,
-            motion: Motion::new(),
+            motion: Travel::new(),
             at,
             left: self.plan.smooth_steps(nodes, self.flows_at(at)),
         }
     }
 
-    fn flows_at(&self, at: Conditions) -> bool {
+    fn flows_at(&self, at: LoadAndSpeed) -> bool {
         self.plan.film_at(at).is_some_and(|film| film.flows())
     }
 

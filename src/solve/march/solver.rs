@@ -8,7 +8,7 @@ use super::super::history::{History, Past};
 use super::super::newton::{CARRIED, Iterate, Newton, NewtonReport, OVERLAP, Problem, Sheared};
 use super::super::tangential::{Shear, Tangential};
 use super::super::yielding::Yielding;
-use super::{Conditions, Flow, Guess, Shape, State};
+use super::{Conditions, ContactState, Flow, Guess, Shape};
 use crate::math::grid::Grid;
 use crate::scene::Order;
 
@@ -80,12 +80,12 @@ impl Solver {
     }
 
     /// A Hertz contact with film `h_central`.
-    pub fn hertz(&mut self, shape: &Shape, h_central: f64) -> State {
+    pub fn hertz(&mut self, shape: &Shape, h_central: f64) -> ContactState {
         self.hertz_of_size(shape, (1.0, h_central))
     }
 
     /// The same where half-widths and pressure are `size` times the units.
-    pub fn hertz_of_size(&mut self, shape: &Shape, (size, h_central): (f64, f64)) -> State {
+    pub fn hertz_of_size(&mut self, shape: &Shape, (size, h_central): (f64, f64)) -> ContactState {
         let grid = &self.grid;
         let mut pressure = vec![0.0; grid.len()];
         for j in grid.interior_rows() {
@@ -106,7 +106,7 @@ impl Solver {
             *h = (*h + h0).max(0.5 * h_central);
         }
         let unlike = self.newton.shear.is_some();
-        State {
+        ContactState {
             history: History::steady(&film, &pressure, h0),
             sheared: vec![0.0; if unlike { grid.len() } else { 0 }],
             pressure,
@@ -139,7 +139,7 @@ impl Solver {
     /// Tries a step of `nodes` nodes from `state` against `gap`; nothing is committed.
     pub fn attempt(
         &mut self,
-        state: &State,
+        state: &ContactState,
         conditions: &Conditions,
         nodes: f64,
         guess: Guess,
@@ -153,7 +153,7 @@ impl Solver {
     /// step, not for the usual one; three times the iterations.
     pub fn attempt_safely(
         &mut self,
-        state: &State,
+        state: &ContactState,
         conditions: &Conditions,
         nodes: f64,
     ) -> NewtonReport {
@@ -171,7 +171,7 @@ impl Solver {
     /// Tries a step of so many nodes after such a past.
     fn attempt_after(
         &mut self,
-        state: &State,
+        state: &ContactState,
         conditions: &Conditions,
         (nodes, past): (f64, Past),
         guess: Guess,
@@ -224,7 +224,7 @@ impl Solver {
 
     /// Error that steps like the one attempted last add to the film over a crossing ([`History::path_error`]);
     /// `None`: not known yet, or there is no film.
-    pub fn path_error(&mut self, state: &State, nodes: f64) -> Option<f64> {
+    pub fn path_error(&mut self, state: &ContactState, nodes: f64) -> Option<f64> {
         if self.flow == Flow::Dry {
             return None;
         }
@@ -250,7 +250,7 @@ impl Solver {
     }
 
     /// Commits the step that was attempted last to `state`.
-    pub fn commit(&mut self, state: &mut State, nodes: f64) {
+    pub fn commit(&mut self, state: &mut ContactState, nodes: f64) {
         if self.flow != Flow::Dry {
             self.gather_mass();
         }

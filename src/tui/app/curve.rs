@@ -7,7 +7,7 @@
 
 use crate::sim::{Knob, Metrics};
 use crate::sweep::{Along, CurveOrder, CurvePoint, Found};
-use crate::tui::app::{App, Curve, Effect};
+use crate::tui::app::{App, CurveKind, Effect};
 
 /// Values of S that a sweep visits, of either sign: close where life falls fastest.
 const SWEPT: [f64; 10] = [0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
@@ -165,7 +165,7 @@ impl App {
     }
 }
 
-impl Curve {
+impl CurveKind {
     /// What it goes along.
     pub fn along(self) -> Along {
         match self {

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use crate::run::{Command, Settled};
 use crate::sim::{Follow, Rhythm};
-use crate::tui::app::{App, AutoReplay, Effect, Pace};
-use crate::tui::replay::{Motion, Replay};
+use crate::tui::app::{App, AutoReplay, Effect, RunPace};
+use crate::tui::replay::{Replay, ReplayMotion};
 use crate::tui::trace::{Chosen, Trace, TraceSample};
 
 impl App {
@@ -25,7 +25,7 @@ impl App {
             (_, Some(new)) => {
                 self.held = Some(new);
                 let mut effects = self.begin_sweep();
-                if self.auto_replay == AutoReplay::On && self.pace == Pace::Running {
+                if self.auto_replay == AutoReplay::On && self.pace == RunPace::Running {
                     effects.extend(self.begin_replay());
                 }
                 effects
@@ -73,9 +73,9 @@ impl App {
         }
         self.trace = Trace::default();
         match self.pace {
-            Pace::Running => Vec::new(),
-            Pace::Paused => {
-                self.pace = Pace::Running;
+            RunPace::Running => Vec::new(),
+            RunPace::Paused => {
+                self.pace = RunPace::Running;
                 vec![Effect::Send(Command::Pause)]
             }
         }
@@ -141,7 +141,7 @@ impl App {
     pub fn replay_stands(&self) -> bool {
         self.replay
             .as_ref()
-            .is_some_and(|replay| replay.motion() == Motion::Frozen)
+            .is_some_and(|replay| replay.motion() == ReplayMotion::Frozen)
     }
 
     /// The point that was chosen; before that the one that the run shows.

@@ -8,7 +8,7 @@ use crate::picture::Scope;
 use crate::sim::{Frame, MaterialPoint, Stage};
 use crate::sweep::{CaseStart, Found};
 use crate::tui::app::curve::{MeanFriction, conditions};
-use crate::tui::app::{App, Effect, LifeSample, Pace, Reached, Trouble};
+use crate::tui::app::{App, Effect, LifeSample, Reached, RunPace, Trouble};
 use crate::tui::dial::Dial;
 use crate::tui::units::nice_ceiling;
 
@@ -104,7 +104,7 @@ impl App {
     }
 
     fn take_rate(&mut self, frame: &Frame) {
-        if self.pace == Pace::Paused {
+        if self.pace == RunPace::Paused {
             // A pause is no part of the run's pace.
             self.rate.clear();
             return;

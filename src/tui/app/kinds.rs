@@ -113,7 +113,7 @@ impl PointQuantity {
 
 /// What is drawn against S, or against the speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Curve {
+pub enum CurveKind {
     /// Relative life, logarithmic.
     #[default]
     Life,
@@ -123,7 +123,7 @@ pub enum Curve {
     Stribeck,
 }
 
-impl Curve {
+impl CurveKind {
     pub(super) fn next(self) -> Self {
         match self {
             Self::Life => Self::Friction,
@@ -159,7 +159,7 @@ pub enum Overlay {
 
 /// Whether the run steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Pace {
+pub enum RunPace {
     /// It does.
     #[default]
     Running,

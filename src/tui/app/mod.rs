@@ -34,7 +34,7 @@ use crate::tui::wiring::{Health, RunStatus, Setup};
 use curve::MeanFriction;
 pub use data::{Effect, ErrandKind, LifeSample, Pinned, Reached, Trouble, WhyUnconverged};
 pub use held::PointNow;
-pub use kinds::{AutoReplay, Curve, Leading, MapKind, Overlay, Pace, PointQuantity, Zoom};
+pub use kinds::{AutoReplay, CurveKind, Leading, MapKind, Overlay, PointQuantity, RunPace, Zoom};
 
 /// The screen's state.
 #[derive(Debug, Clone)]
@@ -50,11 +50,11 @@ pub struct App {
     pub(crate) map: MapKind,
     pub(crate) zoom: Zoom,
     pub(crate) quantity: PointQuantity,
-    pub(crate) curve: Curve,
+    pub(crate) curve: CurveKind,
     pub(crate) overlay: Overlay,
     /// Rows that the plan has been moved up.
     pub(crate) scroll: u16,
-    pub(crate) pace: Pace,
+    pub(crate) pace: RunPace,
     pub(crate) probe: Option<(f64, f64)>,
     pub(crate) pinned: Option<Pinned>,
     pub(crate) status: RunStatus,
@@ -126,12 +126,12 @@ impl App {
             zoom: Zoom::default(),
             quantity: PointQuantity::default(),
             curve: match setup.scene.life {
-                Some(_) => Curve::Life,
-                None => Curve::Friction,
+                Some(_) => CurveKind::Life,
+                None => CurveKind::Friction,
             },
             overlay: Overlay::default(),
             scroll: 0,
-            pace: Pace::default(),
+            pace: RunPace::default(),
             probe: None,
             pinned: None,
             status: RunStatus::default(),
@@ -218,7 +218,7 @@ impl App {
 
     /// Time steps per second of wall time, over the last two seconds; `None` while the run waits.
     pub fn steps_per_s(&self) -> Option<f64> {
-        if self.pace == Pace::Paused {
+        if self.pace == RunPace::Paused {
             return None;
         }
         let (first, last) = (self.rate.front()?, self.rate.back()?);

@@ -3,7 +3,7 @@
 use crate::run::Command;
 use crate::sim::Knob;
 use crate::tui::action::{Action, KEYS};
-use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pace, Pinned, Zoom};
+use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pinned, RunPace, Zoom};
 use crate::tui::dial::DialState;
 
 impl App {
@@ -179,8 +179,8 @@ impl App {
             return Vec::new();
         }
         self.pace = match self.pace {
-            Pace::Running => Pace::Paused,
-            Pace::Paused => Pace::Running,
+            RunPace::Running => RunPace::Paused,
+            RunPace::Paused => RunPace::Running,
         };
         self.rate.clear();
         self.back = 0;
@@ -211,9 +211,9 @@ impl App {
 
     pub(super) fn paused_first(&mut self) -> Vec<Effect> {
         match self.pace {
-            Pace::Paused => Vec::new(),
-            Pace::Running => {
-                self.pace = Pace::Paused;
+            RunPace::Paused => Vec::new(),
+            RunPace::Running => {
+                self.pace = RunPace::Paused;
                 self.rate.clear();
                 vec![Effect::Send(Command::Pause)]
             }

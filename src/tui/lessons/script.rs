@@ -1,20 +1,20 @@
 //! The words of the tour, with the scenes and the numbers that they speak of.
 
-use super::{Beat, Claim, Figure, KnobSetting, Lesson, Staging};
+use super::{Beat, Claim, KnobSetting, Lesson, LessonFigure, Staging};
 use crate::sim::Knob;
 use crate::tui::app::MapKind::{Contact, Film, Pressure, Roughness, Stress};
-use Figure::{
+use KnobSetting::{TimesHome, To};
+use LessonFigure::{
     ContactPercent, Counted1, Counted2, Lambda, LeftPercent, Life, N1, N2, PaperLife, PeakDepth,
     PeakPressure,
 };
-use KnobSetting::{TimesHome, To};
 
 const S: Knob = Knob::SlideRoll;
 const SPEED: Knob = Knob::EntrainmentMS;
 const A1: Knob = Knob::Amplitude1M;
 const A2: Knob = Knob::Amplitude2M;
 
-const fn claim(figure: Figure, least: f64, most: f64) -> Claim {
+const fn claim(figure: LessonFigure, least: f64, most: f64) -> Claim {
     Claim {
         figure,
         least,

@@ -9,7 +9,7 @@ use crate::sim::Frame;
 use crate::tui::app::{App, Zoom};
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
-use crate::tui::view::chart::{Chart, Pen};
+use crate::tui::view::chart::{CurvePanel, Pen};
 use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
 
 /// Columns of the numbers on either side.
@@ -59,7 +59,7 @@ fn curves(app: &App, frame: &Frame, plot: Rect, x: [f64; 2], buffer: &mut Buffer
     let theme = app.theme;
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let hertz = frame.p_hertz_pa / app.reached.pressure_pa.max(1.0);
-    let mut chart = Chart::new(plot, x, [0.0, 1.0]);
+    let mut chart = CurvePanel::new(plot, x, [0.0, 1.0]);
     let fine = usize::from(plot.width) * 2;
     chart.scatter(
         (0..=fine).filter_map(|i| {

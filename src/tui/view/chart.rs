@@ -22,7 +22,7 @@ struct Cell {
 
 /// Curves drawn over each other: a cell takes the colour of the last one that touched it.
 #[derive(Debug)]
-pub(super) struct Chart {
+pub(super) struct CurvePanel {
     area: Rect,
     x: [f64; 2],
     y: [f64; 2],
@@ -73,7 +73,7 @@ impl Pen {
     }
 }
 
-impl Chart {
+impl CurvePanel {
     /// An empty chart with its ranges.
     pub(super) fn new(area: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
         let cells = vec![Cell::default(); usize::from(area.width) * usize::from(area.height)];
@@ -192,7 +192,7 @@ impl Chart {
 mod tests {
     use super::*;
 
-    fn drawn(chart: &Chart, ascii: bool) -> Vec<String> {
+    fn drawn(chart: &CurvePanel, ascii: bool) -> Vec<String> {
         let mut buffer = Buffer::empty(chart.area);
         chart.render(ascii, &mut buffer);
         (0..chart.area.height)
@@ -215,7 +215,7 @@ mod tests {
     #[test]
     fn without_colours_curves_differ_by_their_dashes() {
         let dots = |dash: Dash| {
-            let mut chart = Chart::new(Rect::new(0, 0, 40, 1), [0.0, 1.0], [0.0, 1.0]);
+            let mut chart = CurvePanel::new(Rect::new(0, 0, 40, 1), [0.0, 1.0], [0.0, 1.0]);
             chart.line([(0.0, 0.5), (1.0, 0.5)], Pen { dash, ..pen() });
             let dots = chart.cells.iter().map(|cell| cell.dots.count_ones());
             dots.sum::<u32>()
@@ -228,7 +228,7 @@ mod tests {
 
     #[test]
     fn corners_are_the_outermost_dots() {
-        let mut chart = Chart::new(Rect::new(0, 0, 2, 2), [0.0, 1.0], [0.0, 1.0]);
+        let mut chart = CurvePanel::new(Rect::new(0, 0, 2, 2), [0.0, 1.0], [0.0, 1.0]);
         chart.scatter([(0.0, 0.0), (1.0, 1.0)], pen());
         assert_eq!(drawn(&chart, false), [" ⠈", "⡀ "]);
         assert_eq!(drawn(&chart, true), [" *", "* "]);
@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn what_is_outside_or_no_number_draws_nothing() {
-        let mut chart = Chart::new(Rect::new(0, 0, 3, 1), [0.0, 1.0], [0.0, 1.0]);
+        let mut chart = CurvePanel::new(Rect::new(0, 0, 3, 1), [0.0, 1.0], [0.0, 1.0]);
         chart.line([(f64::NAN, 0.0), (0.5, f64::INFINITY), (5.0, 7.0)], pen());
         assert_eq!(drawn(&chart, true), ["   "]);
         // A curve that leaves is drawn up to the edge.
@@ -246,7 +246,7 @@ mod tests {
 
     #[test]
     fn an_empty_area_or_range_is_no_fault() {
-        let mut chart = Chart::new(Rect::new(0, 0, 0, 0), [0.0, 0.0], [1.0, 1.0]);
+        let mut chart = CurvePanel::new(Rect::new(0, 0, 0, 0), [0.0, 0.0], [1.0, 1.0]);
         chart.line([(0.0, 1.0), (2.0, 3.0)], pen());
         chart.upright(0.0, pen());
         assert!(drawn(&chart, false).is_empty());

@@ -9,7 +9,7 @@ use ratatui::text::{Line, Span};
 
 use crate::tui::app::App;
 use crate::tui::theme::Role;
-use crate::tui::view::chart::{Chart, Pen};
+use crate::tui::view::chart::{CurvePanel, Pen};
 use crate::tui::view::{ascii_text, put, put_right};
 
 /// Rows from which a curve can be read, with its heading and its axis.
@@ -70,7 +70,7 @@ fn draw(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
         width: area.width.saturating_sub(AXIS),
         height: area.height.saturating_sub(2),
     };
-    let mut chart = Chart::new(plot, figure.x, figure.y);
+    let mut chart = CurvePanel::new(plot, figure.x, figure.y);
     chart.upright(figure.knob, pen(app, Role::Dim, ':'));
     chart.line(figure.formula.iter().copied(), pen(app, Role::Formula, '.'));
     for &(x, _, band) in &figure.points {

@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 
 use crate::physics::estimate::speed_ratios;
 use crate::sim::{LubricationRegime, Stage, named};
-use crate::tui::app::{App, Pace};
+use crate::tui::app::{App, RunPace};
 use crate::tui::dial::Dial;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
@@ -93,8 +93,8 @@ fn state(app: &App) -> (&'static str, String, Role) {
     match (&app.status.health, app.pace) {
         (Health::Failed(_), _) => (theme.pick("✖ ", "! "), "failed".into(), Role::Bad),
         (Health::Finished, _) => (theme.pick("■ ", "# "), "done".into(), Role::Good),
-        (Health::Running, Pace::Paused) => (theme.pick("‖ ", "= "), "paused".into(), Role::Warn),
-        (Health::Running, Pace::Running) => match app.frame().map(|frame| frame.stage) {
+        (Health::Running, RunPace::Paused) => (theme.pick("‖ ", "= "), "paused".into(), Role::Warn),
+        (Health::Running, RunPace::Running) => match app.frame().map(|frame| frame.stage) {
             Some(Stage::Passage) => (theme.pick("● ", "* "), "live".into(), Role::Good),
             _ => (theme.pick("○ ", "o "), "starting".into(), Role::Warn),
         },

@@ -13,7 +13,7 @@ use crate::tui::app::App;
 use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
-use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
 pub(super) use speeds::{SPECIFIC, SYMBOLS};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
@@ -80,8 +80,8 @@ fn rows_each(areas: &Areas) -> u16 {
 /// The rows of a knob, inside the panel's frame.
 fn slot(areas: &Areas, place: usize) -> Rect {
     let margin = match areas.density {
-        Density::Compact => 0,
-        Density::Full => 1,
+        PanelSpacing::Compact => 0,
+        PanelSpacing::Full => 1,
     };
     let frame = inside(areas, areas.knobs);
     let inner = Rect {

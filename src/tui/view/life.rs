@@ -13,7 +13,7 @@ use ratatui::text::Line;
 
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
-use crate::tui::view::{Areas, Density, curve, panel, put, title};
+use crate::tui::view::{Areas, PanelSpacing, curve, panel, put, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
@@ -24,7 +24,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         title(theme, "", number::name(app, areas)),
         buffer,
     );
-    let inner = if areas.density == Density::Full {
+    let inner = if areas.density == PanelSpacing::Full {
         Rect {
             x: inner.x + 1,
             width: inner.width.saturating_sub(2),

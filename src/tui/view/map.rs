@@ -19,10 +19,10 @@ use crate::tui::app::{App, MapKind, Zoom};
 use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
-use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, title};
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, title};
 use motion::motion;
-use paint::{Mark, Pixel, color_bar, look, paint};
-use raster::{Raster, Window, rasterize, rasterize_lines};
+use paint::{MapMark, Pixel, color_bar, look, paint};
+use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
 const BAR: u16 = 8;
@@ -99,8 +99,8 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitma
         rgba,
     };
     let marks = [
-        (point_at(app, frame), Mark::Diamond),
-        (app.probe, Mark::Cross),
+        (point_at(app, frame), MapMark::Diamond),
+        (app.probe, MapMark::Cross),
     ];
     for (at, mark) in marks {
         if let Some(at) = at {
@@ -111,7 +111,12 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitma
 }
 
 /// The pixels of the map; `None` where the frame does not hold it.
-fn picture_of(app: &App, frame: &Frame, window: &Window, pixels: (usize, usize)) -> Option<Raster> {
+fn picture_of(
+    app: &App,
+    frame: &Frame,
+    window: &MapWindow,
+    pixels: (usize, usize),
+) -> Option<Raster> {
     let subject = app.map.subject();
     let picture = Picture::of(frame, subject, &app.ranges())?;
     if !app.map.is_over_time() {
@@ -173,7 +178,7 @@ fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
 /// Room for the picture and for the colour bar; the motion takes the last row (full: and the first), the axes the
 /// row above it and the columns at the left.
 fn split(areas: &Areas, inner: Rect) -> (Rect, Rect) {
-    let above = u16::from(areas.density == Density::Full);
+    let above = u16::from(areas.density == PanelSpacing::Full);
     let [left, below] = axes::room(inner);
     let picture = Rect {
         x: inner.x + left,
@@ -194,7 +199,7 @@ fn rows(theme: Theme, image: Rect) -> usize {
 }
 
 /// The part of the plane that is drawn, in half-widths.
-fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
+fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
     let (columns, pixels) = (f64::from(picture.width), 2.0 * f64::from(picture.height));
     let x_end = frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m;
     let domain = [frame.x_min_m / frame.a_m, x_end / frame.a_m];
@@ -203,7 +208,7 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
             Zoom::Contact => [domain[0].max(-1.6), domain[1].min(1.4)],
             Zoom::Domain => domain,
         };
-        return Window {
+        return MapWindow {
             x,
             y: [-SHOWN, 0.0],
         };
@@ -222,7 +227,7 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
             Zoom::Contact => deepest.min(1.2),
             Zoom::Domain => deepest,
         };
-        return Window { x, y: [0.0, depth] };
+        return MapWindow { x, y: [0.0, depth] };
     }
     let half = (-frame.y_min_m / frame.b_m).abs().max(0.1);
     let least = match app.zoom {
@@ -242,7 +247,7 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
         Zoom::Contact => [domain[0].max(-0.5 * along), domain[1].min(0.5 * along)],
         Zoom::Domain => domain,
     };
-    Window {
+    MapWindow {
         x,
         // y points up, as in all pictures.
         y: [across, -across],
@@ -250,7 +255,7 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> Window {
 }
 
 /// The picture keeps its shape: x = 0 in the middle of the room there is, as far as that goes.
-fn image_area(map: MapKind, window: &Window, picture: Rect) -> Rect {
+fn image_area(map: MapKind, window: &MapWindow, picture: Rect) -> Rect {
     if !map.is_plane() || picture.is_empty() {
         return picture;
     }
@@ -282,7 +287,7 @@ fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
 
 fn place(
     app: &App,
-    window: &Window,
+    window: &MapWindow,
     image: Rect,
     (x, y): (f64, f64),
     symbol: &'static str,

@@ -32,7 +32,7 @@ pub const LEAST: (u16, u16) = (60, 20);
 
 /// How much room there is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Density {
+pub enum PanelSpacing {
     /// Panels have a rule above them.
     Compact,
     /// Panels have a frame.
@@ -52,7 +52,7 @@ pub enum Banner {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Areas {
     /// How much room.
-    pub density: Density,
+    pub density: PanelSpacing,
     /// Top line.
     pub header: Rect,
     /// Below it a caption, where one is shown (else no rows).
@@ -78,21 +78,21 @@ impl Areas {
             return None;
         }
         let density = if screen.width >= 110 && screen.height >= 32 {
-            Density::Full
+            PanelSpacing::Full
         } else {
-            Density::Compact
+            PanelSpacing::Compact
         };
         let (left, right) = side_widths(screen.width, density);
         let (point_rows, status_rows) = match density {
-            Density::Compact => (if screen.height >= 26 { 6 } else { 5 }, 2),
-            Density::Full => ((screen.height / 5 + 1).clamp(9, 12), 3),
+            PanelSpacing::Compact => (if screen.height >= 26 { 6 } else { 5 }, 2),
+            PanelSpacing::Full => ((screen.height / 5 + 1).clamp(9, 12), 3),
         };
         let caption_rows = match banner {
             Banner::None => 0,
             Banner::Caption(rows) => rows.min(5),
         };
         let body_rows = screen.height - 1 - caption_rows - point_rows - status_rows;
-        let gap = u16::from(density == Density::Compact);
+        let gap = u16::from(density == PanelSpacing::Compact);
         let middle = screen.width - left - right - 2 * gap;
         let map_rows = (body_rows * 57).div_ceil(100);
         let top = screen.y + 1 + caption_rows;
@@ -112,10 +112,10 @@ impl Areas {
     }
 }
 
-fn side_widths(width: u16, density: Density) -> (u16, u16) {
+fn side_widths(width: u16, density: PanelSpacing) -> (u16, u16) {
     match density {
-        Density::Compact => ((width / 4).clamp(17, 26), (width * 27 / 100).clamp(19, 28)),
-        Density::Full => ((width / 5).clamp(28, 38), (width / 4).clamp(32, 46)),
+        PanelSpacing::Compact => ((width / 4).clamp(17, 26), (width * 27 / 100).clamp(19, 28)),
+        PanelSpacing::Full => ((width / 5).clamp(28, 38), (width / 4).clamp(32, 46)),
     }
 }
 
@@ -251,8 +251,8 @@ fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
 /// Draws a panel's frame and gives the room inside.
 fn panel(theme: Theme, areas: &Areas, area: Rect, title: Line<'_>, buffer: &mut Buffer) -> Rect {
     let borders = match areas.density {
-        Density::Compact => Borders::TOP,
-        Density::Full => Borders::ALL,
+        PanelSpacing::Compact => Borders::TOP,
+        PanelSpacing::Full => Borders::ALL,
     };
     let mut block = Block::new()
         .borders(borders)
@@ -270,12 +270,12 @@ fn panel(theme: Theme, areas: &Areas, area: Rect, title: Line<'_>, buffer: &mut 
 /// The room inside a panel's frame.
 fn inside(areas: &Areas, area: Rect) -> Rect {
     match areas.density {
-        Density::Compact => Rect {
+        PanelSpacing::Compact => Rect {
             y: area.y + 1,
             height: area.height.saturating_sub(1),
             ..area
         },
-        Density::Full => area.inner(Margin::new(1, 1)),
+        PanelSpacing::Full => area.inner(Margin::new(1, 1)),
     }
 }
 

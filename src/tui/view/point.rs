@@ -11,8 +11,8 @@ use crate::tui::app::{App, PointNow, PointQuantity};
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
 use crate::tui::units::{sig_or_dash, tick};
-use crate::tui::view::chart::{Chart, Pen};
-use crate::tui::view::{Areas, Density, ascii_text, inside, panel, put, put_right, title};
+use crate::tui::view::chart::{CurvePanel, Pen};
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
@@ -49,7 +49,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 
 /// Columns of the numbers.
 fn words(areas: &Areas) -> u16 {
-    if areas.density == Density::Full {
+    if areas.density == PanelSpacing::Full {
         27
     } else {
         24
@@ -171,7 +171,7 @@ fn value(quantity: PointQuantity, sample: &TraceSample) -> f64 {
 fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let range = range(app);
-    let mut chart = Chart::new(plot, X_RANGE, range);
+    let mut chart = CurvePanel::new(plot, X_RANGE, range);
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let quantity = app.quantity;
     let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {

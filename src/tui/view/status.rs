@@ -10,7 +10,7 @@ use crate::sweep::Along;
 use crate::tui::app::{App, ErrandKind, Trouble, WhyUnconverged};
 use crate::tui::theme::Role;
 use crate::tui::units::{bytes, seconds, sig};
-use crate::tui::view::{Areas, Density, ascii_text, knobs, overlay, put, put_right};
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, knobs, overlay, put, put_right};
 use crate::tui::wiring::RecorderActivity;
 
 /// Words and their roles, in the order in which they are dropped from the right.
@@ -21,7 +21,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let mut row = 0;
     if let Some(frame) = app.frame() {
         let mut words = progress(app, frame);
-        if areas.density == Density::Full {
+        if areas.density == PanelSpacing::Full {
             write(app, area, row, &words, buffer);
             row += 1;
             words = quality(app, frame);

@@ -4,17 +4,17 @@ use super::super::cadence::Cadence;
 use super::super::centre_line::CentreLine;
 use super::super::damage::Damage;
 use super::super::geometry::Geometry;
-use super::super::kymograph::{self, Kymograph};
-use super::super::layout::{self, Shown};
+use super::super::kymograph::{self, KymographEntity};
+use super::super::layout::{self, ShownViews};
 use super::super::maps::{self, Maps};
 use super::super::picture::Beyond;
-use super::super::raster::Raster;
+use super::super::raster::RasterEntity;
 use super::super::series::Series;
 use super::super::slice::Slice;
 use super::super::space::{Space, Tops};
 use super::super::stream::Stream;
 use super::super::text;
-use super::super::trace::Trace;
+use super::super::trace::TraceEntity;
 use super::super::weight::TEXT;
 use crate::math::number::sig;
 use crate::observe::ObserveError;
@@ -27,7 +27,7 @@ use crate::sim::Frame;
 const BESIDE_EVERY: u64 = 2;
 
 /// What is set up by the first frame.
-pub(super) struct Views {
+pub(super) struct ViewState {
     pub(super) geometry: Geometry,
     scope: Scope,
     pub(super) cadence: Cadence,
@@ -36,8 +36,8 @@ pub(super) struct Views {
     slice: Option<Slice>,
     space: Option<Space>,
     centre_line: CentreLine,
-    trace: Option<Trace>,
-    pub(super) kymographs: [Kymograph; 2],
+    trace: Option<TraceEntity>,
+    pub(super) kymographs: [KymographEntity; 2],
     damage: Damage,
     /// Bodies whose damage is mapped.
     damaged: [bool; 2],
@@ -45,7 +45,7 @@ pub(super) struct Views {
     pub(super) pictures: u64,
 }
 
-impl Views {
+impl ViewState {
     pub(super) fn new(
         stream: &Stream,
         record: &Record,
@@ -73,7 +73,7 @@ impl Views {
         let centre_line = CentreLine::new(stream, geometry, ranges.pressure_pa, ranges.film_m)?;
         let trace = first
             .material_point
-            .map(|_| Trace::new(stream, geometry, tops.pressure_pa))
+            .map(|_| TraceEntity::new(stream, geometry, tops.pressure_pa))
             .transpose()?;
         let steps = expected_steps(scene, first);
         let budget = record.budget_mb * 1e6;
@@ -81,13 +81,13 @@ impl Views {
             scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
         });
         let kymograph =
-            |shown| Kymograph::new(stream, geometry, shown, &ranges, steps, step_s, budget);
+            |shown| KymographEntity::new(stream, geometry, shown, &ranges, steps, step_s, budget);
         let kymographs = [
             kymograph((kymograph::PRESSURE, Subject::Pressure))?,
             kymograph((kymograph::FILM, Subject::Film))?,
         ];
         // Both are written once more at the end.
-        let last: usize = kymographs.iter().map(Kymograph::full_bytes).sum();
+        let last: usize = kymographs.iter().map(KymographEntity::full_bytes).sum();
         let spent = [stream.weight(), TEXT * last as f64];
         let cadence = Cadence::new(record, steps, frame_bytes(geometry), spent);
         let views = Self {
@@ -152,9 +152,9 @@ impl Views {
         self.log_notes(stream)
     }
 
-    fn shown(&self, first: &Frame, live: bool) -> Shown {
+    fn shown(&self, first: &Frame, live: bool) -> ShownViews {
         let speed = first.metrics.entrainment_m_s.abs();
-        Shown {
+        ShownViews {
             live,
             passage_s: (speed > 0.0).then(|| 4.0 * first.a_m / speed),
             kind: first.kind,
@@ -172,7 +172,7 @@ impl Views {
         }
     }
 
-    fn rasters(&self) -> impl Iterator<Item = (&'static str, &Raster)> {
+    fn rasters(&self) -> impl Iterator<Item = (&'static str, &RasterEntity)> {
         self.maps
             .rasters()
             .chain(self.slice.iter().flat_map(Slice::rasters))
@@ -188,7 +188,7 @@ impl Views {
 
     /// Samples that could not be stored as they are, and words about them.
     pub(super) fn clipped(&self) -> (u64, String) {
-        let clipped = |(entity, raster): (&'static str, &Raster)| {
+        let clipped = |(entity, raster): (&'static str, &RasterEntity)| {
             let Beyond {
                 clipped,
                 clipped_by,

@@ -3,7 +3,7 @@
 use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
 
 use super::super::colour::{GREY, Ramp, WHITE, faded};
-use super::super::mesh::{Window, triangles};
+use super::super::mesh::{MeshWindow, triangles};
 use super::super::stream::Stream;
 use super::{BODIES, FILM, POINT, SLICE, SPACE, SPOTS, Space, steel};
 use crate::math::number::{GPA, MM, plain, ticks};
@@ -12,7 +12,7 @@ use crate::picture::CONTACT;
 
 impl Space {
     pub(super) fn log_static(&mut self, stream: &Stream) -> Result<(), ObserveError> {
-        let sheet = |name: &str, window: &Window, colour: [u8; 4]| {
+        let sheet = |name: &str, window: &MeshWindow, colour: [u8; 4]| {
             let albedo = AlbedoFactor::from(Rgba32::from_unmultiplied_rgba(
                 colour[0], colour[1], colour[2], colour[3],
             ));

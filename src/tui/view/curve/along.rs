@@ -3,7 +3,7 @@
 use super::{CurveFigure, Place};
 use crate::sim::Knob;
 use crate::sweep::{Along, Found};
-use crate::tui::app::{App, Curve, Leading};
+use crate::tui::app::{App, CurveKind, Leading};
 use crate::tui::dial::Dial;
 use crate::tui::units::{nice_ceiling, sig};
 
@@ -14,9 +14,9 @@ const MOVES: f64 = 1.9;
 
 pub(super) fn figure(app: &App) -> CurveFigure {
     match app.curve {
-        Curve::Life => life(app),
-        Curve::Friction => friction(app),
-        Curve::Stribeck => stribeck(app),
+        CurveKind::Life => life(app),
+        CurveKind::Friction => friction(app),
+        CurveKind::Stribeck => stribeck(app),
     }
 }
 

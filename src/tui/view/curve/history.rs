@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 use super::pen;
 use crate::tui::app::App;
 use crate::tui::theme::Role;
-use crate::tui::view::chart::Chart;
+use crate::tui::view::chart::CurvePanel;
 use crate::tui::view::{ascii_text, put};
 
 /// Half of the least range, decades: noise stays small.
@@ -47,7 +47,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let middle = 0.5 * (low + high);
     let half = (0.55 * (high - low)).max(LEAST);
     let passages = [first.passages, last.passages];
-    let mut chart = Chart::new(plot, passages, [middle - half, middle + half]);
+    let mut chart = CurvePanel::new(plot, passages, [middle - half, middle + half]);
     chart.line(points, pen(app, Role::Good, '*'));
     chart.render(theme.is_ascii(), buffer);
 }

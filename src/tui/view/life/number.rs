@@ -8,13 +8,13 @@ use super::RowAllotment;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{Areas, Density, ascii_text, digits, put};
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, digits, put};
 
 /// What the number is, for the panel's title: where there is no room beside the figure, against what.
 pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
     let times = app.theme.pick("× smooth rolling", "x smooth rolling");
     match areas.life.width {
-        _ if areas.density == Density::Full => "relative life",
+        _ if areas.density == PanelSpacing::Full => "relative life",
         23.. => app
             .theme
             .pick("life × smooth rolling", "life x smooth rolling"),

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::raster::Window;
+use super::raster::MapWindow;
 use crate::math::number::ticks;
 use crate::sim::Frame;
 use crate::tui::app::{App, MapKind};
@@ -25,7 +25,7 @@ pub(super) fn room(inner: Rect) -> [u16; 2] {
 pub(super) fn draw(
     app: &App,
     frame: &Frame,
-    window: &Window,
+    window: &MapWindow,
     (image, inner): (Rect, Rect),
     buffer: &mut Buffer,
 ) {
@@ -54,7 +54,7 @@ fn number(app: &App, cells: Rect, row: u16, text: &str, buffer: &mut Buffer) {
 }
 
 /// x/a below the map.
-fn along(app: &App, window: &Window, image: Rect, row: u16, buffer: &mut Buffer) {
+fn along(app: &App, window: &MapWindow, image: Rect, row: u16, buffer: &mut Buffer) {
     let style = app.theme.style(Role::Dim);
     let mut free_from = image.x;
     for x in ticks(
@@ -83,7 +83,7 @@ fn along(app: &App, window: &Window, image: Rect, row: u16, buffer: &mut Buffer)
 fn downwards(
     app: &App,
     frame: &Frame,
-    window: &Window,
+    window: &MapWindow,
     (image, cells): (Rect, Rect),
     buffer: &mut Buffer,
 ) {

@@ -8,7 +8,7 @@ use crate::sim::Frame;
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
-use crate::tui::view::{Areas, Density, put, put_right};
+use crate::tui::view::{Areas, PanelSpacing, put, put_right};
 
 /// Both bodies' motion: chevrons that travel as far as the body does, in the picture's scale.
 pub(super) fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, buffer: &mut Buffer) {
@@ -20,7 +20,7 @@ pub(super) fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, buffe
         ("1", mean * (1.0 - slide), Role::Body1),
     ];
     let last = inner.height.saturating_sub(1);
-    if areas.density == Density::Full {
+    if areas.density == PanelSpacing::Full {
         for ((name, speed, role), row) in bodies.into_iter().zip([0, last]) {
             let row = Rect {
                 y: inner.y + row,

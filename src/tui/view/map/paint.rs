@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
 
-use super::raster::{Raster, Window};
+use super::raster::{MapWindow, Raster};
 use crate::picture::interferogram::colour as fringe;
 use crate::picture::{AboveRange, CONTACT, Look, Palette, Tint};
 use crate::tui::app::{App, MapKind};
@@ -38,7 +38,7 @@ impl Pixel {
     pub(super) fn of(
         look: &Look,
         raster: &Raster,
-        window: &Window,
+        window: &MapWindow,
         kind: MapKind,
         (column, row): (usize, usize),
     ) -> Self {
@@ -77,16 +77,22 @@ impl Pixel {
 
 /// A mark on a picture, white on black.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mark {
+pub(super) enum MapMark {
     /// The material point.
     Diamond,
     /// The probe.
     Cross,
 }
 
-impl Mark {
+impl MapMark {
     /// Draws it at a place, with so many pixels to each side.
-    pub(super) fn draw(self, picture: &mut Bitmap, window: &Window, (x, y): (f64, f64), half: f64) {
+    pub(super) fn draw(
+        self,
+        picture: &mut Bitmap,
+        window: &MapWindow,
+        (x, y): (f64, f64),
+        half: f64,
+    ) {
         /// How far the black around it goes.
         const EDGE: f64 = 1.35;
         let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
@@ -116,7 +122,7 @@ pub(super) fn paint(
     theme: Theme,
     raster: &Raster,
     look: &Look,
-    window: &Window,
+    window: &MapWindow,
     kind: MapKind,
     image: Rect,
     buffer: &mut Buffer,
@@ -184,7 +190,7 @@ fn inked(look: &Look, share: f32) -> f32 {
 }
 
 /// Whether the edge of Hertz's contact passes through a pixel.
-fn on_ellipse(window: &Window, raster: &Raster, column: usize, row: usize) -> bool {
+fn on_ellipse(window: &MapWindow, raster: &Raster, column: usize, row: usize) -> bool {
     let x = window.x_at((column as f64 + 0.5) / raster.columns as f64);
     let y = window.y_at((row as f64 + 0.5) / raster.rows as f64);
     let pixel = (window.x[1] - window.x[0]) / raster.columns as f64;

@@ -10,14 +10,14 @@ use crate::tui::kymograph::CentreValues;
 
 /// A part of the plane in half-widths: x/a and y/b, or x/a and z/a below the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Window {
+pub(super) struct MapWindow {
     /// Left and right.
     pub(super) x: [f64; 2],
     /// Top and bottom.
     pub(super) y: [f64; 2],
 }
 
-impl Window {
+impl MapWindow {
     /// x at a part (0 to 1) of the width.
     pub(super) fn x_at(&self, part: f64) -> f64 {
         self.x[0] + (self.x[1] - self.x[0]) * part
@@ -79,7 +79,7 @@ struct PixelSpan {
 }
 
 /// Places of pixels in half-widths, among the nodes.
-fn along(picture: &Picture, window: &Window, columns: usize) -> Option<Vec<PixelSpan>> {
+fn along(picture: &Picture, window: &MapWindow, columns: usize) -> Option<Vec<PixelSpan>> {
     let (_, [a_m, _]) = picture.hertz;
     spans(columns, window.x, picture.x.nodes(), &|x| {
         picture.x.place(x * a_m)
@@ -103,7 +103,7 @@ impl PixelSpan {
 /// Rasterises a picture; `None` where it is too small.
 pub(super) fn rasterize(
     picture: &Picture,
-    window: &Window,
+    window: &MapWindow,
     (columns, rows): (usize, usize),
 ) -> Option<Raster> {
     let (kind, [a_m, b_m]) = picture.hertz;
@@ -137,7 +137,7 @@ pub(super) fn rasterize(
 /// Rasterises lines along x, one a row of pixels; a row without a line is blank (no number).
 pub(super) fn rasterize_lines<'a>(
     picture: &Picture,
-    window: &Window,
+    window: &MapWindow,
     (columns, rows): (usize, usize),
     line: impl Fn(f64) -> Option<CentreValues<'a>>,
 ) -> Option<Raster> {
@@ -297,7 +297,7 @@ mod tests {
         frame
     }
 
-    const ALL: Window = Window {
+    const ALL: MapWindow = MapWindow {
         x: [-1.0, 1.0],
         y: [-1.0, 1.0],
     };
