@@ -221,6 +221,14 @@ const PASSAGE_A: f64 = 4.0;
 const START_UP_CROSSINGS: f64 = 1.5;
 const START_UP_PASSAGES: f64 = 1.0;
 
+/// Distance between rows, m; of a line between those of its stress.
+fn row_spacing_m(kind: ContactKind, domain: &Domain, hertz: &Hertz) -> f64 {
+    match kind {
+        ContactKind::Point => domain.dy_b() * hertz.b_m,
+        ContactKind::Line => 2.0 * LINE_HALF_WIDTH * hertz.a_m / (LINE_ROWS - 1) as f64,
+    }
+}
+
 impl Plan {
     /// Decides what a validated scene needs.
     ///
@@ -241,10 +249,7 @@ impl Plan {
         )
         .holding(decide::greatest_size(scene), &scene.grid);
         let dx_m = domain.dx_a() * hertz.a_m;
-        let dy_m = match kind {
-            ContactKind::Point => domain.dy_b() * hertz.b_m,
-            ContactKind::Line => 2.0 * LINE_HALF_WIDTH * hertz.a_m / (LINE_ROWS - 1) as f64,
-        };
+        let dy_m = row_spacing_m(kind, &domain, &hertz);
         let mut warnings = decide::domain_warnings(&domain, film.as_ref());
         if crests.meet_at_edge_of(kind, &domain) {
             warnings.push(Warning::CrestsAtEdge {

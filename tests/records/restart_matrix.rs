@@ -13,6 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::keeper::kept_request;
 use crate::common::maps::{Shape, npy_f8};
+use crate::workspace::small;
 use asperity::plan::Plan;
 use asperity::run::{Checkpoint, Ending, Outcome, Request, Session, Watcher};
 use asperity::scene::{Override, Scene};
@@ -342,19 +343,7 @@ fn states_of_all_presets_load() {
         .iter()
         .map(|preset| preset.name)
     {
-        let sets: Vec<Override> = ["grid.nodes=33", "record=none", "time.passages=0.2"]
-            .iter()
-            .map(|s| s.parse().unwrap())
-            .collect();
-        let mut scene = Scene::load_with(preset, &sets).unwrap();
-        if let Some(stress) = &mut scene.stress {
-            stress.depths = 8;
-        }
-        // On so few nodes the waves are not resolved; what a state holds is the same.
-        for surface in [&mut scene.body_1.surface, &mut scene.body_2.surface] {
-            let dx = Plan::new(&scene_smooth(preset)).unwrap().dx_m;
-            lengthen(surface, 8.0 * dx);
-        }
+        let scene = small(preset, &["time.passages=0.2"]);
         let made = || Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
         let mut whole = made();
         for steps in [3, u64::MAX] {

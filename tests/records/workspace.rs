@@ -11,7 +11,7 @@ use asperity::scene::{ContactKind, Override, Scene, presets};
 use asperity::sim::{Frame, Knob, Simulation};
 
 /// A preset on few nodes, its waves as long as those resolve.
-fn small(preset: &str, sets: &[&str]) -> Scene {
+pub(crate) fn small(preset: &str, sets: &[&str]) -> Scene {
     let all = ["grid.nodes=33", "record=none"];
     let sets: Vec<Override> = (all.iter().chain(sets))
         .map(|s| s.parse().unwrap())
