@@ -95,8 +95,8 @@ fn lacking(f: [f64; 3], around: &Around, most: f64) -> f64 {
 
 impl Reynolds {
     /// What the correction of the face between the middle two of these nodes needs.
-    fn around(&self, at: &Guessed, way: FlowDirection, nodes: [usize; 4]) -> Around {
-        let fluidities = self.fluidity.nodes(way, &self.q, 0..self.q.len());
+    fn around(&self, at: &Guessed, direction: FlowDirection, nodes: [usize; 4]) -> Around {
+        let fluidities = self.fluidity.nodes(direction, &self.q, 0..self.q.len());
         Around {
             h: nodes.map(|n| at.h[n]),
             g: nodes.map(|n| fluidities.g[n]),
