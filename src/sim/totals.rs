@@ -197,7 +197,7 @@ mod tests {
         let entry = |values: usize| {
             let values = vec!["2.5"; values].join(",");
             let text = format!(
-                r#"{{"distance":1.0,"span":0.5,"values":[{values}],"stress":null,"yielded_m3":0}}"#
+                r#"{{"way":1.0,"span":0.5,"values":[{values}],"stress":null,"yielded_m3":0}}"#
             );
             serde_json::from_str::<Entry>(&text)
         };
