@@ -64,16 +64,16 @@ impl LaneFft {
     /// Plan for length `n`, which must be a [`Self::good_length`].
     pub(crate) fn new(n: usize) -> Self {
         let mut radices = Vec::new();
-        let mut rest = n;
-        if rest.is_multiple_of(3) {
+        let mut remaining = n;
+        if remaining.is_multiple_of(3) {
             radices.push(3);
-            rest /= 3;
+            remaining /= 3;
         }
-        while rest >= 4 {
+        while remaining >= 4 {
             radices.push(4);
-            rest /= 4;
+            remaining /= 4;
         }
-        if rest == 2 {
+        if remaining == 2 {
             radices.push(2);
         }
         let (mut length, mut s) = (n, 1);

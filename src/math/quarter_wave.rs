@@ -130,23 +130,23 @@ dispatched! {
 /// 2N x_j = w_j V_j + w̄_j V_{N−j}, of all j that `x` has below N.
 fn unfold<T: FftNum>(v: &[Complex<T>], cosine: &[T], sine: &[T], x: &mut [Complex<T>]) {
     let n = v.len();
-    let wanted = x.len().min(n);
-    let (cosine, sine, x) = (&cosine[..n], &sine[..n], &mut x[..wanted]);
+    let kept = x.len().min(n);
+    let (cosine, sine, x) = (&cosine[..n], &sine[..n], &mut x[..kept]);
     x[0] = v[0] + v[0];
-    let blocks = (wanted - 1) / LANES;
+    let blocks = (kept - 1) / LANES;
     for block in 0..blocks {
         let j = 1 + block * LANES;
         let a: &[Complex<T>; LANES] = v[j..].first_chunk().expect("j + LANES <= N");
         let b: &[Complex<T>; LANES] = v[..=n - j].last_chunk().expect("j + LANES <= N");
         let c: &[T; LANES] = cosine[j..].first_chunk().expect("j + LANES <= N");
         let s: &[T; LANES] = sine[j..].first_chunk().expect("j + LANES <= N");
-        let x: &mut [Complex<T>; LANES] = x[j..].first_chunk_mut().expect("j + LANES <= wanted");
+        let x: &mut [Complex<T>; LANES] = x[j..].first_chunk_mut().expect("j + LANES <= kept");
         for k in 0..LANES {
             let b = b[LANES - 1 - k];
             x[k] = (a[k] + b) * c[k] + turned(a[k] - b, s[k]);
         }
     }
-    for j in 1 + blocks * LANES..wanted {
+    for j in 1 + blocks * LANES..kept {
         let (a, b) = (v[j], v[n - j]);
         x[j] = (a + b) * cosine[j] + turned(a - b, sine[j]);
     }

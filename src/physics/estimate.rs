@@ -168,11 +168,11 @@ fn brought(own: f64, then: f64, now: f64) -> f64 {
     if then == 1.0 {
         return own * now;
     }
-    let way = now.ln() / then.ln();
-    if (0.0..=1.0).contains(&way) || (1.0 / ALIKE..=ALIKE).contains(&(own.ln() / then.ln())) {
+    let part = now.ln() / then.ln();
+    if (0.0..=1.0).contains(&part) || (1.0 / ALIKE..=ALIKE).contains(&(own.ln() / then.ln())) {
         // Between there and the smooth contact, which has a factor of 1, nothing else ends at both.
-        own.powf(way)
-    } else if way > 1.0 {
+        own.powf(part)
+    } else if part > 1.0 {
         own * now / then
     } else {
         now

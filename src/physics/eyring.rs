@@ -84,18 +84,18 @@ pub fn ln_secant(zeta: f64) -> (f64, f64) {
 
 /// Φ, ∂Φ/∂ε and ∂Φ/∂r² from ε and r².
 #[inline(always)]
-pub fn steep(epsilon: f64, rest: f64) -> (f64, f64, f64) {
+pub fn steep(epsilon: f64, sech2: f64) -> (f64, f64, f64) {
     let size = epsilon.abs();
     let ([slid, slid_slope], [grows, grows_by]) = hyperbolic(size);
     let own = slid * grows;
     let own_slope = slid_slope * grows + own * grows_by;
-    let square = slid * slid * (1.0 - rest) + own * own * rest;
+    let square = slid * slid * (1.0 - sech2) + own * own * sech2;
     let phi = square.sqrt();
-    let slope = (slid * slid_slope * (1.0 - rest) + own * own_slope * rest) / phi;
+    let slope = (slid * slid_slope * (1.0 - sech2) + own * own_slope * sech2) / phi;
     let slope = if size < STEEPEST { slope } else { 0.0 };
-    let by_rest = 0.5 * (own * own - slid * slid) / phi;
+    let by_sech2 = 0.5 * (own * own - slid * slid) / phi;
     if square < 1.0 {
-        (phi, slope * 1.0_f64.copysign(epsilon), by_rest)
+        (phi, slope * 1.0_f64.copysign(epsilon), by_sech2)
     } else {
         (1.0, 0.0, 0.0)
     }
@@ -229,9 +229,9 @@ mod tests {
         ] {
             let (sigma, flow) = film(zeta, epsilon);
             let free = f64::asinh(zeta);
-            let rest = 1.0 / free.cosh().powi(2);
+            let sech2 = 1.0 / free.cosh().powi(2);
             let exact = flow / free.cosh();
-            let (phi, ..) = steep(-epsilon, rest);
+            let (phi, ..) = steep(-epsilon, sech2);
             println!(
                 "zeta {zeta:e}, epsilon {epsilon}: flow {exact:.6} of the tangent's, {phi:.6}"
             );
@@ -247,27 +247,27 @@ mod tests {
     #[test]
     fn slopes_of_the_steep_flow_are_its_derivatives() {
         for epsilon in [-7.0, -0.4, 0.03, 0.0999, 0.1001, 0.7, 3.0, 12.0, 250.0] {
-            for rest in [1e-13, 1e-6, 1e-3, 0.05] {
+            for sech2 in [1e-13, 1e-6, 1e-3, 0.05] {
                 let h = 1e-5 * f64::abs(epsilon);
-                let (phi, by_epsilon, by_rest) = steep(epsilon, rest);
+                let (phi, by_epsilon, by_sech2) = steep(epsilon, sech2);
                 if phi >= 1.0 {
                     continue;
                 }
-                let d = (steep(epsilon + h, rest).0 - steep(epsilon - h, rest).0) / (2.0 * h);
+                let d = (steep(epsilon + h, sech2).0 - steep(epsilon - h, sech2).0) / (2.0 * h);
                 assert!(
                     (d - by_epsilon).abs() < 1e-7 * (1.0 + d.abs()),
-                    "{epsilon} {rest}: {d} {by_epsilon}"
+                    "{epsilon} {sech2}: {d} {by_epsilon}"
                 );
-                let r = 1e-3 * rest;
-                let d = (steep(epsilon, rest + r).0 - steep(epsilon, rest - r).0) / (2.0 * r);
-                // What rest itself changes: 1e-3 of it moves Φ by little more than rounding where it is small.
-                let off = (d - by_rest).abs() * rest;
-                assert!(off < 1e-6 * phi, "{epsilon} {rest}: {d} {by_rest}");
+                let r = 1e-3 * sech2;
+                let d = (steep(epsilon, sech2 + r).0 - steep(epsilon, sech2 - r).0) / (2.0 * r);
+                // What sech² itself changes: 1e-3 of it moves Φ by little more than rounding where it is small.
+                let off = (d - by_sech2).abs() * sech2;
+                assert!(off < 1e-6 * phi, "{epsilon} {sech2}: {d} {by_sech2}");
             }
         }
         // A flow grows with its pressure, and what is not slid is Newtonian.
-        for rest in [1e-14, 1e-4, 0.5] {
-            let flow = |n: u32| 0.01 * f64::from(n) * steep(0.01 * f64::from(n), rest).0;
+        for sech2 in [1e-14, 1e-4, 0.5] {
+            let flow = |n: u32| 0.01 * f64::from(n) * steep(0.01 * f64::from(n), sech2).0;
             assert!((1..40_000).all(|n| flow(n) > flow(n - 1)));
         }
         assert_eq!(steep(5.0, 1.0), (1.0, 0.0, 0.0));

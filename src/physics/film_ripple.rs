@@ -121,7 +121,7 @@ mod tests {
             entrainment_m_s,
         } = FILM;
         let i = Complex::new(0.0, 1.0);
-        let rest = |k: Complex<f64>, omega: f64, film: Complex<f64>, pressure: Complex<f64>| {
+        let residual = |k: Complex<f64>, omega: f64, film: Complex<f64>, pressure: Complex<f64>| {
             let flow = -k * k * pressure * (film_m.powi(3) / (12.0 * viscosity_pa_s));
             let carried = (k * entrainment_m_s - omega)
                 * i
@@ -131,7 +131,7 @@ mod tests {
         let k = Complex::new(TAU / wave, 0.0);
         let left = FILM.left(wave, body);
         let pressure = (left - 1.0) * k * (0.25 * e_prime_pa);
-        assert!(rest(k, k.re * body, left, pressure) < 1e-12);
+        assert!(residual(k, k.re * body, left, pressure) < 1e-12);
         assert!(
             (pressure.norm() / (0.25 * e_prime_pa * k.re) - FILM.pressure_share(wave, body)).abs()
                 < 1e-12
@@ -139,7 +139,7 @@ mod tests {
         let convected = FILM.convected(wave, body);
         let own = Complex::new(1.0, 0.0);
         let pressure = convected * (0.25 * e_prime_pa);
-        assert!(rest(convected, k.re * body, own, pressure) < 1e-12);
+        assert!(residual(convected, k.re * body, own, pressure) < 1e-12);
         assert!(convected.im > 0.0 && convected.re > 0.0);
     }
 

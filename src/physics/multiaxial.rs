@@ -81,10 +81,10 @@ pub fn dang_van(history: impl Iterator<Item = Stress6> + Clone, alpha: f64) -> f
             *c += part * (f - *c);
         }
     }
-    let rest = from_deviator(centre).times(-1.0);
+    let minus_centre = from_deviator(centre).times(-1.0);
     let risk = |state: Stress6| {
         let deviator = from_deviator(deviator(state));
-        deviator.plus(rest).max_shear() + alpha * state.mean()
+        deviator.plus(minus_centre).max_shear() + alpha * state.mean()
     };
     history.map(risk).fold(risk(Stress6::default()), f64::max)
 }

@@ -43,7 +43,7 @@ pub enum HistoryEnds {
     Repeating,
 }
 
-/// A history under way.
+/// A history as it runs.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Rainflow {
     turning: Turning,
@@ -106,7 +106,7 @@ impl Rainflow {
         self.forced
     }
 
-    /// Next value of the history; hands every cycle that it closes to `sink`.
+    /// Next value of the history; gives every cycle that it closes to `sink`.
     pub fn push(&mut self, value: f64, sink: &mut impl FnMut(Cycle)) {
         match self.turning.push(value) {
             Turn::First => self.stack.push(value),

@@ -198,7 +198,7 @@ fn mean_over_phases(
     sum / (angles * phases[0] * phases[1]) as f64
 }
 
-/// Stress by a wave at a place; its phase is the way that it has come along x.
+/// Stress by a wave at a place; its phase is the distance that it has come along x.
 fn wave_stress(
     wave: &PressureWave,
     (x, y, z): (f64, f64, f64),

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A history under way.
+/// A history as it runs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Turning {
     gate: f64,

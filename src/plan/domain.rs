@@ -168,11 +168,11 @@ fn edges(film: &Truncation, nodes: usize) -> (f64, f64) {
 }
 
 /// How much larger than the usual longest a domain is best: the first size that is enough, or that of the least cost.
-fn grown(judge: impl Fn(f64) -> (bool, f64)) -> f64 {
+fn grown(suffices: impl Fn(f64) -> (bool, f64)) -> f64 {
     let mut best = (1.0, f64::INFINITY);
     for step in 0..GROWTHS {
         let size = GROWTH.powi(step);
-        let (enough, cost) = judge(size);
+        let (enough, cost) = suffices(size);
         if cost < best.1 {
             best = (size, cost);
         }

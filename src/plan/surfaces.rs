@@ -43,7 +43,7 @@ const NODES_CONVECTED: [f64; 2] = [16.0, 10.0];
 /// Time steps per passing crest that rainflow counting wants.
 const SAMPLES_GOOD: f64 = 16.0;
 
-/// The waves of both bodies; `spacing_m` along x and y, `step_m` the way travelled at U in a time step.
+/// The waves of both bodies; `spacing_m` along x and y, `step_m` the distance travelled at U in a time step.
 pub(super) fn plan(
     scene: &Scene,
     spacing_m: [f64; 2],

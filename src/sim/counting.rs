@@ -55,7 +55,7 @@ pub(super) struct CountingSpec {
     pub(super) exponent: f64,
     /// What damage is taken from.
     pub(super) basis: DamageBasis,
-    /// Blocks of both bodies for which damage is mapped: length and way from a crest, a.
+    /// Blocks of both bodies for which damage is mapped: length and distance from a crest, a.
     pub(super) blocks: [Option<(f64, f64)>; 2],
     /// How life integrates stress (models of one depth: not at all); `None`: no life is asked for.
     pub(super) laws: Option<Vec<StressLaw>>,
@@ -149,8 +149,8 @@ impl Counting {
 
     /// Forgets all counts; the bodies have moved by `travelled` (in a).
     pub(super) fn restart(&mut self, travelled: [f64; 2]) {
-        for (tracker, way) in self.trackers.iter_mut().zip(travelled) {
-            tracker.restart(way);
+        for (tracker, distance) in self.trackers.iter_mut().zip(travelled) {
+            tracker.restart(distance);
         }
         for profile in self.profiles.iter_mut().flatten() {
             profile.is_known = false;

@@ -1,7 +1,7 @@
 //! What material points of a scene count.
 
 use super::counting::CountingSpec;
-use super::door::Heading;
+use super::scaling::Heading;
 use crate::plan::Plan;
 use crate::scene::{CycleBasis, Scene};
 use crate::solve::material::DamageBasis;

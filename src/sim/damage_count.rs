@@ -22,19 +22,19 @@ use crate::solve::columns::Columns;
 use crate::solve::material::MaterialTracker;
 use crate::solve::stress::StressLaw;
 
-/// Way over which crossings must have finished before their mean stands alone, where no wave is longer, a.
-const LEAST_WAY: f64 = 0.25;
+/// Distance over which crossings must have finished before their mean stands alone, where no wave is longer, a.
+const LEAST_DISTANCE: f64 = 0.25;
 
 /// Half-width within which a point meets its greatest stress, over Hertz's.
 const REACH: f64 = 0.8;
 /// Bodies slower than this, over the mean speed, are not waited for.
 const SLOW: f64 = 0.5;
 
-/// Both bodies under way.
+/// Both bodies.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct DamageCount {
     bodies: [BodyCount; 2],
-    /// Way of the faster body since the last restart, a.
+    /// Distance of the faster body since the last restart, a.
     fastest: f64,
     is_known: bool,
 }
@@ -42,14 +42,16 @@ pub(super) struct DamageCount {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct BodyCount {
     columns: Columns,
-    way: f64,
+    #[serde(rename = "way")]
+    distance: f64,
     /// n by depth.
     cycles: Vec<f64>,
     /// ln r by law and depth.
     ln_ratios: Vec<f64>,
     /// Wavelength of its own crests, and the longest of both bodies', a.
     own: Option<f64>,
-    wanted: f64,
+    #[serde(rename = "wanted")]
+    needed: f64,
 }
 
 impl DamageCount {
@@ -60,14 +62,17 @@ impl DamageCount {
         laws: &[StressLaw],
         waves: [Option<f64>; 2],
     ) -> Self {
-        let wanted = waves.iter().flatten().fold(LEAST_WAY, |a, b| a.max(*b));
+        let needed = waves
+            .iter()
+            .flatten()
+            .fold(LEAST_DISTANCE, |a, b| a.max(*b));
         let body = |own: Option<f64>| BodyCount {
             columns: Columns::new((grid.x_min, grid.dx), grid.nx, depths, laws),
-            way: 0.0,
+            distance: 0.0,
             cycles: vec![1.0; depths],
             ln_ratios: vec![0.0; laws.len() * depths],
             own,
-            wanted,
+            needed,
         };
         Self {
             bodies: waves.map(body),
@@ -82,7 +87,7 @@ impl DamageCount {
             own.columns.fits(&saved.columns)
                 && own.cycles.len() == saved.cycles.len()
                 && own.ln_ratios.len() == saved.ln_ratios.len()
-                && (own.own, own.wanted) == (saved.own, saved.wanted)
+                && (own.own, own.needed) == (saved.own, saved.needed)
         })
     }
 
@@ -90,7 +95,7 @@ impl DamageCount {
     pub(super) fn restart(&mut self) {
         for body in &mut self.bodies {
             body.columns.restart();
-            body.way = 0.0;
+            body.distance = 0.0;
         }
         (self.fastest, self.is_known) = (0.0, false);
     }
@@ -99,7 +104,7 @@ impl DamageCount {
     pub(super) fn step(&mut self, body: BodyId, travel: f64, line: &Line, size: f64) {
         let own = &mut self.bodies[body.index()];
         own.columns.step(travel, REACH * size, line);
-        own.way += travel.abs();
+        own.distance += travel.abs();
     }
 
     /// After both bodies' steps: n and r of now, with the cycles of `trackers`.
@@ -107,11 +112,11 @@ impl DamageCount {
         self.fastest += travel[0].abs().max(travel[1].abs());
         self.is_known = true;
         for (body, tracker) in self.bodies.iter_mut().zip(trackers) {
-            let ways = (body.way, self.fastest);
-            self.is_known &= tracker.damage_cycles(ways, &mut body.cycles);
+            let distances = (body.distance, self.fastest);
+            self.is_known &= tracker.damage_cycles(distances, &mut body.cycles);
             let depths = body.cycles.len().max(1);
             for (law, out) in body.ln_ratios.chunks_exact_mut(depths).enumerate() {
-                body.columns.ln_ratios(law, (body.own, body.wanted), out);
+                body.columns.ln_ratios(law, (body.own, body.needed), out);
             }
         }
     }
@@ -119,15 +124,15 @@ impl DamageCount {
     /// Part of a `period` (in a, at U) of both bodies' surfaces that has crossed the contact; of slow ones a quarter of it
     /// does, and of those that creep none is waited for.
     pub(super) fn covers(&self, period: f64) -> f64 {
-        let mean = 0.5 * (self.bodies[0].way + self.bodies[1].way);
+        let mean = 0.5 * (self.bodies[0].distance + self.bodies[1].distance);
         let part = |body: &BodyCount| {
-            let speed = body.way / mean.max(f64::MIN_POSITIVE);
-            let wanted = period * speed * ((speed / SLOW).min(1.0)).powi(2);
+            let speed = body.distance / mean.max(f64::MIN_POSITIVE);
+            let needed = period * speed * ((speed / SLOW).min(1.0)).powi(2);
             let creeps = speed < 0.5 * SLOW;
             if creeps {
                 f64::INFINITY
             } else {
-                body.columns.finished() / wanted.max(f64::MIN_POSITIVE)
+                body.columns.finished() / needed.max(f64::MIN_POSITIVE)
             }
         };
         self.bodies.iter().map(part).fold(f64::INFINITY, f64::min)

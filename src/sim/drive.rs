@@ -19,12 +19,12 @@ pub(super) struct Setting {
 impl Setting {
     fn walk(&mut self, dt: f64) {
         let most = self.rate * dt;
-        let rest = self.target - self.now;
+        let remaining = self.target - self.now;
         // The last step lands exactly on the target.
-        self.now = if rest.abs() <= most * (1.0 + 1e-9) {
+        self.now = if remaining.abs() <= most * (1.0 + 1e-9) {
             self.target
         } else {
-            self.now + most.copysign(rest)
+            self.now + most.copysign(remaining)
         };
     }
 }

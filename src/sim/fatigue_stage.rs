@@ -51,7 +51,7 @@ struct Calibration {
     survival_ratio: f64,
 }
 
-/// Life models under way.
+/// Life models and what they have integrated so far.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct LifeStage {
     law: LifeLaw,
@@ -153,7 +153,7 @@ impl LifeStage {
         }
     }
 
-    /// Passes over the surface loaded last and hands its sums to every model.
+    /// Passes over the surface loaded last and gives its sums to every model.
     fn each(
         &mut self,
         stress: &mut StressStage,
@@ -234,7 +234,7 @@ impl LifeStage {
     }
 
     /// Whether the average may be called settled, after a sample without anything of a ramp in it.
-    pub(super) fn judge(
+    pub(super) fn test_settled(
         &mut self,
         stress_error: f64,
         repeat: Option<Repeat>,
@@ -242,16 +242,16 @@ impl LifeStage {
     ) {
         let by_damage = self.asked.cycles == CycleBasis::Damage;
         let meter = self.variants[0].meter();
-        let (way, period) = meter.way();
+        let (distance, period) = meter.distance();
         let covered = counting.map_or(1.0, |counting| counting.covers(period));
-        if by_damage && covered >= 0.5 && self.damage.is_due(way) {
+        if by_damage && covered >= 0.5 && self.damage.is_due(distance) {
             let ln = BodyId::BOTH.map(|body| self.ln_damage(body, counting));
-            self.damage.take(way, period, ln);
+            self.damage.take(distance, period, ln);
         }
         let damage = by_damage.then_some((&self.damage, covered));
         let meter = self.variants[0].meter();
         self.settling
-            .judge(meter, stress_error, repeat, damage, self.is_smooth);
+            .test(meter, stress_error, repeat, damage, self.is_smooth);
     }
 
     /// `ln Σ_k n_k^e J_k` of a body by its damage.
@@ -270,10 +270,15 @@ impl LifeStage {
         )
     }
 
-    /// Takes the surface loaded last, which stands for a `way` (in a), and what has been counted up to it.
-    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, counting: Option<&Counting>) {
+    /// Takes the surface loaded last, which stands for a `distance` (in a), and what has been counted up to it.
+    pub(super) fn push(
+        &mut self,
+        distance: f64,
+        stress: &mut StressStage,
+        counting: Option<&Counting>,
+    ) {
         self.each(stress, |variant, stress, shared| {
-            variant.push(way, stress, shared);
+            variant.push(distance, stress, shared);
             variant.weigh_material(counting);
         });
     }

@@ -38,7 +38,7 @@ pub struct DamageBlock {
     pub damage: Vec<f32>,
     /// Columns that have been crossed.
     pub filled: usize,
-    /// Middle of the worst column, way from a crest, m.
+    /// Middle of the worst column, distance from a crest, m.
     pub pit_place_m: f64,
     /// Depth of the worst point, m.
     pub pit_depth_m: f64,

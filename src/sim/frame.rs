@@ -97,7 +97,7 @@ pub struct Frame {
     pub damage: [Option<DamageBlock>; 2],
     /// Scalars.
     pub metrics: Metrics,
-    /// What [`Frame::cautions`] rest on beside them.
+    /// What [`Frame::cautions`] are drawn from beside them.
     pub grounds: Grounds,
 }
 

@@ -1,9 +1,9 @@
-//! What cautions rest on beside the scalars of a step.
+//! What cautions are drawn from beside the scalars of a step.
 
 use crate::physics::strength::Strength;
 use crate::scene::StressMeasure;
 
-/// What cautions rest on beside the scalars of a step.
+/// What cautions are drawn from beside the scalars of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Grounds {
     /// Steps of the passage so far.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::Metrics;
-use super::door::Door;
+use super::scaling::Scaling;
 use crate::math::grid::{Grid, Symmetry};
 use crate::solve::traction::TractionLaw;
 
@@ -33,15 +33,15 @@ pub(super) struct Measured {
 
 impl Measured {
     /// The same in SI.
-    pub(super) fn publish(&self, door: &Door, m: &mut Metrics) {
-        m.p_max_pa = door.pa_from_p(self.p_max);
-        m.h_central_m = door.m_from_h(self.h_central);
-        m.h_min_m = door.m_from_h(self.h_min);
-        m.h_mean_m = door.m_from_h(self.h_mean);
+    pub(super) fn publish(&self, scaling: &Scaling, m: &mut Metrics) {
+        m.p_max_pa = scaling.pa_from_p(self.p_max);
+        m.h_central_m = scaling.m_from_h(self.h_central);
+        m.h_min_m = scaling.m_from_h(self.h_min);
+        m.h_mean_m = scaling.m_from_h(self.h_mean);
         m.contact_ratio = self.contact_ratio;
         m.contact_load_ratio = self.contact_load_ratio;
         m.friction_coefficient = self.friction.abs();
-        m.traction_max_pa = door.pa_from_p(self.traction_max);
+        m.traction_max_pa = scaling.pa_from_p(self.traction_max);
     }
 }
 

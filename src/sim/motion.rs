@@ -4,22 +4,22 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::grid::Grid;
 
-/// Travelled ways and the time since the last disturbance.
+/// Distances travelled and the time since the last disturbance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Travel {
-    /// Way of body 1 and 2, in a.
+    /// Distance of body 1 and 2, in a.
     pub(super) travelled: [f64; 2],
     /// Where both bodies were when the passage began; `None`: it has not begun.
     launched_at: Option<[f64; 2]>,
     /// Time (a/U) that must pass until a steady contact is steady again.
     unsettled: f64,
-    /// Ways that the surfaces still have to be led beside their own, in a, and over which time (a/U).
+    /// Distances that the surfaces still have to be led beyond their own, in a, and over which time (a/U).
     lead: ([f64; 2], f64),
 }
 
 /// How far a body has come, in a.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Way {
+pub(super) struct BodyTravel {
     /// Since the run began.
     pub(super) travelled: f64,
     /// Since the passage began; `None`: it has not.
@@ -51,18 +51,18 @@ impl Travel {
         let (lead, over) = &mut self.lead;
         if *over > 0.0 {
             let share = (dt / *over).min(1.0);
-            for (way, lead) in self.travelled.iter_mut().zip(lead) {
+            for (distance, lead) in self.travelled.iter_mut().zip(lead) {
                 let moved = share * *lead;
-                *way += moved;
+                *distance += moved;
                 *lead -= moved;
             }
             *over = (*over - dt).max(0.0);
         }
     }
 
-    /// Leads the surfaces by so much (in a) beside their own ways, evenly over a time `over` (a/U).
-    pub(super) fn lead(&mut self, ways: [f64; 2], over: f64) {
-        self.lead = (ways, over);
+    /// Leads the surfaces by so much (in a) beyond their own distances, evenly over a time `over` (a/U).
+    pub(super) fn lead(&mut self, distances: [f64; 2], over: f64) {
+        self.lead = (distances, over);
     }
 
     /// The passage begins: what stands on a body once is let go.
@@ -70,9 +70,9 @@ impl Travel {
         self.launched_at = Some(self.travelled);
     }
 
-    /// The ways of both bodies.
-    pub(super) fn ways(&self) -> [Way; 2] {
-        [0, 1].map(|body: usize| Way {
+    /// How far each body has come.
+    pub(super) fn of_bodies(&self) -> [BodyTravel; 2] {
+        [0, 1].map(|body: usize| BodyTravel {
             travelled: self.travelled[body],
             in_passage: self.launched_at.map(|at| self.travelled[body] - at[body]),
         })

@@ -1,16 +1,16 @@
 //! Whether the passage repeats.
 //!
 //! ```text
-//! f_i   = a_i (1 ∓ S/2)/2π          crests of body i that pass a fixed place, per a of way at U
-//! T     = least way with T f_i whole for every wave of both bodies       (commensurate: an orbit)
+//! f_i   = a_i (1 ∓ S/2)/2π          crests of body i that pass a fixed place, per distance a at U
+//! T     = least distance with T f_i whole for every wave of both bodies       (commensurate: an orbit)
 //! drift = max(Σ|P(w+T) − P(w)|/ΣP(w), Σ|H(w+T) − H(w)|/ΣH(w))            over the nodes under pressure
 //! ```
-//! Both rough surfaces are in the same place again after a way T, so a contact that has forgotten how it
+//! Both rough surfaces are in the same place again after a distance T, so a contact that has forgotten how it
 //! began repeats itself. T is no whole number of steps in general: the fields at w + T are interpolated
 //! between four steps (cubic Lagrange), which costs 0.1 to 0.5 % of a ripple of ten steps. Where no T up to
 //! 16 a exists the passage is quasi-periodic and never repeats; then the means of film, pressure and contact
 //! over 4 a are compared with those of the 4 a before, which is less, and is named so. Smooth or
-//! longitudinal surfaces: steady, judged over a way of a.
+//! longitudinal surfaces: steady, compared over a distance of a.
 
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +34,8 @@ const MOST_CRESTS: u32 = 4096;
 /// Fields of one step, single precision.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 struct OrbitStep {
-    way: f64,
+    #[serde(rename = "way")]
+    distance: f64,
     pressure: Vec<f32>,
     film: Vec<f32>,
 }
@@ -42,14 +43,14 @@ struct OrbitStep {
 impl OrbitStep {
     fn of(len: usize) -> Self {
         Self {
-            way: 0.0,
+            distance: 0.0,
             pressure: vec![0.0; len],
             film: vec![0.0; len],
         }
     }
 
-    fn take(&mut self, way: f64, pressure: &[f64], film: &[f64]) {
-        self.way = way;
+    fn take(&mut self, distance: f64, pressure: &[f64], film: &[f64]) {
+        self.distance = distance;
         for (to, &from) in self.pressure.iter_mut().zip(pressure) {
             *to = from as f32;
         }
@@ -59,7 +60,7 @@ impl OrbitStep {
     }
 
     fn take_from(&mut self, other: &Self) {
-        self.way = other.way;
+        self.distance = other.distance;
         self.pressure.copy_from_slice(&other.pressure);
         self.film.copy_from_slice(&other.film);
     }
@@ -84,7 +85,7 @@ pub(super) struct Orbit {
     rhythm: Rhythm,
     /// T, in a; the window of the means where there is none.
     period: f64,
-    /// Way from the reference to the comparison: a multiple of T.
+    /// Distance from the reference to the comparison: a multiple of T.
     span: f64,
     reference: OrbitStep,
     /// The last four steps, oldest first.
@@ -154,7 +155,7 @@ impl Orbit {
         }
     }
 
-    /// Way over which means are taken: whole periods where there are some, at least `passage` long where
+    /// Distance over which means are taken: whole periods where there are some, at least `passage` long where
     /// periods are short.
     pub(super) fn window(&self, passage: f64) -> f64 {
         match self.rhythm {
@@ -166,27 +167,27 @@ impl Orbit {
         }
     }
 
-    /// Takes a step that ended at `way` after a length `step`.
+    /// Takes a step that ended at `distance` after a length `step`.
     pub(super) fn push(
         &mut self,
-        way: f64,
+        distance: f64,
         step: f64,
         fields: (&[f64], &[f64]),
         metrics: &Metrics,
     ) {
         if self.rhythm == Rhythm::Statistics {
-            self.push_means(way, step, metrics);
+            self.push_means(distance, step, metrics);
             return;
         }
         self.ring.rotate_left(1);
-        self.ring[3].take(way, fields.0, fields.1);
+        self.ring[3].take(distance, fields.0, fields.1);
         self.taken = self.taken.saturating_add(1);
         if self.taken == 1 {
             self.begin(step);
             return;
         }
-        let target = self.reference.way + self.span;
-        if self.taken >= 4 && self.ring[2].way >= target {
+        let target = self.reference.distance + self.span;
+        if self.taken >= 4 && self.ring[2].distance >= target {
             self.drift = Some(self.compare(target));
             self.begin(step);
         }
@@ -199,7 +200,7 @@ impl Orbit {
     }
 
     fn compare(&self, target: f64) -> f64 {
-        let weights = lagrange(self.ring.each_ref().map(|s| s.way), target);
+        let weights = lagrange(self.ring.each_ref().map(|s| s.distance), target);
         let at = |n: usize, of: fn(&OrbitStep) -> &[f32]| -> f64 {
             let terms = self.ring.iter().zip(weights);
             terms.map(|(s, w)| w * f64::from(of(s)[n])).sum()
@@ -225,10 +226,10 @@ impl Orbit {
         share(moved_p, all_p).max(film)
     }
 
-    fn push_means(&mut self, way: f64, step: f64, m: &Metrics) {
+    fn push_means(&mut self, distance: f64, step: f64, m: &Metrics) {
         if self.taken == 0 {
             self.means = Means {
-                from: way - step,
+                from: distance - step,
                 ..Means::default()
             };
         }
@@ -237,7 +238,7 @@ impl Orbit {
         for (sum, value) in self.means.sums.iter_mut().zip(values) {
             *sum += step * value;
         }
-        let length = way - self.means.from;
+        let length = distance - self.means.from;
         if length < self.period * (1.0 - MATCH) {
             return;
         }
@@ -251,12 +252,12 @@ impl Orbit {
         }
         self.before = Some(now);
         self.means = Means {
-            from: way,
+            from: distance,
             ..Means::default()
         };
     }
 
-    /// What is known; `second_per_a`: time of a way of a.
+    /// What is known; `second_per_a`: time in which oil moves by a.
     pub(super) fn repeat(&self, second_per_a: f64) -> Repeat {
         let limit = if self.rhythm == Rhythm::Statistics {
             LEVEL
@@ -310,12 +311,12 @@ fn common_period(frequencies: &[f64; 4]) -> Option<f64> {
         })
 }
 
-/// Weights of the values at `ways` for the value at `target`.
-fn lagrange(ways: [f64; 4], target: f64) -> [f64; 4] {
+/// Weights of the values at `distances` for the value at `target`.
+fn lagrange(distances: [f64; 4], target: f64) -> [f64; 4] {
     std::array::from_fn(|i| {
         (0..4)
             .filter(|&k| k != i)
-            .map(|k| (target - ways[k]) / (ways[i] - ways[k]))
+            .map(|k| (target - distances[k]) / (distances[i] - distances[k]))
             .product()
     })
 }
@@ -342,12 +343,12 @@ mod tests {
     }
 
     /// Ripples of both bodies and a transient that dies away.
-    fn field(way: f64, frequency: f64, left: f64) -> Vec<f64> {
+    fn field(distance: f64, frequency: f64, left: f64) -> Vec<f64> {
         (0..32)
             .map(|i| {
                 let x = f64::from(i) / 32.0;
-                let phase = std::f64::consts::TAU * frequency * (x - way);
-                1.0 + 0.3 * phase.cos() + left * (-way).exp()
+                let phase = std::f64::consts::TAU * frequency * (x - distance);
+                1.0 + 0.3 * phase.cos() + left * (-distance).exp()
             })
             .collect()
     }
@@ -356,12 +357,12 @@ mod tests {
         let mut orbit = Orbit::new(32, 4.0);
         let mut metrics = Metrics::default();
         for n in 0..(12.0 / step) as usize {
-            let way = (n + 1) as f64 * step;
-            let field = field(way, real, left);
+            let distance = (n + 1) as f64 * step;
+            let field = field(distance, real, left);
             metrics.h_central_m = field[16];
             (metrics.h_min_m, metrics.p_max_pa) = (1.0, 1.0);
             orbit.listen(frequencies, 4.0);
-            orbit.push(way, step, (&field, &field), &metrics);
+            orbit.push(distance, step, (&field, &field), &metrics);
         }
         orbit.repeat(1.0)
     }

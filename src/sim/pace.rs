@@ -53,11 +53,11 @@ pub(super) struct Pace {
 
 /// What a step's error says.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Judgement {
+pub(super) enum StepTest {
     /// Keep it.
-    Good,
+    Accepted,
     /// Make it again with so many nodes.
-    Again(f64),
+    Repeat(f64),
 }
 
 impl Stepping {
@@ -85,14 +85,19 @@ impl Stepping {
     }
 
     /// Whether a solved step is kept.
-    pub(super) fn judge(self, path_error: Option<f64>, nodes: f64, rejections: u32) -> Judgement {
+    pub(super) fn test_error(
+        self,
+        path_error: Option<f64>,
+        nodes: f64,
+        rejections: u32,
+    ) -> StepTest {
         let excess = path_error.and_then(|error| self.excess(error));
         match excess {
             Some(excess) if excess > SLACK && nodes > LEAST && rejections < MOST_REJECTIONS => {
                 let factor = (0.9 / excess.sqrt()).clamp(0.2, 0.9);
-                Judgement::Again((nodes * factor).max(LEAST))
+                StepTest::Repeat((nodes * factor).max(LEAST))
             }
-            _ => Judgement::Good,
+            _ => StepTest::Accepted,
         }
     }
 }
@@ -148,7 +153,8 @@ mod tests {
         for _ in 0..steps {
             let mut nodes = pace.next(ASKED, f64::INFINITY);
             let mut again = 0;
-            while let Judgement::Again(smaller) = ASKED.judge(Some(c * nodes * nodes), nodes, again)
+            while let StepTest::Repeat(smaller) =
+                ASKED.test_error(Some(c * nodes * nodes), nodes, again)
             {
                 (nodes, again) = (smaller, again + 1);
             }
@@ -181,8 +187,8 @@ mod tests {
         fixed.learn(Stepping::Fixed(0.7), Some(1.0), 0.7);
         assert_eq!(fixed.next(Stepping::Fixed(0.7), 1.0), 0.7);
         assert_eq!(
-            Stepping::Fixed(0.7).judge(Some(1.0), 0.7, 0),
-            Judgement::Good
+            Stepping::Fixed(0.7).test_error(Some(1.0), 0.7, 0),
+            StepTest::Accepted
         );
     }
 }

@@ -20,15 +20,15 @@ use crate::solve::traction::TractionLaw;
 impl SimPlan {
     /// a and p_h of the load of now over those of the scene's.
     pub(super) fn size_now(&self, drive: &Drive) -> f64 {
-        let load = drive.get(self.door.load_knob()).now / self.decided.force_n;
-        self.door.size_ratio(load)
+        let load = drive.get(self.scaling.load_knob()).now / self.decided.force_n;
+        self.scaling.size_ratio(load)
     }
 
     /// The smooth film by formula at the knobs' present values; `None`: the scene has no oil.
     pub(super) fn film_now(&self, drive: &Drive) -> Option<FilmPlan> {
         let now = |knob| drive.get(knob).now;
         self.film_at(LoadAndSpeed {
-            load: now(self.door.load_knob()),
+            load: now(self.scaling.load_knob()),
             speed_m_s: now(Knob::EntrainmentMS),
         })
     }

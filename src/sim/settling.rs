@@ -7,7 +7,7 @@
 //!           smooth and steady                     settled as solved
 //!           fields come back                      c · drift ≤ B/2 settled
 //!           no common period, 3 P                 settled; the band is as much wider as the mean wandered in 2 P
-//!                                                 (the mean of all that was seen, which comes to rest as 1/way)
+//!                                                 (the mean of all that was seen, which converges as 1/distance)
 //!           cycles by their damage            when the surfaces of a period have crossed the contact; the band is wider by
 //!                                             what their mean moved from half of that on
 //! B = c max(ε, 2 tol)                             ε relative error of stress by the mesh, tol a step's of pressure
@@ -53,7 +53,7 @@ impl Settling {
     }
 
     /// Takes what the meter's mean did, after a sample.
-    pub(super) fn judge(
+    pub(super) fn test(
         &mut self,
         meter: &LifeMeter,
         stress_error: f64,

@@ -1,9 +1,9 @@
 //! What follows from the scene and is the same at every step: its plan, scales, laws and tolerances.
 
 use super::Grounds;
-use super::door::Door;
 use super::orbit::LONGEST;
 use super::pace::Stepping;
+use super::scaling::Scaling;
 use crate::math::grid::Grid;
 use crate::physics::fluid::ShearedFlow;
 use crate::physics::strength::{self, Strength};
@@ -25,7 +25,7 @@ pub(super) const DEVELOP: f64 = 4.0;
 pub(super) struct SimPlan {
     pub(super) scene: Scene,
     pub(super) decided: Plan,
-    pub(super) door: Door,
+    pub(super) scaling: Scaling,
     pub(super) shape: Shape,
     /// Flow of the films that are films.
     pub(super) flow: Flow,
@@ -35,7 +35,7 @@ pub(super) struct SimPlan {
     pub(super) law: TractionLaw,
     /// η0/(p_h × film unit), s/m: shear stress of a Newtonian film per sliding speed; 0: no oil.
     pub(super) shear_rate: f64,
-    /// What cautions rest on, as far as the scene gives it.
+    /// What cautions are drawn from, as far as the scene gives it.
     pub(super) grounds: Grounds,
     pub(super) stepping: Stepping,
     /// The planes that the scene asks for beside y = 0.
@@ -49,25 +49,25 @@ pub(super) struct SimPlan {
 impl SimPlan {
     /// What follows from `scene` by the plan that was made for it.
     pub(super) fn new(scene: &Scene, decided: Plan) -> Self {
-        let door = Door::new(scene);
+        let scaling = Scaling::new(scene);
         let flow = flow_of(scene);
         let hardness = scene.hardness_pa();
         Self {
             scene: scene.clone(),
-            shape: shape_of(&decided, &door),
+            shape: shape_of(&decided, &scaling),
             flow,
-            tolerances: [flow, Flow::Dry].map(|flow| tolerance_of(scene, flow, &door)),
+            tolerances: [flow, Flow::Dry].map(|flow| tolerance_of(scene, flow, &scaling)),
             shear_rate: scene.lubricant.as_ref().map_or(0.0, |oil| {
-                oil.viscosity_pa_s / (door.p_hertz_pa * door.film_m)
+                oil.viscosity_pa_s / (scaling.p_hertz_pa * scaling.film_m)
             }),
-            law: traction_law(scene, &door),
+            law: traction_law(scene, &scaling),
             grounds: grounds_of(scene),
             stepping: stepping_of(scene),
             cuts: cuts(scene),
             rms_shares: scene.surfaces().map(rms_share),
-            hardness: hardness.map_or(f64::INFINITY, |pa| door.p_from_pa(pa)),
+            hardness: hardness.map_or(f64::INFINITY, |pa| scaling.p_from_pa(pa)),
             decided,
-            door,
+            scaling,
         }
     }
 
@@ -78,7 +78,7 @@ impl SimPlan {
             nodes,
             domain.x_min_a,
             domain.x_max_a,
-            domain.y_half_b * self.door.b_over_a,
+            domain.y_half_b * self.scaling.b_over_a,
             self.decided.symmetry,
         )
     }
@@ -127,8 +127,8 @@ impl SimPlan {
         (share * length / self.usual_step(nodes)).ceil() as u64
     }
 
-    /// Way of both bodies, in a, in the smooth part of the start-up.
-    pub(super) fn smooth_way(&self) -> f64 {
+    /// Distance of both bodies, in a, in the smooth part of the start-up.
+    pub(super) fn smooth_distance(&self) -> f64 {
         let flows = self.decided.has_flow();
         self.climb()
             .map(|nodes| {
@@ -179,14 +179,14 @@ impl SimPlan {
     }
 }
 
-fn shape_of(plan: &Plan, door: &Door) -> Shape {
+fn shape_of(plan: &Plan, scaling: &Scaling) -> Shape {
     Shape {
-        kappa: door.kappa,
-        curvature_y: door.curvature_y,
-        b_over_a: door.b_over_a,
+        kappa: scaling.kappa,
+        curvature_y: scaling.curvature_y,
+        b_over_a: scaling.b_over_a,
         kappa_s: plan
             .traction_deflection
-            .map_or(0.0, |t| door.kappa_s(t.mismatch_per_pa)),
+            .map_or(0.0, |t| scaling.kappa_s(t.mismatch_per_pa)),
         order: plan.order,
     }
 }
@@ -207,12 +207,12 @@ fn flow_of(scene: &Scene) -> Flow {
     })
 }
 
-/// Film, m, below which oil is no continuum: errors are judged against this film, not a thinner one.
+/// Film, m, below which oil is no continuum: errors are taken relative to this film, not a thinner one.
 const LEAST_FILM_M: f64 = 1e-9;
 
-fn tolerance_of(scene: &Scene, flow: Flow, door: &Door) -> Tolerance {
+fn tolerance_of(scene: &Scene, flow: Flow, scaling: &Scaling) -> Tolerance {
     let asked = scene.numerics.tolerance;
-    // A dry contact has no mass to balance; pressure and gap are judged by a tighter tolerance, which costs one
+    // A dry contact has no mass to balance; pressure and gap are held to a tighter tolerance, which costs one
     // iteration and leaves less than a picometre of overlap.
     let by_flow = |wet: f64, dry: f64| if flow == Flow::Dry { dry } else { wet };
     Tolerance {
@@ -222,7 +222,7 @@ fn tolerance_of(scene: &Scene, flow: Flow, door: &Door) -> Tolerance {
         // (`tests/engine/converged_step.rs`), lives of a passage the same to five digits from 1e-2 to 1e-4 (accuracy study).
         film: by_flow(10.0 * asked, 1e-3 * asked),
         mass: by_flow(0.1 * asked, f64::INFINITY),
-        least_film: door.h_from_m(LEAST_FILM_M),
+        least_film: scaling.h_from_m(LEAST_FILM_M),
         load: 1e-5,
         max_iterations: scene.numerics.max_iterations,
     }
@@ -267,22 +267,22 @@ fn rms_share(surface: &Surface) -> f64 {
     }
 }
 
-fn traction_law(scene: &Scene, door: &Door) -> TractionLaw {
+fn traction_law(scene: &Scene, scaling: &Scaling) -> TractionLaw {
     let film = scene.lubricant.as_ref().map(|oil| FilmShear {
         rate: 0.0,
         eyring: (oil.rheology == crate::scene::Rheology::Eyring)
-            .then_some(oil.eyring_stress_pa / door.p_hertz_pa),
+            .then_some(oil.eyring_stress_pa / scaling.p_hertz_pa),
         limit: oil.limiting_shear_ratio,
-        steepness: match door.medium(1.0, 0.0).sheared {
+        steepness: match scaling.medium(1.0, 0.0).sheared {
             ShearedFlow::AlongAcross { steepness, .. } => steepness,
             ShearedFlow::Secant => 0.0,
         },
     });
     TractionLaw {
         film,
-        viscosity: door.medium(1.0, 0.0).viscosity,
+        viscosity: scaling.medium(1.0, 0.0).viscosity,
         boundary: scene.friction.boundary,
-        contact_film: door.h_from_m(scene.friction.contact_film_m),
+        contact_film: scaling.h_from_m(scene.friction.contact_film_m),
         direction: 0.0,
     }
 }

@@ -104,7 +104,7 @@ impl Simulation {
             }
             Phase::Develop { left: 0 } => {
                 self.state.phase = Phase::Passage;
-                (self.state.time_s, self.state.way) = (0.0, 0.0);
+                (self.state.time_s, self.state.distance) = (0.0, 0.0);
                 self.state.motion.launch();
                 self.forget_passage();
                 self.passage_step()
@@ -127,14 +127,14 @@ impl Simulation {
         if let Some(life) = &mut self.state.life {
             life.restart(window);
         }
-        self.state.next_volume = self.state.way;
+        self.state.next_volume = self.state.distance;
         if let Some(counting) = &mut self.state.counting {
             counting.restart(self.state.watched);
         }
     }
 
     /// What a step of the passage leaves to be averaged: while a knob walks, and until what entered meanwhile has
-    /// left the contact, nothing. What was seen of it so far is shown as on its way, and forgotten here.
+    /// left the contact, nothing. What was seen of it so far is shown as under way, and forgotten here.
     fn count_from_here(&mut self, walked: bool, was_flushed: bool) {
         if self.state.phase != Phase::Passage {
             return;
@@ -149,25 +149,26 @@ impl Simulation {
 
     fn passage_step(&mut self) -> Result<(), StepError> {
         self.step_smooth()?;
-        let before = self.state.way;
+        let before = self.state.distance;
         // Where a body yields at rest, what enters is flattened anew.
         let held = matches!(
             self.plan.decided.time_dependence,
             TimeDependence::Steady { .. }
         ) && self.state.motion.is_flushed()
-            && self.plan.door.p_from_pa(self.state.metrics.p_max_pa)
+            && self.plan.scaling.p_from_pa(self.state.metrics.p_max_pa)
                 < self.plan.hardness * (1.0 - 1e-9);
         if held {
             let speed = self.state.drive.get(Knob::EntrainmentMS).now;
             self.state.time_s +=
-                self.plan.stepping.usual() * self.work.solver.grid.dx * self.plan.door.a_m / speed;
+                self.plan.stepping.usual() * self.work.solver.grid.dx * self.plan.scaling.a_m
+                    / speed;
             let held = Attempted::held(&self.state.metrics, self.plan.stepping.usual());
             // The contact rests, the bodies do not: material points cross it.
             let s = self.state.drive.get(Knob::SlideRoll).now;
             let grid = &self.work.solver.grid;
             self.state.motion.travel(grid, held.nodes, s);
             self.watch(&held);
-            self.state.way += held.nodes * self.work.solver.grid.dx;
+            self.state.distance += held.nodes * self.work.solver.grid.dx;
         } else {
             self.advance()?;
         }
@@ -175,7 +176,7 @@ impl Simulation {
         self.look_for_orbit(before);
         self.state
             .totals
-            .push(&self.state.metrics, self.state.way, self.averaged());
+            .push(&self.state.metrics, self.state.distance, self.averaged());
         Ok(())
     }
 
@@ -194,7 +195,7 @@ impl Simulation {
             Mover {
                 state: &mut self.state.contact,
                 solver: &mut self.work.solver,
-                terrain: &mut self.work.terrain,
+                roughness: &mut self.work.roughness,
                 drive: &mut self.state.drive,
                 motion: &mut self.state.motion,
                 plan: &self.plan,
@@ -212,7 +213,7 @@ impl Simulation {
         self.count_from_here(walked, was_flushed);
         self.watch(&attempted);
         let dx = self.work.solver.grid.dx;
-        self.state.way += attempted.nodes * dx;
+        self.state.distance += attempted.nodes * dx;
         self.state
             .pace
             .learn(stepping, attempted.path_error, attempted.nodes);
@@ -249,7 +250,7 @@ impl Simulation {
         )
     }
 
-    /// Way over which the summary averages, in a.
+    /// Distance over which the summary averages, in a.
     fn averaged(&self) -> f64 {
         self.state.orbit.window(self.plan.decided.passage_a)
     }
@@ -269,15 +270,15 @@ impl Simulation {
         {
             return Err(refuse(key.allowed()));
         }
-        if knob.is_load() && knob != self.plan.door.load_knob() {
+        if knob.is_load() && knob != self.plan.scaling.load_knob() {
             return Err(refuse(format!(
                 "{} in this kind of contact",
-                self.plan.door.load_knob().key()
+                self.plan.scaling.load_knob().key()
             )));
         }
         let mut value = value;
         if knob == Knob::EntrainmentMS {
-            value *= self.plan.door.heading.sign();
+            value *= self.plan.scaling.heading.sign();
             if value < 0.0 {
                 return Err(refuse(
                     "a speed of the sign that the run began with: to turn the flow round is another run"
@@ -286,7 +287,7 @@ impl Simulation {
             }
         }
         let most = self.plan.decided.most_force_n();
-        if knob == self.plan.door.load_knob() && value > most * (1.0 + 1e-9) {
+        if knob == self.plan.scaling.load_knob() && value > most * (1.0 + 1e-9) {
             if self.plan.decided.carried_force_n() <= most {
                 return Err(refuse(format!(
                     "at most {most:.4e}, which makes a Hertz pressure of twice the hardness of the softer body: with more it gives way as a whole and not by its asperities"
@@ -298,13 +299,13 @@ impl Simulation {
         }
         if knob
             .body()
-            .is_some_and(|body| !self.work.terrain.is_rough(body))
+            .is_some_and(|body| !self.work.roughness.is_rough(body))
         {
             return Err(refuse(
                 "this body is smooth: give it a surface in the scene".to_owned(),
             ));
         }
-        self.state.wanted.aim(knob, value);
+        self.state.targets.aim(knob, value);
         if !matches!(self.state.phase, Phase::Smooth { .. }) {
             self.state.drive.aim(knob, value);
             self.state.motion.disturb(DEVELOP);
@@ -328,7 +329,7 @@ impl Simulation {
         let steps = self.plan.decided.steps as f64;
         let passed = match self.plan.stepping {
             Stepping::Fixed(_) => self.state.step as f64,
-            Stepping::Adaptive { .. } => steps * self.state.way / self.plan.decided.length_a,
+            Stepping::Adaptive { .. } => steps * self.state.distance / self.plan.decided.length_a,
         };
         ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
     }
@@ -364,7 +365,7 @@ impl Simulation {
         );
         let enough = match self.plan.stepping {
             Stepping::Adaptive { .. } if !steady => {
-                self.state.way >= self.plan.decided.length_a * (1.0 - 1e-9)
+                self.state.distance >= self.plan.decided.length_a * (1.0 - 1e-9)
             }
             _ => self.state.step >= self.plan.decided.steps,
         };
@@ -382,7 +383,7 @@ impl Simulation {
     }
 
     fn contact_film_m(&self) -> f64 {
-        self.plan.door.m_from_h(self.plan.law.contact_film)
+        self.plan.scaling.m_from_h(self.plan.law.contact_film)
     }
 
     /// Writes the last step's fields and scalars into `frame`.

@@ -4,7 +4,7 @@
 //! knobs' targets ≠ load, speed of the reference  ──>  Hertz there, on 65²  ──>  steady  ──>  next grid  ──> ... ──>
 //! its integrals are the reference of now; one step of it a step of the run
 //! ```
-//! It is the start-up's own way to the reference (`start_up.rs`), at the load and speed that the knobs go to: what a run
+//! It is the start-up's own path to the reference (`start_up.rs`), at the load and speed that the knobs go to: what a run
 //! that begins there has, on this run's grid. A run whose load and speed stay as they are makes none of these steps. Until
 //! it is done the last reference grows as Hertz contacts do (`reference.rs`), which is 0.7 % of the integral off between
 //! 800 and 2376 N of the default scene, but 4 % for five times its speed, whose film is no small part of the contact any
@@ -24,7 +24,7 @@ pub(super) struct LoadAndSpeed {
     pub(super) speed_m_s: f64,
 }
 
-/// A smooth contact on its way to rest: state.
+/// A smooth contact on its way to the steady state: what is saved.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Smooth {
     /// Nodes per side of its grid.

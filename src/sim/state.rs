@@ -37,15 +37,17 @@ pub(super) enum Phase {
     Passage,
 }
 
-/// State of a simulation; opaque, made by [`super::Simulation::save`].
+/// State of a simulation; opaque, made by [`super::Simulation::save`]. `serde(rename)` here and in what it holds: the names
+/// that files have.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct State {
     /// Nodes per side of the grid that the contact is on: the start-up climbs through several.
     pub(super) nodes: usize,
     pub(super) contact: march::ContactState,
     pub(super) drive: Drive,
-    /// The knobs as they were asked for; in the smooth start-up the drive does not follow yet.
-    pub(super) wanted: Drive,
+    /// The knobs as they were set; in the smooth start-up the drive does not follow yet.
+    #[serde(rename = "wanted")]
+    pub(super) targets: Drive,
     pub(super) motion: Travel,
     /// What both bodies have yielded; `None`: they are elastic.
     pub(super) yielded: Option<Yielded>,
@@ -53,7 +55,7 @@ pub struct State {
     pub(super) watched: [f64; 2],
     pub(super) counting: Option<Counting>,
     pub(super) life: Option<LifeStage>,
-    /// On its way to the reference of now; `None`: that is known.
+    /// Under way to the reference of now; `None`: that is known.
     pub(super) smooth: Option<Smooth>,
     pub(super) phase: Phase,
     pub(super) metrics: Metrics,
@@ -64,9 +66,10 @@ pub struct State {
     pub(super) mesh_errors: Option<MeshErrors>,
     pub(super) orbit: Orbit,
     pub(super) pace: Pace,
-    /// Way at U since the start-up, in a.
-    pub(super) way: f64,
-    /// Way at which the next volume integral is due, in a.
+    /// Distance at U since the start-up, in a.
+    #[serde(rename = "way")]
+    pub(super) distance: f64,
+    /// Distance at which the next volume integral is due, in a.
     pub(super) next_volume: f64,
     pub(super) step: u64,
     pub(super) time_s: f64,
@@ -85,25 +88,25 @@ impl State {
         let stress = work.stress.as_ref();
         let life = stress.and_then(|stress| LifeStage::new(scene, decided, stress));
         let counting = stress.map(|stress| {
-            let heading = plan.door.heading;
+            let heading = plan.scaling.heading;
             let mut spec = counting_spec(scene, decided, heading, stress.depth_count());
             spec.laws = life.as_ref().map(|life| life.laws.clone());
             Counting::new(&fine, stress.depths(), &spec)
         });
-        let wanted = Drive::new(|knob| {
+        let targets = Drive::new(|knob| {
             let value = match knob {
                 Knob::EntrainmentMS => knob.of(scene).abs(),
                 _ => knob.of(scene),
             };
             (value, knob.line().ramp.rate(value))
         });
-        let repeats = [0, 1].map(|body: usize| work.terrain.repeat(body));
+        let repeats = [0, 1].map(|body: usize| work.roughness.repeat(body));
         let yields = plan.hardness.is_finite();
         Self {
             nodes,
             contact,
-            drive: wanted.smooth(),
-            wanted,
+            drive: targets.smooth(),
+            targets,
             motion: Travel::new(),
             yielded: yields.then(|| Yielded::new(&fine, scene.softer(), repeats)),
             watched: [0.0; 2],
@@ -119,7 +122,7 @@ impl State {
             mesh_errors: None,
             orbit: Orbit::new(fine.len(), decided.passage_a),
             pace: Pace::new(plan.stepping),
-            way: 0.0,
+            distance: 0.0,
             next_volume: 0.0,
             step: 0,
             time_s: 0.0,

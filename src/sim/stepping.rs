@@ -9,13 +9,13 @@
 //! ```
 //! Each rung is counted in [`super::Stats`] and shown by `tests/engine/ladder.rs`.
 
-use super::door::Door;
 use super::drive::Drive;
 use super::frame::Metrics;
 use super::motion::Travel;
-use super::pace::{Judgement, Stepping};
+use super::pace::{StepTest, Stepping};
+use super::roughness::Roughness;
+use super::scaling::Scaling;
 use super::sim_plan::SimPlan;
-use super::terrain::Terrain;
 use super::yielded::Yielded;
 use super::{StepError, Unsolved};
 use crate::scene::Knob;
@@ -57,7 +57,7 @@ pub(super) struct Attempted {
     pub(super) safer: u32,
     /// Converged solutions that were made again for their error in time.
     pub(super) rejected: u32,
-    /// Error in time over a crossing, by the formula; `None`: not judged.
+    /// Error in time over a crossing, by the formula; `None`: not estimated.
     pub(super) path_error: Option<f64>,
     /// Where a part that did not converge is worst, m.
     pub(super) worst: Option<(f64, f64)>,
@@ -129,14 +129,14 @@ impl Attempted {
 /// Both surfaces where the bodies now are, and the gap that they leave.
 pub(super) fn place_surfaces(
     solver: &mut Solver,
-    terrain: &mut Terrain,
-    door: &Door,
+    roughness: &mut Roughness,
+    scaling: &Scaling,
     (drive, motion): (&Drive, &Travel),
     yielded: Option<&Yielded>,
 ) {
     let grid = &solver.grid;
     // Roughness is made for the finest grid; on the coarser ones of the start-up there is none yet.
-    if terrain
+    if roughness
         .heights
         .iter()
         .any(|heights| !heights.is_empty() && heights.len() != grid.len())
@@ -144,27 +144,30 @@ pub(super) fn place_surfaces(
         solver.gap.copy_from_slice(&solver.macroscopic);
         return;
     }
-    let now = motion.ways().into_iter().zip(amplitudes(door, drive));
-    for (body, (way, amplitude)) in now.enumerate() {
-        terrain.place(grid, body, way, amplitude);
+    let now = motion
+        .of_bodies()
+        .into_iter()
+        .zip(amplitudes(scaling, drive));
+    for (body, (travel, amplitude)) in now.enumerate() {
+        roughness.place(grid, body, travel, amplitude);
         if let Some(yielded) = yielded {
-            let lowered = &mut terrain.heights[body];
-            yielded.lower(grid, body, (way, amplitude), lowered);
+            let lowered = &mut roughness.heights[body];
+            yielded.lower(grid, body, (travel, amplitude), lowered);
         }
     }
-    terrain.gap_into(&solver.macroscopic, &mut solver.gap);
+    roughness.gap_into(&solver.macroscopic, &mut solver.gap);
 }
 
 /// Amplitudes of both bodies as the knobs are, film units.
-fn amplitudes(door: &Door, drive: &Drive) -> [f64; 2] {
-    Knob::AMPLITUDES.map(|knob| door.h_from_m(drive.get(knob).now))
+fn amplitudes(scaling: &Scaling, drive: &Drive) -> [f64; 2] {
+    Knob::AMPLITUDES.map(|knob| scaling.h_from_m(drive.get(knob).now))
 }
 
 /// Everything that a step moves.
 pub(super) struct Mover<'a> {
     pub(super) state: &'a mut ContactState,
     pub(super) solver: &'a mut Solver,
-    pub(super) terrain: &'a mut Terrain,
+    pub(super) roughness: &'a mut Roughness,
     pub(super) drive: &'a mut Drive,
     pub(super) motion: &'a mut Travel,
     pub(super) plan: &'a SimPlan,
@@ -193,13 +196,13 @@ impl Mover<'_> {
                 Stepping::Fixed(_) => None,
                 Stepping::Adaptive { .. } => self.solver.path_error(self.state, nodes),
             };
-            match self.stepping.judge(error, nodes, done.rejected) {
-                Judgement::Good => {
+            match self.stepping.test_error(error, nodes, done.rejected) {
+                StepTest::Accepted => {
                     done.path_error = error;
                     self.commit(nodes, &report, &mut done);
                     return done;
                 }
-                Judgement::Again(smaller) => {
+                StepTest::Repeat(smaller) => {
                     done.rejected += 1;
                     (*self.drive, *self.motion) = before;
                     nodes = smaller;
@@ -290,8 +293,8 @@ impl Mover<'_> {
         let grid = &self.solver.grid;
         let (i, j) = (node % grid.nx, node / grid.nx);
         (
-            self.plan.door.place_m(grid.x(i)),
-            self.plan.door.m_from_x(grid.y(j)),
+            self.plan.scaling.place_m(grid.x(i)),
+            self.plan.scaling.m_from_x(grid.y(j)),
         )
     }
 
@@ -311,15 +314,20 @@ impl Mover<'_> {
             done.overlap = done.overlap.max(overlap);
         }
         self.solver.commit(self.state, nodes);
-        let amplitudes = amplitudes(&self.plan.door, self.drive);
+        let amplitudes = amplitudes(&self.plan.scaling, self.drive);
         if let (Some(yielded), Some(depth)) = (&mut self.yielded, self.solver.yielded())
-            && yielded.take(&self.solver.grid, depth, self.motion.ways(), amplitudes)
+            && yielded.take(
+                &self.solver.grid,
+                depth,
+                self.motion.of_bodies(),
+                amplitudes,
+            )
         {
             // The surfaces are seen as the step leaves them.
             self.place_surfaces();
         }
         done.nodes += nodes;
-        done.dt_s += nodes * self.solver.grid.dx * self.plan.door.a_m
+        done.dt_s += nodes * self.solver.grid.dx * self.plan.scaling.a_m
             / self.drive.get(Knob::EntrainmentMS).now;
     }
 
@@ -335,8 +343,8 @@ impl Mover<'_> {
     fn place_surfaces(&mut self) {
         place_surfaces(
             self.solver,
-            self.terrain,
-            &self.plan.door,
+            self.roughness,
+            &self.plan.scaling,
             (self.drive, self.motion),
             self.yielded.as_deref(),
         );
@@ -356,15 +364,15 @@ impl Mover<'_> {
         let flow = self.plan.flow_now(self.drive);
         let (speed, slide_roll) = (value(Knob::EntrainmentMS), value(Knob::SlideRoll));
         let medium = match flow {
-            Flow::Dry => self.plan.door.medium_at_rest(),
-            Flow::Film | Flow::MassConserving => self.plan.door.medium(speed, slide_roll),
+            Flow::Dry => self.plan.scaling.medium_at_rest(),
+            Flow::Film | Flow::MassConserving => self.plan.scaling.medium(speed, slide_roll),
         };
         // Of the knobs as this step has moved them.
         let law = self.plan.law_now(self.drive);
         let conditions = Conditions {
             medium: &medium,
             law: Some(&law),
-            load: self.plan.door.load(value(self.plan.door.load_knob())),
+            load: self.plan.scaling.load(value(self.plan.scaling.load_knob())),
             tolerance: self.plan.tolerance(flow),
         };
         self.solver.flow = flow;

@@ -203,7 +203,7 @@ pub struct Summary {
 pub struct PitStart {
     /// Depth, m.
     pub depth_m: f64,
-    /// Way along the surface from a crest of the body, m.
+    /// Distance along the surface from a crest of the body, m.
     pub place_m: f64,
     /// Damage of a crossing over that of the worst point of the smooth contact.
     pub damage: f64,

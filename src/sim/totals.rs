@@ -11,8 +11,9 @@ use super::{CATALOGUE, Grounds, Metrics, Over, Summary};
 /// One step.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Entry {
-    /// Way at its end, in a.
-    way: f64,
+    /// Distance at its end, in a.
+    #[serde(rename = "way")]
+    distance: f64,
     /// Its length, in a.
     span: f64,
     /// What the catalogue sums up, in its order.
@@ -43,7 +44,8 @@ fn padded<'de, D: Deserializer<'de>>(saved: D) -> Result<[Option<f64>; SUMMED], 
 pub(super) struct Totals {
     recent: VecDeque<Entry>,
     window: f64,
-    way: f64,
+    #[serde(rename = "way")]
+    distance: f64,
     not_converged: u64,
 }
 
@@ -59,12 +61,12 @@ impl Totals {
         self.recent.clear();
     }
 
-    /// Takes a step that ended at `way` (in a); keeps what the last `window` (in a) touches.
-    pub(super) fn push(&mut self, m: &Metrics, way: f64, window: f64) {
-        let span = way - self.way;
-        (self.way, self.window) = (way, window);
+    /// Takes a step that ended at `distance` (in a); keeps what the last `window` (in a) touches.
+    pub(super) fn push(&mut self, m: &Metrics, distance: f64, window: f64) {
+        let span = distance - self.distance;
+        (self.distance, self.window) = (distance, window);
         while let Some(first) = self.recent.front()
-            && first.way <= (way - window) * (1.0 + 1e-12)
+            && first.distance <= (distance - window) * (1.0 + 1e-12)
         {
             self.recent.pop_front();
         }
@@ -81,7 +83,7 @@ impl Totals {
             *value = quantity.read_metrics(m).number();
         }
         self.recent.push_back(Entry {
-            way,
+            distance,
             span,
             values,
             stress,
@@ -108,9 +110,9 @@ impl Totals {
 
     /// Mean by length; of the first step only what lies within the window.
     fn mean(&self, place: usize) -> Option<f64> {
-        let start = self.way - self.window;
+        let start = self.distance - self.window;
         let known = self.recent.iter().filter_map(|entry| {
-            let weight = entry.span.min((entry.way - start).max(0.0));
+            let weight = entry.span.min((entry.distance - start).max(0.0));
             Some((weight, entry.values[place]?))
         });
         let sum: f64 = known.clone().map(|(weight, value)| weight * value).sum();

@@ -1,4 +1,4 @@
-//! One life model under way: its mean over the phases, its greatest over the track, its reference.
+//! One life model as it runs: its mean over the phases, its greatest over the track, its reference.
 
 use serde::{Deserialize, Serialize};
 
@@ -124,9 +124,9 @@ impl Variant {
     }
 
     /// Takes the surface loaded last; the volume pass has been made.
-    pub(super) fn push(&mut self, way: f64, stress: &mut StressStage, shared: &mut Shared) {
+    pub(super) fn push(&mut self, distance: f64, stress: &mut StressStage, shared: &mut Shared) {
         self.take(stress, shared);
-        self.meter.push(way, &shared.scratch);
+        self.meter.push(distance, &shared.scratch);
     }
 
     /// What has been swept, as the mean over the material points of `counting`.

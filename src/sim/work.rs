@@ -9,9 +9,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::SimError;
 use super::measure::RowSums;
+use super::roughness::Roughness;
 use super::sim_plan::SimPlan;
 use super::stress_stage::StressStage;
-use super::terrain::Terrain;
 use crate::math::grid::Grid;
 use crate::scene::Surface;
 use crate::solve::march::Solver;
@@ -21,7 +21,7 @@ use crate::solve::stress::Purpose;
 pub(super) struct Work {
     pub(super) pool: Arc<ThreadPool>,
     pub(super) solver: Solver,
-    pub(super) terrain: Terrain,
+    pub(super) roughness: Roughness,
     pub(super) stress: Option<StressStage>,
     pub(super) traction: Vec<f64>,
     pub(super) row_sums: Vec<RowSums>,
@@ -43,7 +43,7 @@ impl Work {
         let stress = pool.install(|| stress_stage(plan, &fine))?;
         Ok(Self {
             solver: pool.install(|| plan.solver(nodes)),
-            terrain: terrain(plan, &fine),
+            roughness: roughness(plan, &fine),
             stress,
             traction: vec![0.0; fine.len()],
             row_sums: vec![RowSums::default(); fine.ny],
@@ -71,16 +71,16 @@ impl Work {
 /// Solver of the smooth contact beside a run.
 pub(super) struct SmoothWork {
     pub(super) solver: Solver,
-    pub(super) terrain: Terrain,
+    pub(super) roughness: Roughness,
 }
 
 impl SmoothWork {
     fn new(plan: &SimPlan, nodes: usize) -> Self {
         let smooth = Surface::Smooth {};
-        let (grid, door) = (plan.grid(nodes), &plan.door);
+        let (grid, scaling) = (plan.grid(nodes), &plan.scaling);
         Self {
             solver: plan.solver(nodes),
-            terrain: Terrain::new(&grid, [&smooth, &smooth], door.a_m, door.heading),
+            roughness: Roughness::new(&grid, [&smooth, &smooth], scaling.a_m, scaling.heading),
         }
     }
 }
@@ -102,15 +102,15 @@ pub(super) fn thread_pool(threads: usize) -> Result<Arc<ThreadPool>, SimError> {
 }
 
 /// Both surfaces, with room for what flows of those that yield.
-fn terrain(plan: &SimPlan, grid: &Grid) -> Terrain {
-    let (scene, door) = (&plan.scene, &plan.door);
-    let mut terrain = Terrain::new(grid, scene.surfaces(), door.a_m, door.heading);
+fn roughness(plan: &SimPlan, grid: &Grid) -> Roughness {
+    let (scene, scaling) = (&plan.scene, &plan.scaling);
+    let mut roughness = Roughness::new(grid, scene.surfaces(), scaling.a_m, scaling.heading);
     if plan.hardness.is_finite() {
         for body in [0, 1].into_iter().filter(|&body| scene.softer()[body]) {
-            terrain.make_heights(grid, body);
+            roughness.make_heights(grid, body);
         }
     }
-    terrain
+    roughness
 }
 
 fn stress_stage(plan: &SimPlan, grid: &Grid) -> Result<Option<StressStage>, SimError> {
@@ -118,7 +118,7 @@ fn stress_stage(plan: &SimPlan, grid: &Grid) -> Result<Option<StressStage>, SimE
     let Some((asked, planned)) = scene.stress.as_ref().zip(plan.decided.stress.as_ref()) else {
         return Ok(None);
     };
-    let depths = (planned.depths, planned.depth_max_m / plan.door.a_m);
+    let depths = (planned.depths, planned.depth_max_m / plan.scaling.a_m);
     let poisson = [scene.body_1.poisson, scene.body_2.poisson];
     let purpose = if scene.life.is_some() {
         Purpose::Volumes

@@ -1,7 +1,7 @@
-//! What has flowed for good: the depth that each body's surface has given way by, material-fixed.
+//! What has flowed for good: the depth that each body's surface has yielded by, material-fixed.
 //!
 //! ```text
-//! z_i(x, t) = relief − w_i(x − X_i(t), y)        X_i: way of body i;  w_i ≥ 0 in columns of its own material
+//! z_i(x, t) = relief − w_i(x − X_i(t), y)        X_i: distance travelled by body i;  w_i ≥ 0 in columns of its own material
 //! after a step   w_i += share_i w                the step's w (`solve/yielding.rs`) at the places of the columns
 //! share          the softer body's 1; bodies of one hardness 1/2 each
 //! ```
@@ -17,12 +17,12 @@
 //! *Amplitudes that are turned.* w belongs to the amplitude A_w at which it flowed. Below it the whole surface is scaled as
 //! it has become, w by A/A_w: a ripple that is turned away takes its flattened crests along and leaves no dents behind.
 //! Above it w stays, the crests are higher by what the relief has gained, and flow on by themselves. Where nothing flows
-//! meanwhile the way back finds the same surface. A smooth body, whose dents are the other's doing, has no amplitude and
+//! meanwhile the return finds the same surface. A smooth body, whose dents are the other's doing, has no amplitude and
 //! keeps them. The volume that is told has flowed, whatever became of the amplitude since.
 
 use serde::{Deserialize, Serialize};
 
-use super::motion::Way;
+use super::motion::BodyTravel;
 use crate::math::grid::Grid;
 use crate::physics::height_map::HeightMap;
 
@@ -49,8 +49,9 @@ struct Skin {
     share: f64,
     /// What has flowed since the start, ∬ w.
     volume: f64,
-    /// Way of the body when it was looked at last.
-    way: f64,
+    /// Distance that the body had travelled when it was looked at last.
+    #[serde(rename = "way")]
+    distance: f64,
     /// A_w, film units; 0: the body is smooth, or nothing has flowed.
     amplitude: f64,
 }
@@ -86,13 +87,13 @@ impl Yielded {
         &self,
         grid: &Grid,
         body: usize,
-        (way, amplitude): (Way, f64),
+        (travel, amplitude): (BodyTravel, f64),
         heights: &mut [f64],
     ) {
         if let Some(skin) = &self.skins[body]
             && skin.volume > 0.0
         {
-            skin.lower(grid, way.travelled, skin.scale(amplitude), heights);
+            skin.lower(grid, travel.travelled, skin.scale(amplitude), heights);
         }
     }
 
@@ -102,13 +103,13 @@ impl Yielded {
         &mut self,
         grid: &Grid,
         yielded: &[f64],
-        ways: [Way; 2],
+        travels: [BodyTravel; 2],
         amplitudes: [f64; 2],
     ) -> bool {
         let volume = grid.integrate(|n| yielded[n]);
-        for ((skin, way), amplitude) in self.skins.iter_mut().zip(ways).zip(amplitudes) {
+        for ((skin, travel), amplitude) in self.skins.iter_mut().zip(travels).zip(amplitudes) {
             let Some(skin) = skin else { continue };
-            skin.renew(grid, way.travelled);
+            skin.renew(grid, travel.travelled);
             if volume > 0.0 {
                 skin.volume += skin.share * volume;
                 skin.belong_to(amplitude);
@@ -141,7 +142,7 @@ impl Skin {
             depth: vec![0.0; grid.ny * columns],
             share,
             volume: 0.0,
-            way: 0.0,
+            distance: 0.0,
             amplitude: 0.0,
         }
     }
@@ -172,7 +173,7 @@ impl Skin {
             depth,
             share,
             volume,
-            way: _,
+            distance: _,
             amplitude,
         } = saved;
         (*length, *returns, *columns, *share)
@@ -196,10 +197,10 @@ impl Skin {
         ([0, 1, 2, 3].map(wrapped), weights)
     }
 
-    fn lower(&self, grid: &Grid, way: f64, scale: f64, heights: &mut [f64]) {
+    fn lower(&self, grid: &Grid, distance: f64, scale: f64, heights: &mut [f64]) {
         let n = self.columns;
         for i in 0..grid.nx {
-            let (columns, weights) = self.around(grid.x(i) - way);
+            let (columns, weights) = self.around(grid.x(i) - distance);
             for (j, row) in heights.chunks_exact_mut(grid.nx).enumerate() {
                 let depth = &self.depth[j * n..(j + 1) * n];
                 let pairs = columns.iter().zip(weights);
@@ -209,17 +210,18 @@ impl Skin {
         }
     }
 
-    /// The body has come to `way`: what has left the domain is forgotten where it does not come back.
-    fn renew(&mut self, grid: &Grid, way: f64) {
+    /// The body has come to `distance`: what has left the domain is forgotten where it does not come back.
+    fn renew(&mut self, grid: &Grid, distance: f64) {
         let n = self.columns;
-        let (before, spacing) = (self.way, self.spacing());
-        self.way = way;
+        let (before, spacing) = (self.distance, self.spacing());
+        self.distance = distance;
         if self.returns {
             return;
         }
-        let round =
-            |c: usize, way: f64| ((c as f64 * spacing + way - grid.x_min) / self.length).floor();
-        for c in (0..n).filter(|&c| round(c, way) != round(c, before)) {
+        let round = |c: usize, distance: f64| {
+            ((c as f64 * spacing + distance - grid.x_min) / self.length).floor()
+        };
+        for c in (0..n).filter(|&c| round(c, distance) != round(c, before)) {
             self.depth
                 .iter_mut()
                 .skip(c)
@@ -233,7 +235,7 @@ impl Skin {
         let (n, nx) = (self.columns, grid.nx);
         let middle = 0.5 * (nx - 1) as f64;
         for c in 0..n {
-            let place = c as f64 * self.spacing() + self.way - grid.x_min;
+            let place = c as f64 * self.spacing() + self.distance - grid.x_min;
             let node = place.rem_euclid(self.length) / grid.dx;
             let (first, weights) = HeightMap::stencil(node - middle, nx);
             let Some(first) = usize::try_from(first).ok().filter(|first| first + 4 <= nx) else {
@@ -253,8 +255,8 @@ mod tests {
     use super::*;
     use crate::math::grid::Symmetry;
 
-    fn way(travelled: f64) -> Way {
-        Way {
+    fn travel(travelled: f64) -> BodyTravel {
+        BodyTravel {
             travelled,
             in_passage: None,
         }
@@ -274,11 +276,11 @@ mod tests {
         let grid = Grid::new(65, -3.0, 2.0, 2.0, Symmetry::MirrorY);
         for (repeats, back) in [(Some(0.7), true), (None, false)] {
             let mut yielded = Yielded::new(&grid, [true, false], [repeats; 2]);
-            yielded.take(&grid, &spot(&grid, -1.0), [way(0.33); 2], [0.0; 2]);
+            yielded.take(&grid, &spot(&grid, -1.0), [travel(0.33); 2], [0.0; 2]);
             let round = yielded.skins[0].as_ref().map_or(0.0, |skin| skin.length);
             let seen = |yielded: &Yielded, travelled: f64, x: f64| {
                 let mut heights = vec![0.0; grid.len()];
-                yielded.lower(&grid, 0, (way(travelled), 0.0), &mut heights);
+                yielded.lower(&grid, 0, (travel(travelled), 0.0), &mut heights);
                 let there = spot(&grid, x);
                 let off = heights.iter().zip(&there).map(|(z, w)| (z + w).abs());
                 off.fold(0.0, f64::max) / 1e-3
@@ -290,7 +292,7 @@ mod tests {
             let nothing = vec![0.0; grid.len()];
             for k in 1..=40 {
                 let travelled = 0.33 + round * f64::from(k) / 40.0;
-                yielded.take(&grid, &nothing, [way(travelled); 2], [0.0; 2]);
+                yielded.take(&grid, &nothing, [travel(travelled); 2], [0.0; 2]);
             }
             let off = seen(&yielded, 0.33 + round, -1.0);
             assert_eq!(off < 0.02, back, "{off}");
@@ -306,11 +308,11 @@ mod tests {
         let mut yielded = Yielded::new(&grid, [true, true], [Some(0.7); 2]);
         let deepest = |yielded: &Yielded, body: usize, amplitude: f64| {
             let mut heights = vec![0.0; grid.len()];
-            yielded.lower(&grid, body, (way(0.0), amplitude), &mut heights);
+            yielded.lower(&grid, body, (travel(0.0), amplitude), &mut heights);
             heights.into_iter().fold(0.0, f64::min)
         };
         // Body 2 is smooth.
-        let (spot, at_rest) = (spot(&grid, 0.0), [way(0.0); 2]);
+        let (spot, at_rest) = (spot(&grid, 0.0), [travel(0.0); 2]);
         yielded.take(&grid, &spot, at_rest, [2.0, 0.0]);
         let whole = deepest(&yielded, 0, 2.0);
         assert!(whole < 0.0);
@@ -319,7 +321,7 @@ mod tests {
             assert!(off.abs() < 1e-15, "{amplitude}");
             assert_eq!(deepest(&yielded, 1, 0.0), whole);
         }
-        // What flows at half the amplitude comes to what is left at that amplitude, and stays on the way up.
+        // What flows at half the amplitude comes to what is left at that amplitude, and stays as it rises.
         yielded.take(&grid, &spot, at_rest, [1.0, 0.0]);
         for amplitude in [1.0, 2.0] {
             let off = deepest(&yielded, 0, amplitude) - 1.5 * whole;

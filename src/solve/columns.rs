@@ -13,7 +13,7 @@
 //! Lagrange's cubic. A crossing reaches from ahead of the contact's middle to behind it, `|x| < reach`: nothing stands out
 //! further on (under Hertz 0.3 % of `s^m` at 0.8 of the half-width). A body that hardly moves finishes none: then every crest of the mate passes every point, and what two points of the same place in the body's own wave
 //! meet is the same: `s_X` is the greatest over all columns of that place (without a wave of its own, over all).
-//! What finished weighs by its way over the way that is wanted, the guess the rest. Memory is made once.
+//! What finished weighs by its distance over the distance that is needed, the guess by the remainder. Memory is made once.
 //!
 //! Source: Miner (1945), J. Appl. Mech. 12, A159-A164. Ours: the mean over points of the damage that each collects, over the damage at the swept bound; both
 //! integrals are of the same law, so what it leaves out cancels.
@@ -36,14 +36,14 @@ enum Followed {
     Done,
 }
 
-/// Columns of one body under way; lengths in a, stress in p_h.
+/// Columns of one body; lengths in a, stress in p_h.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Columns {
     nx: usize,
     depths: usize,
     x_first: f64,
     dx: f64,
-    /// Way of the body in nodes, past the last whole one.
+    /// Distance of the body in nodes, past the last whole one.
     part: f64,
     /// Whole nodes that the body has moved: column `j` stands in slot `(j − nodes) mod nx`.
     nodes: i64,
@@ -171,7 +171,7 @@ impl Columns {
         }
     }
 
-    /// Way of the body whose points have finished their crossing, a.
+    /// Distance of the body whose points have finished their crossing, a.
     pub fn finished(&self) -> f64 {
         self.finished as f64 * self.dx
     }
@@ -186,9 +186,9 @@ impl Columns {
     }
 
     /// ln r of every depth by the `law`-th law into `out`: over the finished crossings as far as they reach over
-    /// `wanted` (in a), over places in the body's own wave of length `own` (`None`: it has none) for the rest.
-    pub fn ln_ratios(&self, law: usize, (own, wanted): (Option<f64>, f64), out: &mut [f64]) {
-        let share = (self.finished as f64 * self.dx / wanted.max(self.dx)).min(1.0);
+    /// `needed` (in a), over places in the body's own wave of length `own` (`None`: it has none) for the remainder.
+    pub fn ln_ratios(&self, law: usize, (own, needed): (Option<f64>, f64), out: &mut [f64]) {
+        let share = (self.finished as f64 * self.dx / needed.max(self.dx)).min(1.0);
         for (k, ln) in out.iter_mut().enumerate().take(self.depths) {
             let top = self.laws[law].of(self.tops[k]);
             if top <= 0.0 {
@@ -269,12 +269,12 @@ mod tests {
         }
     }
 
-    fn run(speeds: [f64; 2], depth_of: [f64; 2], way: f64) -> Columns {
+    fn run(speeds: [f64; 2], depth_of: [f64; 2], distance: f64) -> Columns {
         let law = StressLaw::power(10.0);
         let mut columns = Columns::new((X_FIRST, DX), NX, 1, &[law]);
         let mut row = vec![0.0_f32; NX];
         let step = 0.01;
-        for n in 0..(way / step) as usize {
+        for n in 0..(distance / step) as usize {
             let travelled = speeds.map(|u| u * step * n as f64);
             field(travelled, depth_of, &mut row);
             let line = Line {

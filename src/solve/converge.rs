@@ -15,8 +15,8 @@
 //! step that shrank the residual by ρ is the geometric sum ρ/(1 − ρ) of the step; 3 is its safety against steps solved to
 //! 1e-6 (`tests/engine/converged_step.rs`).
 
-/// Part of a node's film that a step may leave unbalanced and hand on to the next one. Steps that leave
-/// more are not trusted with their own residual: a loose step that hands on all of it blows up near dry.
+/// Part of a node's film that a step may leave unbalanced as carry-over to the next one. Of steps that leave
+/// more, the excess is lost: a loose step whose whole residual is carried over blows up near dry.
 pub const CARRIED: f64 = 0.1;
 
 /// Least films that the bodies may overlap by at a node; small beside the film that the bodies are

@@ -1,4 +1,4 @@
-//! Cycles of one history under way, and the damage they do by Miner's rule.
+//! Cycles of one history as it runs, and the damage they do by Miner's rule.
 //!
 //! ```text
 //! D = Σ count · s^m         s: range of the cycle, or its peak (mean + range/2), in p_h
@@ -55,7 +55,6 @@ impl CycleCount {
 pub(super) struct CrossingHistory {
     flow: Rainflow,
     basis: DamageBasis,
-    // The name that saved states have.
     #[serde(rename = "tally")]
     pub(super) cycles: CycleCount,
     /// CycleCount of the last whole crossing.

@@ -21,7 +21,7 @@ pub struct BlockSpec {
     pub depths: usize,
     /// Length of the block, a.
     pub length: f64,
-    /// Place of ξ = 0 in the block, a: the way from a crest.
+    /// Place of ξ = 0 in the block, a: the distance from a crest.
     pub offset: f64,
 }
 
@@ -38,7 +38,7 @@ pub struct DamageMap {
 /// Where a pit starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pit {
-    /// Middle of the column, way from a crest (from the start of the track where the body is smooth), a.
+    /// Middle of the column, distance from a crest (from the start of the track where the body is smooth), a.
     pub place: f64,
     /// Index of the depth.
     pub depth: usize,

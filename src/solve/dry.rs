@@ -19,7 +19,7 @@
 //! contact set, pressures below zero cut off, overlapping nodes let in, the search begun anew when the
 //! set changes. What is added is the preconditioner: without it the iterations grow as √N, because the
 //! condition of K on the set grows as N; with it they hardly do. It costs a quarter of a padded pair.
-//! An overlap where P = P_H is the depth by which the softer body gives way for good (`yielding.rs`, source there).
+//! An overlap where P = P_H is the depth by which the softer body yields for good (`yielding.rs`, source there).
 //! `K P` is carried along (`K P − τ K t`, single precision for `K t`, whose error shrinks with the step)
 //! and made anew in double precision before the result is believed.
 //!
@@ -130,7 +130,7 @@ impl Dry {
         self.refresh(elastic, iterate.p, &mut report);
         let (mut directions, mut since, mut fresh_search) = (0, 0, true);
         loop {
-            fresh_search |= self.judge(problem, iterate);
+            fresh_search |= self.update_contact_set(problem, iterate);
             self.precondition(grid);
             self.turn_from_bounds(grid, iterate.p);
             report.change = self.size_of_step(grid) / problem.load;
@@ -229,7 +229,7 @@ impl Dry {
     }
 
     /// H0, contact set and residual; whether the set has changed.
-    fn judge(&mut self, problem: &DryProblem, iterate: &mut Iterate) -> bool {
+    fn update_contact_set(&mut self, problem: &DryProblem, iterate: &mut Iterate) -> bool {
         let grid = problem.grid;
         let hardness = self.hardness;
         // H0 from the loaded nodes, then again with those that overlap.

@@ -1,7 +1,7 @@
 //! Fluidity of the nodes: what sheared oil grants the pressure's flow, along the sliding and across it.
 //!
 //! ```text
-//! secant         g = (1/η̄) ζ/asinh ζ                                  both ways
+//! secant         g = (1/η̄) ζ/asinh ζ                                  along and across
 //! along, across  g_x = cosh σ/η̄,   g_y = sinh σ/(σ η̄),   σ = min(asinh ζ, ℓP)
 //! steep          τ ← τ Φ(ε, r²) at faces along x,   ε = G H (P_b − P_a)/ΔX,   r² = 1/cosh²σ    means of both nodes
 //! ζ = Z η̄/H,     ∂ ln g/∂P = f' ∂σ/∂P − ∂ ln η̄/∂P,   ∂ ln g/∂H = f' ∂σ/∂H
@@ -76,7 +76,7 @@ struct FluidityRun<'a> {
     ln_g_h: &'a mut [f64],
 }
 
-/// Way of a pressure flow.
+/// Direction of a pressure flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FlowDirection {
     /// Between neighbours along x.
@@ -138,10 +138,10 @@ impl Fluidity {
         match (directed.filter(|_| slides), &mut self.across) {
             (None, _) => along.for_each(|(along, (p, h))| one_values(medium, p, h, along)),
             (Some((limit, _)), Some(across)) if two => {
-                let ways = along
+                let directions = along
                     .zip(self.steep.blocks(block))
                     .zip(across.blocks(block));
-                ways.for_each(|(((along, (p, h)), slid), across)| {
+                directions.for_each(|(((along, (p, h)), slid), across)| {
                     directed_values(medium, limit, p, h, along, slid, across);
                 });
             }
@@ -154,8 +154,8 @@ impl Fluidity {
         }
     }
 
-    fn of(&self, way: FlowDirection) -> &Fluidities {
-        match (way, &self.across) {
+    fn of(&self, direction: FlowDirection) -> &Fluidities {
+        match (direction, &self.across) {
             (FlowDirection::Across, Some(across)) if self.is_directed => across,
             _ => &self.along,
         }
@@ -164,11 +164,11 @@ impl Fluidity {
     /// What faces need of the nodes in `range`; `q` is ρ̄H³ of all nodes.
     pub(super) fn nodes<'a>(
         &'a self,
-        way: FlowDirection,
+        direction: FlowDirection,
         q: &'a [f64],
         range: std::ops::Range<usize>,
     ) -> Nodes<'a> {
-        let Fluidities { g, ln_g, .. } = self.of(way);
+        let Fluidities { g, ln_g, .. } = self.of(direction);
         Nodes {
             q: &q[range.clone()],
             g: &g[range.clone()],
@@ -191,11 +191,11 @@ impl Fluidity {
     /// What their derivatives need; `q_p` and `q_h` are those of ρ̄H³ of all nodes.
     pub(super) fn slopes<'a>(
         &'a self,
-        way: FlowDirection,
+        direction: FlowDirection,
         (q_p, q_h): (&'a [f64], &'a [f64]),
         range: std::ops::Range<usize>,
     ) -> Slopes<'a> {
-        let Fluidities { ln_g_p, ln_g_h, .. } = self.of(way);
+        let Fluidities { ln_g_p, ln_g_h, .. } = self.of(direction);
         Slopes {
             q_p: &q_p[range.clone()],
             q_h: &q_h[range.clone()],
@@ -282,7 +282,7 @@ fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: Fluidity
     let n = p.len();
     let (h, g, ln_g) = (&h[..n], &mut out.g[..n], &mut out.ln_g[..n]);
     let (ln_g_p, ln_g_h) = (&mut out.ln_g_p[..n], &mut out.ln_g_h[..n]);
-    let (rest, rest_p) = (&mut slid.rest[..n], &mut slid.rest_p[..n]);
+    let (sech2, sech2_p) = (&mut slid.sech2[..n], &mut slid.sech2_p[..n]);
     viscosities(medium.viscosity, p, ln_g, ln_g_p);
     for i in 0..n {
         let (ln_eta, slope) = (ln_g[i], ln_g_p[i]);
@@ -292,8 +292,8 @@ fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: Fluidity
         ln_g[i] = ln_factor - ln_eta;
         ln_g_p[i] = by_sigma * by_p - slope;
         ln_g_h[i] = by_sigma * by_h;
-        rest[i] = 1.0 / (factor * factor);
-        rest_p[i] = -2.0 * rest[i] * by_sigma * by_p;
+        sech2[i] = 1.0 / (factor * factor);
+        sech2_p[i] = -2.0 * sech2[i] * by_sigma * by_p;
     }
 }
 }
@@ -313,7 +313,7 @@ fn directed_values(
     let (h, x, y) = (&h[..n], along, across);
     let (x_g, x_ln, y_g, y_ln) = (&mut x.g[..n], &mut x.ln_g[..n], &mut y.g[..n], &mut y.ln_g[..n]);
     let (x_p, x_h, y_p, y_h) = (&mut x.ln_g_p[..n], &mut x.ln_g_h[..n], &mut y.ln_g_p[..n], &mut y.ln_g_h[..n]);
-    let (rest, rest_p) = (&mut slid.rest[..n], &mut slid.rest_p[..n]);
+    let (sech2, sech2_p) = (&mut slid.sech2[..n], &mut slid.sech2_p[..n]);
     viscosities(medium.viscosity, p, x_ln, x_p);
     for i in 0..n {
         let (ln_eta, slope) = (x_ln[i], x_p[i]);
@@ -324,8 +324,8 @@ fn directed_values(
         x_ln[i] = x_ln_factor - ln_eta;
         x_p[i] = x_slope * by_p - slope;
         x_h[i] = x_slope * by_h;
-        rest[i] = 1.0 / (x_factor * x_factor);
-        rest_p[i] = -2.0 * rest[i] * x_slope * by_p;
+        sech2[i] = 1.0 / (x_factor * x_factor);
+        sech2_p[i] = -2.0 * sech2[i] * x_slope * by_p;
         y_g[i] = y_factor * thin;
         y_ln[i] = y_ln_factor - ln_eta;
         y_p[i] = y_slope * by_p - slope;

@@ -207,7 +207,7 @@ impl History {
             });
     }
 
-    /// Error that steps of `nodes` nodes add to the film while oil crosses the contact, over the film, judged
+    /// Error that steps of `nodes` nodes add to the film while oil crosses the contact, over the film, estimated
     /// from the step that gave `mass` and `p`: the local errors summed with their signs along x, mean size over
     /// the nodes under pressure. `None` until three steps are known.
     ///

@@ -81,8 +81,8 @@ impl Jacobian {
         rows.filter(|(j, _)| interior.contains(j))
             .for_each(|(j, row)| {
                 let [here, south, north] = around(grid, held, j);
-                let (a_p, rest) = row.split_at_mut(size);
-                let (a_h, local) = rest.split_at_mut(size);
+                let (a_p, residual) = row.split_at_mut(size);
+                let (a_h, local) = residual.split_at_mut(size);
                 let mut turn = |line: usize, i: usize, is_held: bool| {
                     let n = line * nx + i;
                     if is_held {
@@ -121,9 +121,9 @@ impl Jacobian {
             });
     }
 
-    /// `out = (r − L v − e v) f`: what the local part with an extra diagonal `e` leaves of `r`, times `f`; zero in
+    /// `out = (r − L v − e v) f`: the residual of the local part with an extra diagonal `e`, times `f`; zero in
     /// the rows of parity `solved`, which the last sweep has solved.
-    pub fn local_rest(
+    pub fn local_residual(
         &self,
         grid: &Grid,
         extra: &[f32],
@@ -146,7 +146,7 @@ impl Jacobian {
                 let v = around(grid, v, j);
                 let [_, _, local] = self.stencils(j);
                 apply_row(local, v[0], v[1], v[2], out);
-                rest_row(
+                residual_row(
                     &extra[here.clone()],
                     v[0],
                     &r[here.clone()],
@@ -220,7 +220,7 @@ fn add_deflected_row(
 }
 
 dispatched! {
-fn rest_row(extra: &[f32], v: &[f32], r: &[f32], factor: &[f32], out: &mut [f32]) {
+fn residual_row(extra: &[f32], v: &[f32], r: &[f32], factor: &[f32], out: &mut [f32]) {
     let nx = out.len();
     let (extra, v, r, factor) = (&extra[..nx], &v[..nx], &r[..nx], &factor[..nx]);
     for i in 0..nx {

@@ -137,7 +137,7 @@ impl Krylov {
         most: usize,
         v: &mut [f32],
     ) -> LinearReport {
-        // Start from the border's answer to g alone, so that the rest adds no load.
+        // Start from the border's answer to g alone, so that what follows adds no load.
         let h0_start = -g / self.border_load;
         v.fill(0.0);
         subtract(h0_start as f32, &self.border, v);
@@ -169,10 +169,10 @@ impl Krylov {
                 self.h0s[k] as f32,
                 &mut self.work,
             );
-            let rest = self.orthogonalise(grid, k);
+            let residual = self.orthogonalise(grid, k);
             report.iterations = k + 1;
-            report.reduction = rest / start;
-            if rest <= target {
+            report.reduction = residual / start;
+            if residual <= target {
                 break;
             }
         }

@@ -11,7 +11,7 @@
 //! the bound. Integrals are kept and added as logarithms. τ is the length of the step in whatever the period
 //! is given in (time, or distance at U); of the oldest sample counts what lies within the period, so that the mean
 //! of what repeats with the period stands still. What never repeats has no such period: an open window goes on from the
-//! last restart, and its mean comes to rest as 1/way. Memory is bounded: when the samples of one period do not fit,
+//! last restart, and its mean converges as 1/distance. Memory is bounded: when the samples of one period do not fit,
 //! neighbours are merged in pairs, which leaves the mean as it is. How far ln J has moved of late is kept at marks
 //! an eighth of a period apart. A warm `push` allocates nothing.
 //!
@@ -82,7 +82,7 @@ struct MergedPhase {
 /// Which samples a mean is taken over.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Window {
-    /// Way after which a mean says something; a closed window is as long.
+    /// Distance after which a mean says something; a closed window is as long.
     pub period: f64,
     /// Whether older samples stay in the mean: those of what never repeats.
     pub is_open: bool,
@@ -117,8 +117,9 @@ pub struct LifeMeter {
     total: f64,
     samples: u32,
     mean: Shares,
-    /// Way pushed since the last restart.
-    way: f64,
+    /// Distance pushed since the last restart.
+    #[serde(rename = "way")]
+    distance: f64,
     /// ln J under the full load of both bodies.
     marks: Marks,
 }
@@ -139,7 +140,7 @@ impl LifeMeter {
             total: 0.0,
             samples: 0,
             mean: Shares::new(depths),
-            way: 0.0,
+            distance: 0.0,
             marks: Marks::new(),
         }
     }
@@ -176,7 +177,7 @@ impl LifeMeter {
     /// Forgets the samples (after a change of load, speed or roughness).
     pub fn restart(&mut self) {
         self.spare.extend(self.phases.drain(..));
-        (self.total, self.samples, self.way) = (0.0, 0, 0.0);
+        (self.total, self.samples, self.distance) = (0.0, 0, 0.0);
         self.mean.clear();
         self.marks.forget();
     }
@@ -193,7 +194,7 @@ impl LifeMeter {
         phase.shares.logs.copy_from_slice(&shares.logs);
         self.phases.push_back(phase);
         self.total += span;
-        self.way += span;
+        self.distance += span;
         self.samples = self.samples.saturating_add(1);
         while !self.window.is_open
             && let Some(first) = self.phases.front()
@@ -206,9 +207,9 @@ impl LifeMeter {
             self.merge_pairs();
         }
         self.take_mean();
-        if self.covers() && self.marks.is_due(self.way) {
+        if self.covers() && self.marks.is_due(self.distance) {
             let now = BodyId::BOTH.map(|body| self.mean.ln(Loading::Full(body)));
-            self.marks.take(self.way, self.window.period, now);
+            self.marks.take(self.distance, self.window.period, now);
         }
     }
 
@@ -217,9 +218,9 @@ impl LifeMeter {
         &self.marks
     }
 
-    /// Way since the last restart, and the period of the mean.
-    pub fn way(&self) -> (f64, f64) {
-        (self.way, self.window.period)
+    /// Distance since the last restart, and the period of the mean.
+    pub fn distance(&self) -> (f64, f64) {
+        (self.distance, self.window.period)
     }
 
     fn merge_pairs(&mut self) {
@@ -384,17 +385,17 @@ mod tests {
     fn the_mean_of_what_repeats_with_the_period_stands_still_and_a_drift_moves_it() {
         // 6.4 samples a period: 2 + sin, whose mean is 2 wherever the period begins.
         let period = 6.4;
-        let at = |way: f64| 2.0 + (std::f64::consts::TAU * way / period).sin();
+        let at = |distance: f64| 2.0 + (std::f64::consts::TAU * distance / period).sin();
         let (mut still, mut drifting) = [1, 2]
             .map(|_| LifeMeter::new(2, Window::closed(period), 64))
             .into();
         for step in 0..60 {
-            let way = f64::from(step) + 0.5;
-            still.push(1.0, &shares(at(way), at(way)));
-            let drift = at(way) * (0.01 * way).exp();
+            let distance = f64::from(step) + 0.5;
+            still.push(1.0, &shares(at(distance), at(distance)));
+            let drift = at(distance) * (0.01 * distance).exp();
             drifting.push(1.0, &shares(drift, drift));
-            if way < 1.5 * period - 1.0 {
-                assert_eq!(still.marks().moved(0.5), None, "{way}");
+            if distance < 1.5 * period - 1.0 {
+                assert_eq!(still.marks().moved(0.5), None, "{distance}");
             }
         }
         let [still, drifting] = [&still, &drifting].map(|m| m.marks().moved(0.5).expect("marks"));
@@ -407,9 +408,10 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_of_what_never_repeats_comes_to_rest_in_an_open_window() {
+    fn the_mean_of_what_never_repeats_converges_in_an_open_window() {
         // Two waves whose lengths have no common multiple, a window of 4: neither fits into it.
-        let at = |way: f64| 2.0 + (1.1 * way).sin() * (1.1 * 2.0_f64.sqrt() * way).sin();
+        let at =
+            |distance: f64| 2.0 + (1.1 * distance).sin() * (1.1 * 2.0_f64.sqrt() * distance).sin();
         let (mut open, mut closed) = (
             LifeMeter::new(2, Window::open(4.0), 64),
             LifeMeter::new(2, Window::closed(4.0), 64),
@@ -421,15 +423,15 @@ mod tests {
         };
         let (mut most_open, mut most_closed) = (0.0_f64, 0.0_f64);
         for step in 0..2000 {
-            let way = 0.1 * (f64::from(step) + 0.5);
-            open.push(0.1, &shares(at(way), at(way)));
-            closed.push(0.1, &shares(at(way), at(way)));
-            if way > 12.0 {
+            let distance = 0.1 * (f64::from(step) + 0.5);
+            open.push(0.1, &shares(at(distance), at(distance)));
+            closed.push(0.1, &shares(at(distance), at(distance)));
+            if distance > 12.0 {
                 // What is shown as its error holds the mean of all times, and shrinks.
-                assert!(far(&open) <= open.marks().wandered(), "{way}");
+                assert!(far(&open) <= open.marks().wandered(), "{distance}");
                 most_closed = most_closed.max(far(&closed));
             }
-            if way > 100.0 {
+            if distance > 100.0 {
                 most_open = most_open.max(open.marks().wandered());
             }
         }

@@ -174,8 +174,8 @@ impl ParityRows {
     /// is row 0 of the odd half mirrored; where nothing is mirrored it belongs to the boundary, whose
     /// coefficients are zero.
     fn fill_halo(&mut self, nx: usize, blocks: usize) {
-        let (below, rest) = self.z.split_at_mut(nx);
-        let (rows, above) = rest.split_at_mut(blocks * nx);
+        let (below, others) = self.z.split_at_mut(nx);
+        let (rows, above) = others.split_at_mut(blocks * nx);
         let (first, last) = (&rows[..nx], &rows[(blocks - 1) * nx..]);
         for i in 0..nx {
             below[i][0] = first[i][0];

@@ -14,7 +14,7 @@ const KEPT: usize = 17;
 /// Logarithms of one number a body, mark by mark.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Marks {
-    /// Way at which the next mark is due.
+    /// Distance at which the next mark is due.
     next: f64,
     /// Of body 1 and of body 2, the oldest first.
     #[serde(with = "ln_list")]
@@ -47,14 +47,14 @@ impl Marks {
         self.next = 0.0;
     }
 
-    /// Whether a mark is due at `way`.
-    pub fn is_due(&self, way: f64) -> bool {
-        way >= self.next * (1.0 - 1e-9)
+    /// Whether a mark is due at `distance`.
+    pub fn is_due(&self, distance: f64) -> bool {
+        distance >= self.next * (1.0 - 1e-9)
     }
 
-    /// Takes a mark at `way` of means over a `period`.
-    pub fn take(&mut self, way: f64, period: f64, ln: [f64; 2]) {
-        self.next = way + period / IN_PERIOD;
+    /// Takes a mark at `distance` of means over a `period`.
+    pub fn take(&mut self, distance: f64, period: f64, ln: [f64; 2]) {
+        self.next = distance + period / IN_PERIOD;
         if self.list.len() == 2 * KEPT {
             self.list.drain(..2);
         }

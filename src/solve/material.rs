@@ -101,7 +101,7 @@ pub struct Sample {
     pub closed_before: Option<f64>,
 }
 
-/// Points of one body under way.
+/// Points of one body.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct MaterialTracker {
     spec: TrackerSpec,
@@ -117,8 +117,9 @@ pub struct MaterialTracker {
     /// Which point is shown.
     #[serde(default)]
     shown: usize,
-    /// Way of the body, a.
-    way: f64,
+    /// Distance that the body has travelled, a.
+    #[serde(rename = "way")]
+    distance: f64,
     map: Option<DamageMap>,
 }
 
@@ -157,7 +158,7 @@ impl MaterialTracker {
             trace: Vec::with_capacity(spec.trace.max(1)),
             oldest: 0,
             shown: 0,
-            way: 0.0,
+            distance: 0.0,
             map: spec.map.map(|(block, _)| DamageMap::new(block)),
         };
         tracker.restart(0.0);
@@ -199,13 +200,13 @@ impl MaterialTracker {
     }
 
     /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are, and the
-    /// body has moved by `way` (in a) since its origin.
-    pub fn restart(&mut self, way: f64) {
+    /// body has moved by `distance` (in a) since its origin.
+    pub fn restart(&mut self, distance: f64) {
         let exponent = self.spec.damage_exponent;
-        self.way = way;
+        self.distance = distance;
         for point in &mut self.points {
             point.crossing = Crossing::New;
-            point.place = point.x - way;
+            point.place = point.x - distance;
             for history in point.histories() {
                 history.start(exponent);
                 history.last = None;
@@ -224,7 +225,7 @@ impl MaterialTracker {
 
     /// Moves every point by `travel = U_i Δt` (in a, signed) and samples the line there.
     pub fn step(&mut self, travel: f64, line: &Line) {
-        self.way += travel;
+        self.distance += travel;
         for i in 0..self.points.len() {
             if self.advance(i, travel) {
                 self.crossings += u64::from(self.points[i].crossing == Crossing::Whole);
@@ -284,7 +285,7 @@ impl MaterialTracker {
                 let damage = histories.iter().filter_map(|h| Some(h.last?.damage));
                 map.add(point.place, damage);
             }
-            point.place = point.x - self.way;
+            point.place = point.x - self.distance;
         }
         left
     }

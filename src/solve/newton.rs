@@ -19,7 +19,7 @@
 
 mod correct;
 mod follow;
-mod judge;
+mod sums;
 
 use rayon::prelude::*;
 
@@ -36,7 +36,7 @@ pub use super::tangential::Sheared;
 use super::yielding::Yielding;
 use crate::math::grid::Grid;
 use crate::scene::Order;
-use judge::Evaluation;
+use sums::Evaluation;
 
 /// Most halvings of the line search; untuned.
 const MAX_HALVINGS: u32 = 4;
@@ -167,7 +167,7 @@ impl Newton {
         self.evaluate(problem, iterate, &mut report);
         self.correct(problem, iterate);
         self.begin_traction(problem, iterate);
-        let mut now = self.judge_anew(problem, iterate);
+        let mut now = self.sums_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
         loop {
             now.note(problem, &mut report);
@@ -359,7 +359,7 @@ impl Newton {
         if let Some(yielding) = &mut self.yielding {
             yielding.accept(iterate.h);
         }
-        let base = self.judge_anew(problem, iterate).merit;
+        let base = self.sums_anew(problem, iterate).merit;
         let old_h0 = *iterate.h0;
         let mut t = 1.0;
         for halving in 0..=MAX_HALVINGS {
@@ -372,7 +372,7 @@ impl Newton {
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
             self.evaluate(problem, iterate, report);
-            let mut new = self.judge(problem, iterate);
+            let mut new = self.sums(problem, iterate);
             new.reduction = new.merit / base;
             report.left = left_of(report.change, new.reduction);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {

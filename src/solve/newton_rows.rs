@@ -9,7 +9,7 @@
 //!
 //! Part of `newton.rs`.
 
-/// Largest change of pressure (in p_h) of one iteration at one node: twice what a smooth contact has at all. A safeguard of the way,
+/// Largest change of pressure (in p_h) of one iteration at one node: twice what a smooth contact has at all. A safeguard of the path,
 /// which no converged step knows of; untuned.
 const STEP_LIMIT: f64 = 2.0;
 /// Values side by side in sums.

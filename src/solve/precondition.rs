@@ -54,7 +54,7 @@ pub struct Preconditioner {
     extra: Vec<f32>,
     scale: Vec<f32>,
     sweeps: LineSweep,
-    rest: Vec<f32>,
+    residual: Vec<f32>,
 }
 
 impl Preconditioner {
@@ -68,7 +68,7 @@ impl Preconditioner {
             extra: vec![0.0; n],
             scale: vec![0.0; n],
             sweeps: LineSweep::new(grid),
-            rest: vec![0.0; n],
+            residual: vec![0.0; n],
         };
         this.set_symbols(grid, elastic, kappa, s);
         this
@@ -146,15 +146,15 @@ impl Preconditioner {
     pub fn apply(&mut self, grid: &Grid, jacobian: &Jacobian, r: &[f32], z: &mut [f32]) {
         self.sweeps.solve(r, &ORDER, z);
         let solved = ORDER[ORDER.len() - 1];
-        jacobian.local_rest(
+        jacobian.local_residual(
             grid,
             &self.extra,
             (z, solved),
             r,
             &self.scale,
-            &mut self.rest,
+            &mut self.residual,
         );
-        self.filter.add_weighted(&self.rest, &self.weights, z);
+        self.filter.add_weighted(&self.residual, &self.weights, z);
     }
 }
 

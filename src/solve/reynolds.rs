@@ -144,7 +144,7 @@ impl Reynolds {
             .enumerate()
             .with_min_len(ROWS)
             .for_each(|(j, (east, north))| {
-                let nodes = |way, range| this.fluidity.nodes(way, &this.q, range);
+                let nodes = |direction, range| this.fluidity.nodes(direction, &this.q, range);
                 let a = nodes(FlowDirection::Along, j * nx..(j + 1) * nx - 1);
                 let b = nodes(FlowDirection::Along, j * nx + 1..(j + 1) * nx);
                 let out = &mut east[..nx - 1];

@@ -16,7 +16,7 @@ const HALF: usize = 5;
 /// amplitude.
 const SMOOTH: f64 = 0.2;
 
-/// Shift of a row downstream by some nodes: whole ones, and interpolation between `2 HALF` nodes for the rest.
+/// Shift of a row downstream by some nodes: whole ones, and interpolation between `2 HALF` nodes for the remainder.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shift {
     whole: isize,

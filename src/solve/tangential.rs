@@ -71,7 +71,7 @@ impl Tangential {
 /// step's pressure keeps the last step's, which is in balance with it.
 ///
 /// Why its derivative is not part of the linearisation. Where the flow holds the film, what a change of u^s meets is the
-/// pressure, which gives way by βμ of it, and the traction by as much: r falls by a factor of 15 to 60 each time it is
+/// pressure, which yields by βμ of it, and the traction by as much: r falls by a factor of 15 to 60 each time it is
 /// followed, and a derivative could save no more than the solutions in between (unlike contacts beside like ones:
 /// `random_scenes::unlike_scenes_beside_like_ones`). Where films are all but nothing, the traction's answer to the film,
 /// S ∂q/∂H, is greater than 1 and has kinks at every node that comes to touch or to its limiting stress. Newton's method for
@@ -184,7 +184,7 @@ impl Shear {
         }
     }
 
-    /// Finds u^s of the traction that pressure and film make; what the iterate lacks of it, over the film where there is
+    /// Finds u^s of the traction that pressure and film make; the residual: what the iterate lacks of it, over the film where there is
     /// pressure (`least`: of films below it).
     pub(super) fn aim(&mut self, sheared: &Sheared, p: &[f64], h: &[f64], least: f64) -> f64 {
         let law = sheared.law;
@@ -195,15 +195,15 @@ impl Shear {
             *q = law.traction_of(p[n], h[n], 0.5 * rise / self.dx, touches);
         }
         self.tangential.deflect(&self.traction, &mut self.next);
-        let (mut way, mut film) = (0.0, f64::MIN_POSITIVE);
+        let (mut residual, mut film) = (0.0, f64::MIN_POSITIVE);
         for n in (0..p.len()).filter(|&n| p[n] > 0.0) {
-            way += (self.next[n] - self.deflection[n]).abs();
+            residual += (self.next[n] - self.deflection[n]).abs();
             film += h[n].max(least);
         }
-        way / film
+        residual / film
     }
 
-    /// Follows it, ω of the way, and takes the film along.
+    /// Follows it, ω of the residual, and takes the film along.
     pub(super) fn follow(&mut self, h: &mut [f64]) {
         for ((h, u), &next) in h.iter_mut().zip(&mut self.deflection).zip(&self.next) {
             let step = self.share * (next - *u);
@@ -212,9 +212,9 @@ impl Shear {
         }
     }
 
-    /// What is left of the way.
-    pub(super) fn lacking(&self, way: f64) -> f64 {
-        (1.0 - self.share) * way
+    /// What is left of the residual.
+    pub(super) fn lacking(&self, residual: f64) -> f64 {
+        (1.0 - self.share) * residual
     }
 }
 

@@ -10,7 +10,7 @@
 //! | symbol | meaning | shape |
 //! |---|---|---|
 //! | P_H | hardness of the softer body over p_h | scalar |
-//! | w | depth by which its surface gives way for good in this step, film units | ny × nx |
+//! | w | depth by which its surface yields for good in this step, film units | ny × nx |
 //! | Q | pressure, and beyond P_H what the depth would be as pressure of the node alone | ny × nx |
 //!
 //! On a plateau of equal pressure nothing flows but with the surfaces, so the film there is what comes along the

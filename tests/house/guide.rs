@@ -26,7 +26,7 @@ fn pages() -> Vec<(PathBuf, String)> {
     files.into_iter().map(text).collect()
 }
 
-fn page(name: &str) -> String {
+pub(super) fn page(name: &str) -> String {
     read(&root().join("assets/guide").join(name))
 }
 

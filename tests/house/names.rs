@@ -63,3 +63,82 @@ fn a_second_meaning_is_found() {
     ];
     assert_eq!(shared(&files), BTreeSet::from(["Film".to_owned()]));
 }
+
+/// The rooms of equations, where the field's words hold.
+const FIELD: [&str; 5] = [
+    "src/math/",
+    "src/physics/",
+    "src/plan/",
+    "src/solve/",
+    "src/sim/",
+];
+
+/// Words of the glossary that names do not hold.
+fn retired() -> Vec<String> {
+    let glossary = super::guide::page("glossary.md");
+    let (_, table) = glossary.split_once("| instead of | say |").unwrap();
+    let rows = table.lines().filter_map(|line| line.strip_prefix("| "));
+    let words = rows.filter_map(|row| Some(row.split_once(" | ")?.0));
+    words
+        .flat_map(|cell| cell.split(", ").map(str::to_owned))
+        .collect()
+}
+
+/// Names of the code that hold one of the `words`; `at_rest` is a state of motion.
+fn holding(words: &[String], text: &str) -> BTreeSet<String> {
+    let code = without_comments(text);
+    // Strings are text for people and names of files.
+    let code: String = code.split('"').step_by(2).collect::<Vec<_>>().join(" ");
+    let names = code.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+    let holds = |name: &&str| {
+        let parts = parts(name);
+        let is_retired = |part: &String| {
+            let stem = part.strip_suffix('d').unwrap_or(part);
+            let stem = stem.strip_suffix('s').unwrap_or(stem);
+            words.iter().any(|word| word == part || word == stem)
+        };
+        let at_rest = |k: usize| k > 0 && parts[k - 1] == "at" && parts[k] == "rest";
+        (0..parts.len()).any(|k| is_retired(&parts[k]) && !at_rest(k))
+    };
+    names.filter(holds).map(str::to_owned).collect()
+}
+
+/// `LocalRest`, `local_rest` and `LOCAL_REST` are local and rest.
+fn parts(name: &str) -> Vec<String> {
+    let mut text = String::new();
+    let mut before = '_';
+    for c in name.chars() {
+        if c.is_uppercase() && before.is_lowercase() {
+            text.push('_');
+        }
+        text.extend(c.to_lowercase());
+        before = c;
+    }
+    text.split('_').map(str::to_owned).collect()
+}
+
+#[test]
+fn names_use_the_words_of_the_field() {
+    let words = retired();
+    assert!(words.len() >= 8, "{words:?}");
+    let field = sources()
+        .into_iter()
+        .filter(|(path, _)| FIELD.iter().any(|room| path.starts_with(room)));
+    let found: BTreeMap<_, _> = field
+        .map(|(path, text)| (path, holding(&words, &text)))
+        .collect();
+    assert!(found.len() > 100, "{}", found.len());
+    let found: Vec<_> = found
+        .iter()
+        .filter(|(_, names)| !names.is_empty())
+        .collect();
+    assert!(found.is_empty(), "{found:?}");
+}
+
+#[test]
+fn a_retired_word_is_found() {
+    let text = "fn judged(rest_p: f64) {} // way\nlet at_rest = \"door\"; struct OwnTerrain; let always = LEAST_WAYS;";
+    let found = holding(&retired(), text);
+    let expected = ["LEAST_WAYS", "OwnTerrain", "judged", "rest_p"];
+    assert_eq!(found, expected.map(str::to_owned).into());
+}

@@ -110,7 +110,7 @@ fn planes_agree_with_the_fast_slice_and_with_each_other() {
     let qx = field(&spec, |x, y| 0.2 * hertz(x, y - 0.1) * (1.0 + y));
     let qy = field(&spec, |x, y| 0.1 * hertz(x - 0.2, y) * (1.0 - x));
     let mut engine = StressEngine::new(&spec).expect("valid");
-    engine.load_both_ways(&p, &qx, &qy);
+    engine.load_along_both(&p, &qx, &qy);
     let mut slice = SliceOut::new(&spec);
     for loading in Loading::ALL {
         engine.slice_of(loading, &mut slice);
@@ -147,7 +147,7 @@ fn traction_along_y_is_traction_along_x_turned() {
     let none = field(&spec, |_, _| 0.0);
     let mut engine = StressEngine::new(&spec).expect("valid");
     for z in [0.1, 0.8] {
-        engine.load_both_ways(&field(&spec, p), &none, &field(&spec, q));
+        engine.load_along_both(&field(&spec, p), &none, &field(&spec, q));
         let along_y = engine.plane(ONE, Cut::Z(z));
         let volume_y = engine.volume(11.0).full.ln;
         engine.load(
@@ -186,7 +186,7 @@ fn a_mirror_takes_an_odd_traction_along_y() {
         let qx = field(&spec, |x, y| 0.2 * hertz(x, y));
         let qy = field(&spec, |x, y| 0.3 * y * hertz(x - 0.1, y));
         let mut engine = StressEngine::new(&spec).expect("valid");
-        engine.load_both_ways(&p, &qx, &qy);
+        engine.load_along_both(&p, &qx, &qy);
         let mut slice = SliceOut::new(&spec);
         engine.slice(&mut slice);
         (
@@ -261,7 +261,7 @@ fn the_field_is_in_equilibrium() {
     let qx = field(&spec, |x, y| 0.2 * hertz(x, y));
     let qy = field(&spec, |x, y| 0.1 * hertz(x, y + 0.2));
     let mut engine = StressEngine::new(&spec).expect("valid");
-    engine.load_both_ways(&p, &qx, &qy);
+    engine.load_along_both(&p, &qx, &qy);
     for loading in [ONE, TWO] {
         let [above, here, below] = [z - d, z, z + d].map(|z| engine.plane(loading, Cut::Z(z)));
         let (mut worst, mut slopes): (f64, f64) = (0.0, 0.0);

@@ -6,7 +6,7 @@ use super::Simulation;
 use crate::physics::cycles::BodyId;
 use crate::plan::LINE_ROWS;
 use crate::scene::ContactKind;
-use crate::sim::door::Heading;
+use crate::sim::scaling::Heading;
 use crate::sim::stress_stage::StressStage;
 use crate::sim::{DamageBlock, Frame, MaterialPoint, PassedPeak, StressPlane, StressSlice};
 use crate::solve::stress::{Cut, Plane};
@@ -18,7 +18,7 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
     frame.stage = sim.stage();
     frame.start_up = sim.start_up_progress();
     frame.passages = if sim.state.step > 0 {
-        sim.state.way / sim.plan.decided.passage_a
+        sim.state.distance / sim.plan.decided.passage_a
     } else {
         0.0
     };
@@ -31,7 +31,7 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
         let risk = &mut frame.risk_pa[body.index()];
         risk.clear();
         if let Some(values) = sim.state.life.as_ref().and_then(|life| life.risk(body)) {
-            let unit = sim.plan.door.p_hertz_pa as f32;
+            let unit = sim.plan.scaling.p_hertz_pa as f32;
             risk.extend(values.iter().map(|value| value * unit));
         }
         fill_damage(sim, body, &mut frame.damage[body.index()]);
@@ -42,42 +42,42 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
 
 /// Nodes, edges and scales.
 fn fill_shape(sim: &Simulation, frame: &mut Frame) {
-    let (grid, door) = (&sim.work.solver.grid, &sim.plan.door);
+    let (grid, scaling) = (&sim.work.solver.grid, &sim.plan.scaling);
     let scale = sim.size_now();
-    frame.kind = door.kind;
+    frame.kind = scaling.kind;
     frame.nx = grid.nx;
-    (frame.ny, frame.dy_m) = match door.kind {
-        ContactKind::Point => (grid.ny_full(), door.m_from_x(grid.dy)),
+    (frame.ny, frame.dy_m) = match scaling.kind {
+        ContactKind::Point => (grid.ny_full(), scaling.m_from_x(grid.dy)),
         ContactKind::Line => (LINE_ROWS, sim.plan.decided.dy_m),
     };
-    frame.x_min_m = match door.heading {
-        Heading::Forward => door.m_from_x(grid.x_min),
-        Heading::Backward => -door.m_from_x(grid.x(grid.nx - 1)),
+    frame.x_min_m = match scaling.heading {
+        Heading::Forward => scaling.m_from_x(grid.x_min),
+        Heading::Backward => -scaling.m_from_x(grid.x(grid.nx - 1)),
     };
-    frame.dx_m = door.m_from_x(grid.dx);
+    frame.dx_m = scaling.m_from_x(grid.dx);
     frame.y_min_m = -0.5 * (frame.ny - 1) as f64 * frame.dy_m;
-    frame.a_m = door.a_m * scale;
-    frame.b_m = door.a_m * door.b_over_a * scale;
-    frame.p_hertz_pa = door.p_hertz_pa * scale;
+    frame.a_m = scaling.a_m * scale;
+    frame.b_m = scaling.a_m * scaling.b_over_a * scale;
+    frame.p_hertz_pa = scaling.p_hertz_pa * scale;
 }
 
 /// Pressure, film, traction, both surfaces, and where they touch.
 fn fill_fields(sim: &Simulation, frame: &mut Frame) {
-    let (door, state) = (&sim.plan.door, &sim.state.contact);
-    let [one, two] = &sim.work.terrain.heights;
-    let along_x = door.heading.sign() * door.p_hertz_pa;
+    let (scaling, state) = (&sim.plan.scaling, &sim.state.contact);
+    let [one, two] = &sim.work.roughness.heights;
+    let along_x = scaling.heading.sign() * scaling.p_hertz_pa;
     expand(
         sim,
         &state.pressure,
-        door.p_hertz_pa,
+        scaling.p_hertz_pa,
         &mut frame.pressure_pa,
     );
-    expand(sim, &state.film, door.film_m, &mut frame.film_m);
+    expand(sim, &state.film, scaling.film_m, &mut frame.film_m);
     // Where the bodies touch there is no film; what they overlap by is the solver's, and told as overlap.
     frame.film_m.iter_mut().for_each(|h| *h = h.max(0.0));
     expand(sim, &sim.work.traction, along_x, &mut frame.traction_pa);
-    expand(sim, one, door.film_m, &mut frame.roughness_1_m);
-    expand(sim, two, door.film_m, &mut frame.roughness_2_m);
+    expand(sim, one, scaling.film_m, &mut frame.roughness_1_m);
+    expand(sim, two, scaling.film_m, &mut frame.roughness_2_m);
     let contact_film = sim.contact_film_m() as f32;
     frame.contact.resize(frame.film_m.len(), 0);
     let fields = frame.film_m.iter().zip(&frame.pressure_pa);
@@ -88,14 +88,14 @@ fn fill_fields(sim: &Simulation, frame: &mut Frame) {
 
 /// A field in SI over the whole domain, in the scene's direction; 0 where nothing is stored.
 fn expand(sim: &Simulation, from: &[f64], unit: f64, to: &mut Vec<f32>) {
-    let (grid, door) = (&sim.work.solver.grid, &sim.plan.door);
-    let rows = match door.kind {
+    let (grid, scaling) = (&sim.work.solver.grid, &sim.plan.scaling);
+    let rows = match scaling.kind {
         ContactKind::Point => grid.ny_full(),
         ContactKind::Line => LINE_ROWS,
     };
     to.resize(grid.nx * rows, 0.0);
     for (j, row) in to.chunks_exact_mut(grid.nx).enumerate() {
-        let stored = match door.kind {
+        let stored = match scaling.kind {
             ContactKind::Point => grid.stored_row(j),
             ContactKind::Line => 0,
         };
@@ -107,7 +107,7 @@ fn expand(sim: &Simulation, from: &[f64], unit: f64, to: &mut Vec<f32>) {
         for (to, &from) in row.iter_mut().zip(&from[start..start + grid.nx]) {
             *to = (from * unit) as f32;
         }
-        if door.heading == Heading::Backward {
+        if scaling.heading == Heading::Backward {
             row.reverse();
         }
     }
@@ -130,11 +130,11 @@ fn fill_slice(sim: &Simulation, stress: &StressStage, body: BodyId, to: &mut Opt
         slice.depths_m = stress
             .depths()
             .iter()
-            .map(|&z| sim.plan.door.m_from_x(z))
+            .map(|&z| sim.plan.scaling.m_from_x(z))
             .collect::<Arc<[f64]>>();
     }
-    let unit = sim.plan.door.p_hertz_pa as f32;
-    let (nx, heading) = (sim.work.solver.grid.nx, sim.plan.door.heading);
+    let unit = sim.plan.scaling.p_hertz_pa as f32;
+    let (nx, heading) = (sim.work.solver.grid.nx, sim.plan.scaling.heading);
     let scaled = |from: &[f32], unit: f32, to: &mut Vec<f32>| {
         to.resize(from.len(), 0.0);
         for (to, &from) in to.iter_mut().zip(from) {
@@ -150,11 +150,11 @@ fn fill_slice(sim: &Simulation, stress: &StressStage, body: BodyId, to: &mut Opt
     scaled(&from.sxz, shear_unit, &mut slice.tau_xz_pa);
 }
 
-/// Way from a crest along +x; the solver's x is a mirror image where the flow runs towards −x.
+/// Distance from a crest along +x; the solver's x is a mirror image where the flow runs towards −x.
 pub(super) fn place_m(sim: &Simulation, place: f64, length: f64) -> f64 {
-    match sim.plan.door.heading {
-        Heading::Forward => sim.plan.door.m_from_x(place),
-        Heading::Backward => sim.plan.door.m_from_x(length - place),
+    match sim.plan.scaling.heading {
+        Heading::Forward => sim.plan.scaling.m_from_x(place),
+        Heading::Backward => sim.plan.scaling.m_from_x(length - place),
     }
 }
 
@@ -165,7 +165,7 @@ fn fill_planes(sim: &Simulation, frame: &mut Frame) {
     let Some(stress) = sim.work.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
         return;
     };
-    let sign = sim.plan.door.heading.sign();
+    let sign = sim.plan.scaling.heading.sign();
     for &cut in &sim.plan.cuts {
         let mirrored = match cut {
             Cut::X(x) => Cut::X(sign * x),
@@ -184,17 +184,17 @@ fn fill_planes(sim: &Simulation, frame: &mut Frame) {
 }
 
 fn plane_in_si(sim: &Simulation, plane: &Plane, (normal, at): (char, f64)) -> StressPlane {
-    let unit = sim.plan.door.p_hertz_pa;
+    let unit = sim.plan.scaling.p_hertz_pa;
     let mut out = StressPlane {
         normal,
-        at_m: sim.plan.door.m_from_x(at),
+        at_m: sim.plan.scaling.m_from_x(at),
         width: plane.width,
         rows: plane.rows,
-        first_m: sim.plan.door.m_from_x(plane.along.0),
-        step_m: sim.plan.door.m_from_x(plane.along.1),
+        first_m: sim.plan.scaling.m_from_x(plane.along.0),
+        step_m: sim.plan.scaling.m_from_x(plane.along.1),
         ..StressPlane::default()
     };
-    let backward = normal != 'x' && sim.plan.door.heading == Heading::Backward;
+    let backward = normal != 'x' && sim.plan.scaling.heading == Heading::Backward;
     if backward {
         out.first_m = -out.first_m - (plane.width - 1) as f64 * out.step_m;
     }
@@ -239,14 +239,17 @@ fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) 
     };
     let block = block.get_or_insert_with(DamageBlock::default);
     if block.depths_m.len() != stress.depth_count() {
-        let depths = stress.depths().iter().map(|&z| sim.plan.door.m_from_x(z));
+        let depths = stress
+            .depths()
+            .iter()
+            .map(|&z| sim.plan.scaling.m_from_x(z));
         block.depths_m = depths.collect();
     }
-    block.length_m = sim.plan.door.m_from_x(map.spec().length);
+    block.length_m = sim.plan.scaling.m_from_x(map.spec().length);
     block.columns = map.spec().columns;
     block.filled = map.filled();
     map.relative_into(unit, &mut block.damage);
-    if sim.plan.door.heading == Heading::Backward {
+    if sim.plan.scaling.heading == Heading::Backward {
         let depths = map.spec().depths;
         mirror_columns(&mut block.damage, depths);
     }
@@ -269,18 +272,18 @@ fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
     let effective = |n: usize| f64::from(slice.effective[n]);
     Some(MaterialPoint {
         body: body.index() as u8 + 1,
-        x_m: sim.plan.door.place_m(shown.x),
-        depth_m: sim.plan.door.m_from_x(stress.depths()[depth]),
-        pressure_pa: sim.plan.door.pa_from_p(shown.pressure),
+        x_m: sim.plan.scaling.place_m(shown.x),
+        depth_m: sim.plan.scaling.m_from_x(stress.depths()[depth]),
+        pressure_pa: sim.plan.scaling.pa_from_p(shown.pressure),
         effective_pa: sim
             .plan
-            .door
+            .scaling
             .pa_from_p(effective(at) * (1.0 - t) + effective(at + 1) * t),
-        tau_xz_pa: sim.plan.door.heading.sign() * sim.plan.door.pa_from_p(shown.tau_xz),
+        tau_xz_pa: sim.plan.scaling.heading.sign() * sim.plan.scaling.pa_from_p(shown.tau_xz),
         cycles_counted: f64::from(shown.peaks),
         last_peak: shown.last_peak.map(|peak| PassedPeak {
-            x_m: sim.plan.door.place_m(peak.x),
-            pressure_pa: sim.plan.door.pa_from_p(peak.value),
+            x_m: sim.plan.scaling.place_m(peak.x),
+            pressure_pa: sim.plan.scaling.pa_from_p(peak.value),
         }),
         cycles_before: shown.closed_before,
     })

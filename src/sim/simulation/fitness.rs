@@ -98,7 +98,9 @@ impl Simulation {
         demand(phase_fits, "its start-up is not this scene's")?;
         let steps = [state.step, state.start_up_steps.0, state.start_up_steps.1];
         demand(
-            steps.into_iter().all(|n| n <= MOST_STEPS) && state.way >= 0.0 && state.time_s >= 0.0,
+            steps.into_iter().all(|n| n <= MOST_STEPS)
+                && state.distance >= 0.0
+                && state.time_s >= 0.0,
             "its steps or times are not valid",
         )?;
         demand(
@@ -115,7 +117,7 @@ impl Simulation {
             }),
             "its smooth contact is not this scene's",
         )?;
-        for drive in [&state.drive, &state.wanted]
+        for drive in [&state.drive, &state.targets]
             .into_iter()
             .chain(smooth.map(|smooth| &smooth.drive))
         {
@@ -132,7 +134,7 @@ impl Simulation {
     }
 
     fn can_be(&self, at: LoadAndSpeed) -> bool {
-        self.can_stand_at(self.plan.door.load_knob(), at.load)
+        self.can_stand_at(self.plan.scaling.load_knob(), at.load)
             && self.can_stand_at(Knob::EntrainmentMS, at.speed_m_s)
     }
 
@@ -142,10 +144,10 @@ impl Simulation {
             Knob::SlideRoll => knob.takes(value),
             Knob::ForceN | Knob::ForceNPerM => {
                 let most = self.plan.decided.most_force_n() * (1.0 + 1e-9);
-                value > 0.0 && (knob != self.plan.door.load_knob() || value <= most)
+                value > 0.0 && (knob != self.plan.scaling.load_knob() || value <= most)
             }
-            Knob::Amplitude1M => value >= 0.0 && (value == 0.0 || self.work.terrain.is_rough(0)),
-            Knob::Amplitude2M => value >= 0.0 && (value == 0.0 || self.work.terrain.is_rough(1)),
+            Knob::Amplitude1M => value >= 0.0 && (value == 0.0 || self.work.roughness.is_rough(0)),
+            Knob::Amplitude2M => value >= 0.0 && (value == 0.0 || self.work.roughness.is_rough(1)),
             Knob::EntrainmentMS => value > 0.0,
         }
     }

@@ -3,11 +3,11 @@
 //! ```text
 //! contact     pressure, film and history of the neighbour's last step
 //! knobs       walk from the neighbour's values to this scene's at their own rates
-//! surfaces    x_i(end) = x_i(cold start) (mod W_i)        the way that is missing is spread over the walk
+//! surfaces    x_i(end) = x_i(cold start) (mod W_i)        the distance that is missing is spread over the walk
 //! settle      max(walk, spread) + 1.6 a at U, then the passage begins like any other
 //! ```
 //! Only S and the two amplitudes may differ: they leave the scales, the domain and the smooth reference as
-//! they are, which the neighbour hands over. Where the waves of both bodies keep step (S = 0: crest on crest
+//! they are, which the neighbour passes on. Where the waves of both bodies keep step (S = 0: crest on crest
 //! or crest on valley) the result depends on how they stand to each other, so the surfaces are led to where a
 //! cold start would have put them, at most half a wave away. Film that entered before the walk ended has passed
 //! four fifths of the contact 1.6 a later at U; over 21 values of S of the default scene life is then within 0.3 %
@@ -20,7 +20,7 @@ use crate::sim::sim_plan::DEVELOP;
 use crate::sim::state::Phase;
 use crate::sim::{Knob, SimError, State};
 
-/// Way at U, in a, in which what entered under the neighbour's conditions leaves all but the end of the contact.
+/// Distance at U, in a, in which what entered under the neighbour's conditions leaves all but the end of the contact.
 const FLUSH: f64 = 1.6;
 /// Part of it, in a, at the end, that is stepped as the passage is; before it steps are [`COARSE`] times as
 /// long, whose own errors have left the inner contact when the passage begins; with 0.75 the film is still 2 % off
@@ -32,8 +32,8 @@ pub(super) const COARSE: f64 = 2.0;
 const FREE: [Knob; 3] = Knob::OF_ROUGHNESS_AND_SLIDING;
 /// Speed, in U, at which a surface is led at most.
 const LEAD: f64 = 0.5;
-/// Shortest way over which surfaces are led, in a.
-const LEAD_WAY: f64 = 0.5;
+/// Shortest distance over which surfaces are led, in a.
+const LEAST_LEAD: f64 = 0.5;
 
 impl Simulation {
     /// Starts from the end of `neighbour`, a run of the same scene but for the slide-to-roll ratio and the
@@ -45,16 +45,16 @@ impl Simulation {
     pub fn follow(&mut self, neighbour: &State) -> Result<(), SimError> {
         self.take_over(neighbour)?;
         let dt = self.plan.stepping.usual() * self.plan.decided.domain.dx_a();
-        let goal = self.cold_ways(dt);
+        let goal = self.cold_distances(dt);
         for knob in FREE {
-            let wanted = self.state.wanted.get(knob).target;
+            let targets = self.state.targets.get(knob).target;
             self.state.drive.jump(knob, neighbour.drive.get(knob).now);
-            self.state.drive.aim(knob, wanted);
+            self.state.drive.aim(knob, targets);
         }
         for knob in [Knob::ForceN, Knob::ForceNPerM, Knob::EntrainmentMS] {
             self.state
                 .drive
-                .jump(knob, self.state.wanted.get(knob).target);
+                .jump(knob, self.state.targets.get(knob).target);
         }
         let walk = FREE
             .map(|knob| {
@@ -70,7 +70,7 @@ impl Simulation {
         for _ in 0..2 {
             let lead = self.lead_after(&plan, goal);
             let longest = lead.into_iter().map(f64::abs).fold(0.0, f64::max);
-            over = (longest / LEAD).max(LEAD_WAY);
+            over = (longest / LEAD).max(LEAST_LEAD);
             plan = SettlingSteps::new(walk.max(over), dt);
         }
         let lead = self.lead_after(&plan, goal);
@@ -88,42 +88,42 @@ impl Simulation {
 
     /// What both surfaces lack of their places after settling.
     fn lead_after(&self, plan: &SettlingSteps, goal: [f64; 2]) -> [f64; 2] {
-        let half = ways(
+        let half = distances(
             &self.state.drive,
             self.state.motion.travelled,
             (plan.coarse, COARSE * plan.dt),
         );
-        let end = ways(&half.0, half.1, (plan.fine, plan.dt)).1;
+        let end = distances(&half.0, half.1, (plan.fine, plan.dt)).1;
         [0, 1].map(|body: usize| self.missing(body, goal[body] - end[body]))
     }
 
-    /// What a way is short of, modulo the body's wave: between −W/2 and W/2. A body without one wave along x
+    /// What a distance is short of, modulo the body's wave: between −W/2 and W/2. A body without one wave along x
     /// has no place to be led to.
-    fn missing(&self, body: usize, way: f64) -> f64 {
-        match self.work.terrain.wavenumbers(body).map(f64::abs) {
+    fn missing(&self, body: usize, distance: f64) -> f64 {
+        match self.work.roughness.wavenumbers(body).map(f64::abs) {
             [one, two] if one > 0.0 && (two == 0.0 || two == one) => {
                 let wave = std::f64::consts::TAU / one;
-                way - wave * (way / wave).round()
+                distance - wave * (distance / wave).round()
             }
             [0.0, two] if two > 0.0 => {
                 let wave = std::f64::consts::TAU / two;
-                way - wave * (way / wave).round()
+                distance - wave * (distance / wave).round()
             }
             _ => 0.0,
         }
     }
 
     /// Where a cold start would have both surfaces when the passage begins, in a.
-    fn cold_ways(&self, dt: f64) -> [f64; 2] {
-        let smooth = self.plan.smooth_way();
+    fn cold_distances(&self, dt: f64) -> [f64; 2] {
+        let smooth = self.plan.smooth_distance();
         let steps = (DEVELOP / dt).ceil() as u64;
-        let mut drive = self.state.wanted.clone();
+        let mut drive = self.state.targets.clone();
         for knob in FREE {
             drive.jump(knob, 0.0);
-            drive.aim(knob, self.state.wanted.get(knob).target);
+            drive.aim(knob, self.state.targets.get(knob).target);
         }
         let steps = if self.develops() { steps } else { 0 };
-        ways(&drive, [smooth; 2], (steps, dt)).1
+        distances(&drive, [smooth; 2], (steps, dt)).1
     }
 }
 
@@ -150,8 +150,8 @@ impl SettlingSteps {
     }
 }
 
-/// Knobs and ways of both bodies after so many steps of such a length, from `travelled` on.
-fn ways(drive: &Drive, mut travelled: [f64; 2], (steps, dt): (u64, f64)) -> (Drive, [f64; 2]) {
+/// Knobs and distances of both bodies after so many steps of such a length, from `travelled` on.
+fn distances(drive: &Drive, mut travelled: [f64; 2], (steps, dt): (u64, f64)) -> (Drive, [f64; 2]) {
     let mut drive = drive.clone();
     for _ in 0..steps {
         drive.walk(dt);

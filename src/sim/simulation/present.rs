@@ -26,7 +26,7 @@ impl Simulation {
         let flows = self.plan.flow_now(&self.state.drive) != Flow::Dry;
         let errors = self.mesh_errors_now(film);
         let m = &mut self.state.metrics;
-        measured.publish(&self.plan.door, m);
+        measured.publish(&self.plan.scaling, m);
         m.amplitude_1_m = self.state.drive.get(Knob::Amplitude1M).now;
         m.amplitude_2_m = self.state.drive.get(Knob::Amplitude2M).now;
         let rq = (m.amplitude_1_m * self.plan.rms_shares[0])
@@ -60,7 +60,7 @@ impl Simulation {
         film.truncation().mesh_error(dx_a)
     }
 
-    /// What cautions rest on beside the scalars.
+    /// What cautions are drawn from beside the scalars.
     pub(super) fn grounds(&self) -> Grounds {
         let film = self.plan.film_now(&self.state.drive);
         let flows = self.plan.flow_now(&self.state.drive) != Flow::Dry;

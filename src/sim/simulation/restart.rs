@@ -88,14 +88,14 @@ impl Simulation {
     /// Roughness, traction and slice of the state's step, which follow from it.
     pub(super) fn see_again(&mut self) -> Measured {
         let Work {
-            solver, terrain, ..
+            solver, roughness, ..
         } = &mut self.work;
         let state = &self.state;
         let places = (&state.drive, &state.motion);
         place_surfaces(
             solver,
-            terrain,
-            &self.plan.door,
+            roughness,
+            &self.plan.scaling,
             places,
             state.yielded.as_ref(),
         );

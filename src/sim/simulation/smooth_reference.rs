@@ -12,7 +12,7 @@ impl Simulation {
     fn conditions(&self) -> LoadAndSpeed {
         let target = |knob| self.state.drive.get(knob).target;
         LoadAndSpeed {
-            load: target(self.plan.door.load_knob()),
+            load: target(self.plan.scaling.load_knob()),
             speed_m_s: target(Knob::EntrainmentMS),
         }
     }
@@ -52,12 +52,12 @@ impl Simulation {
         let nodes = self.plan.first_nodes();
         let size = self
             .plan
-            .door
+            .scaling
             .size_ratio(at.load / self.plan.decided.force_n);
         let film = self.plan.film_at(at);
-        let central = film.map_or(0.0, |film| self.plan.door.h_from_m(film.central_m));
-        let mut drive = self.state.wanted.smooth();
-        drive.jump(self.plan.door.load_knob(), at.load);
+        let central = film.map_or(0.0, |film| self.plan.scaling.h_from_m(film.central_m));
+        let mut drive = self.state.targets.smooth();
+        drive.jump(self.plan.scaling.load_knob(), at.load);
         drive.jump(Knob::EntrainmentMS, at.speed_m_s);
         let mut work = self.work.take_smooth(&self.plan, nodes);
         let hertz = || work.solver.hertz_of_size(&self.plan.shape, (size, central));
@@ -93,7 +93,7 @@ impl Simulation {
             Mover {
                 state: &mut smooth.contact,
                 solver: &mut work.solver,
-                terrain: &mut work.terrain,
+                roughness: &mut work.roughness,
                 drive: &mut smooth.drive,
                 motion: &mut smooth.motion,
                 plan: &self.plan,
@@ -112,7 +112,7 @@ impl Simulation {
     fn take_smooth(&mut self, smooth: &Smooth) {
         let size = self
             .plan
-            .door
+            .scaling
             .size_ratio(smooth.at.load / self.plan.decided.force_n);
         let state = &mut self.state;
         if let (Some(stress), Some(life)) = (&mut self.work.stress, &mut state.life) {

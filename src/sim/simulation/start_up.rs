@@ -50,7 +50,7 @@ impl Simulation {
         for knob in Knob::ALL {
             self.state
                 .drive
-                .aim(knob, self.state.wanted.get(knob).target);
+                .aim(knob, self.state.targets.get(knob).target);
         }
         let developing = self.develops();
         let left = if developing {
@@ -73,8 +73,8 @@ impl Simulation {
 
     /// Whether sliding or roughness come up after the smooth contact.
     pub(super) fn develops(&self) -> bool {
-        let is_rough = |body| self.work.terrain.is_rough(body);
-        let sliding = self.state.wanted.get(Knob::SlideRoll).target;
+        let is_rough = |body| self.work.roughness.is_rough(body);
+        let sliding = self.state.targets.get(Knob::SlideRoll).target;
         is_rough(0) || is_rough(1) || sliding != 0.0
     }
 }

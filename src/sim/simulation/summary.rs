@@ -78,7 +78,7 @@ fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
     let depth = *sim.work.stress.as_ref()?.depths().get(pit.depth)?;
     let length = counting.map(body, size)?.0.spec().length;
     Some(PitStart {
-        depth_m: sim.plan.door.m_from_x(depth),
+        depth_m: sim.plan.scaling.m_from_x(depth),
         place_m: place_m(sim, pit.place, length),
         damage: pit.damage,
     })
@@ -90,7 +90,7 @@ fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
     let depths = sim.work.stress.as_ref()?.depths();
     let last = counts.iter().rposition(|count| *count >= 1.5);
     let k = last.map_or(0, |k| (k + 1).min(depths.len() - 1));
-    Some(sim.plan.door.m_from_x(depths[k]))
+    Some(sim.plan.scaling.m_from_x(depths[k]))
 }
 
 /// a_ISO beside the result, from λ and e_C C_u/P at the load P of now.

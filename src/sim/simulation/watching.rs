@@ -46,9 +46,9 @@ impl Simulation {
         let every = self.plan.decided.life.map_or(f64::INFINITY, |life| {
             life.volume_every_steps as f64 * self.plan.stepping.usual() * self.work.solver.grid.dx
         });
-        // By the way at the step's beginning, so that the first step of a passage is looked at.
-        let due =
-            self.state.phase == Phase::Passage && self.state.way >= self.state.next_volume - 1e-9;
+        // By the distance at the step's beginning, so that the first step of a passage is looked at.
+        let due = self.state.phase == Phase::Passage
+            && self.state.distance >= self.state.next_volume - 1e-9;
         let flushed = self.state.motion.is_flushed();
         let repeat = self.state.metrics.repeat;
         let counting = self.state.counting.as_ref();
@@ -58,10 +58,11 @@ impl Simulation {
             {
                 life.push(every, stress, counting);
                 if flushed {
-                    life.judge(stress_error, repeat, counting);
+                    life.test_settled(stress_error, repeat, counting);
                 }
                 self.stats.stress_volumes += u64::from(life.integrates());
-                self.state.next_volume = next_due(self.state.next_volume, self.state.way, every);
+                self.state.next_volume =
+                    next_due(self.state.next_volume, self.state.distance, every);
             }
         });
     }
@@ -72,7 +73,7 @@ impl Simulation {
             return;
         };
         let depths = self.work.stress.as_ref().map_or(&[][..], |s| s.depths());
-        let away = |k: usize| (self.plan.door.m_from_x(depths[k]) - follow.depth_m).abs();
+        let away = |k: usize| (self.plan.scaling.m_from_x(depths[k]) - follow.depth_m).abs();
         let nearest = (0..depths.len()).min_by(|&one, &two| away(one).total_cmp(&away(two)));
         let body = if follow.body == 2 {
             BodyId::Two
@@ -81,18 +82,24 @@ impl Simulation {
         };
         let x = follow
             .x_m
-            .map(|x_m| self.plan.door.heading.sign() * x_m / self.plan.door.a_m);
+            .map(|x_m| self.plan.scaling.heading.sign() * x_m / self.plan.scaling.a_m);
         counting.look_at(body, x, nearest.unwrap_or(0));
     }
 
-    /// Whether the passage repeats, after a step that began at the way `before`.
+    /// Whether the passage repeats, after a step that began at the distance `before`.
     pub(super) fn look_for_orbit(&mut self, before: f64) {
         let s = self.state.drive.get(Knob::SlideRoll).now;
         let mut frequencies = [0.0; 4];
         for (body, speed) in [1.0 - 0.5 * s, 1.0 + 0.5 * s].into_iter().enumerate() {
             let amplitude = Knob::AMPLITUDES[body];
             if self.state.drive.get(amplitude).now != 0.0 {
-                for (plane, k) in self.work.terrain.wavenumbers(body).into_iter().enumerate() {
+                for (plane, k) in self
+                    .work
+                    .roughness
+                    .wavenumbers(body)
+                    .into_iter()
+                    .enumerate()
+                {
                     frequencies[2 * body + plane] = k * speed / std::f64::consts::TAU;
                 }
             }
@@ -107,13 +114,13 @@ impl Simulation {
             let contact = &self.state.contact;
             let fields = (&contact.pressure[..], &contact.film[..]);
             self.state.orbit.push(
-                self.state.way,
-                self.state.way - before,
+                self.state.distance,
+                self.state.distance - before,
                 fields,
                 &self.state.metrics,
             );
         }
-        let second_per_a = self.plan.door.a_m / self.state.drive.get(Knob::EntrainmentMS).now;
+        let second_per_a = self.plan.scaling.a_m / self.state.drive.get(Knob::EntrainmentMS).now;
         self.state.metrics.repeat = Some(self.state.orbit.repeat(second_per_a));
     }
 
@@ -127,7 +134,7 @@ impl Simulation {
             law: &law,
             p: &state.pressure,
             h: &state.film,
-            ellipse: (scale, scale * self.plan.door.b_over_a),
+            ellipse: (scale, scale * self.plan.scaling.b_over_a),
         };
         let (traction, rows) = (&mut self.work.traction, &mut self.work.row_sums);
         self.work.pool.install(|| measure(&fields, traction, rows))
@@ -137,7 +144,7 @@ impl Simulation {
         self.publish_lubrication(measured);
         let has_stress = self.stage_has_stress();
         let a_m = self.plan.decided.hertz.a_m * self.size_now();
-        let door = &self.plan.door;
+        let scaling = &self.plan.scaling;
         let m = &mut self.state.metrics;
         m.converged = attempted.converged;
         m.residual = attempted.residual;
@@ -147,26 +154,26 @@ impl Simulation {
         m.film_error = attempted.film_error;
         m.mass_error = attempted.mass_error;
         m.load_error = attempted.load_error;
-        m.overlap_m = door.m_from_h(attempted.overlap);
+        m.overlap_m = scaling.m_from_h(attempted.overlap);
         let flow = self.plan.flow_now(&self.state.drive);
         let tolerance = self.plan.tolerance(flow);
         m.asked = [tolerance.pressure, tolerance.film];
-        let load = door.load_knob();
+        let load = scaling.load_knob();
         let (s, force) = (
             self.state.drive.get(Knob::SlideRoll),
             self.state.drive.get(load),
         );
         (m.slide_roll, m.slide_roll_target) =
-            (s.now, self.state.wanted.get(Knob::SlideRoll).target);
-        (m.load_n, m.load_target_n) = (force.now, self.state.wanted.get(load).target);
-        m.entrainment_m_s = door.heading.sign() * self.state.drive.get(Knob::EntrainmentMS).now;
+            (s.now, self.state.targets.get(Knob::SlideRoll).target);
+        (m.load_n, m.load_target_n) = (force.now, self.state.targets.get(load).target);
+        m.entrainment_m_s = scaling.heading.sign() * self.state.drive.get(Knob::EntrainmentMS).now;
         let volumes = self.state.yielded.as_ref().map(Yielded::volumes);
-        m.yielded_m3 = volumes.map(|both| both.map(|volume| door.m3_from_volume(volume)));
+        m.yielded_m3 = volumes.map(|both| both.map(|volume| scaling.m3_from_volume(volume)));
         if let Some(stress) = self.work.stress.as_ref().filter(|_| has_stress) {
             let peak = stress.slice.peak;
-            m.sigma_eff_max_pa = Some(door.pa_from_p(peak.value));
-            m.sigma_eff_max_depth_m = Some(door.m_from_x(peak.z));
-            m.sigma_eff_max_x_m = Some(door.place_m(peak.x));
+            m.sigma_eff_max_pa = Some(scaling.pa_from_p(peak.value));
+            m.sigma_eff_max_depth_m = Some(scaling.m_from_x(peak.z));
+            m.sigma_eff_max_x_m = Some(scaling.place_m(peak.x));
         }
         let n = contacts(
             &self.plan.decided,
@@ -206,7 +213,7 @@ impl Simulation {
     }
 }
 
-/// The first multiple of `every` after `due` that lies beyond `way`.
-fn next_due(due: f64, way: f64, every: f64) -> f64 {
-    due + every * ((way - due + 1e-9) / every).floor().max(0.0) + every
+/// The first multiple of `every` after `due` that lies beyond `distance`.
+fn next_due(due: f64, distance: f64, every: f64) -> f64 {
+    due + every * ((distance - due + 1e-9) / every).floor().max(0.0) + every
 }

@@ -1,7 +1,7 @@
 //! A pressure of the right load between zero and the hardness.
 //!
 //! ```text
-//! P ← min(c P, P_H) with the c of ∬P = load;  where nothing can grow, the load that is missing is spread over the rest
+//! P ← min(c P, P_H) with the c of ∬P = load;  where nothing can grow, the load that is missing is spread over the others
 //! ```
 //! Between two bounds a step that is cut may lead uphill, and few free nodes can then go to and fro for ever. So what
 //! would leave its bound to the wrong side stays, and a step that is cut is halved until ½ PᵀKP + GᵀP has not grown.

@@ -25,7 +25,7 @@ impl Solver {
             }
             let mut tolerance = conditions.tolerance;
             if pass == PASSES {
-                // Only judged: what the last solution leaves under its own traction.
+                // Only the convergence test: what the last solution leaves under its own traction.
                 tolerance.max_iterations = 0;
             }
             let report = dry.solve(

@@ -36,7 +36,7 @@ pub struct Solver {
     pub(super) c_star: Vec<f64>,
     s: Vec<f64>,
     mass: Vec<f64>,
-    /// Film against which the last attempt judged its errors where there is less.
+    /// Film against which the last attempt took its errors relative to where there is less.
     least_film: f64,
     /// What the next attempt solves, and the next commit stores.
     pub flow: Flow,
@@ -126,7 +126,7 @@ impl Solver {
         self.dry.yield_at(hardness);
     }
 
-    /// Depth by which the softer body has given way for good in the last attempt, film units; `None`: elastic.
+    /// Depth by which the softer body has yielded for good in the last attempt, film units; `None`: elastic.
     pub fn yielded(&self) -> Option<&[f64]> {
         self.newton.yielding.as_ref().map(Yielding::depth)
     }
@@ -275,7 +275,7 @@ impl Solver {
             let full = self.newton.reynolds.rho(n) * trial.film[n];
             let left = self.newton.reynolds.residual[n];
             let missing = if trial.pressure[n] > 0.0 {
-                // The unbalanced rest of a converged step is mass that the next one must find again.
+                // The residual of a converged step (carry-over) is mass that the next one must find again.
                 let most = CARRIED * full.max(self.least_film);
                 left.clamp(-most, most)
             } else if self.flow == Flow::MassConserving {

@@ -47,7 +47,7 @@ impl MaterialTracker {
     /// this one moved by `own` (both in size, since the last restart):
     ///
     /// ```text
-    /// n(z) = U_i/U_fast + (Z/N way) Σ_small range^c / <greatest range^c>        Z: track, N: points
+    /// n(z) = U_i/U_fast + (Z/N d) Σ_small range^c / <greatest range^c>        Z: track, N: points, d: distance
     /// ```
     /// Cycles count as they close, wherever the points then are, and so also for a body that hardly moves or stands;
     /// the greatest of each crossing is the crossing's own. A depth without shear (a frictionless surface) takes the

@@ -3,7 +3,7 @@
 //! Part of `newton.rs`.
 
 use super::super::converge::left_of;
-use super::judge::Evaluation;
+use super::sums::Evaluation;
 use super::{Iterate, Newton, NewtonReport, Problem};
 
 impl Newton {
@@ -38,18 +38,18 @@ impl Newton {
         if flows && !Self::is_converged(tolerance, report) {
             return new;
         }
-        let way = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
-        report.film_error += way;
+        let residual = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
+        report.film_error += residual;
         if Self::is_converged(tolerance, report) {
-            new.film_error += way;
+            new.film_error += residual;
             return new;
         }
         shear.set_share();
         shear.follow(iterate.h);
         report.followed_at = report.iterations;
-        let lacking = shear.lacking(way);
+        let lacking = shear.lacking(residual);
         self.balance(problem, iterate);
-        new = self.judge(problem, iterate);
+        new = self.sums(problem, iterate);
         new.film_error += lacking;
         new.reduction = new.merit / base;
         report.left = left_of(report.change, new.reduction);

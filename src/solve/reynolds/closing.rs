@@ -1,12 +1,12 @@
 //! Slopes of films that close or are about to open: where Newton's tangent misleads.
 //!
 //! ```text
-//! own film of a node, the rest frozen:  ρ̄H + N (x³) − C* = 0,   x = H_new/H,   N = F − ρ̄H + C* (net outflow)
+//! own film of a node, the others frozen:  ρ̄H + N (x³) − C* = 0,   x = H_new/H,   N = F − ρ̄H + C* (net outflow)
 //! closing (F > 0, N > 0)   ∂q/∂H ← ρ̄H²(1 + x + x²): the secant of q = ρ̄H³ between H and xH, not the tangent 3ρ̄H²
 //! opening (N < 0)          pivot ∂F/∂P + K00 ∂F/∂H ≥ θ ρ̄K00, by raising ∂F/∂H
 //! ```
 //! *Closing.* A film that flows off like H³ has a triple root: the tangent takes a third of it at a time. The secant
-//! to where the node alone would come to rest takes it at once, and since the flow through a face is changed for
+//! to where the node alone would balance takes it at once, and since the flow through a face is changed for
 //! both of its nodes no oil is lost (a factor on the residual instead, which each node has for itself, loses it and
 //! diverges). At the solution x = 1 and the secant is the tangent, so the order of convergence stays.
 //!
@@ -20,9 +20,9 @@
 //! dry contact of the oil-filled gap, which all this did before, saves a twentieth of the iterations and costs more.
 //!
 //! Tried and left: the root with the node's own change of pressure in it (a quartic; the same), the face's conductance
-//! too at the rest film (the inlet, where pressure gives way and not the film, then takes twice the iterations).
+//! too at the balanced film (the inlet, where pressure gives way and not the film, then takes twice the iterations).
 //!
-//! Ours: derived above, from the balance of one node with its neighbours at rest.
+//! Ours: derived above, from the balance of one node with its neighbours frozen.
 
 /// Newton iterations for x, from 1 downwards: each value lies between the root and the one before.
 const ITERATIONS: usize = 5;
@@ -50,7 +50,7 @@ pub(super) fn conductance_slopes(
         let out = f[i] - rho[i] * h[i] + c_star[i];
         let closes = f[i] > 0.0 && out > 0.0;
         let (stored, out, left) = if closes { (stored, out, c_star[i]) } else { (1.0, 0.0, 1.0) };
-        let x = rest(stored, out, left);
+        let x = balanced_film(stored, out, left);
         q_p[i] = rho_p[i] * square * open;
         q_h[i] = rho[i] * square * (1.0 + x + x * x);
     }
@@ -59,7 +59,7 @@ pub(super) fn conductance_slopes(
 
 /// Root of `stored x + out x³ = left`, for `stored + out ≥ left ≥ 0`: at least the root and at most 1.
 #[inline(always)]
-fn rest(stored: f64, out: f64, left: f64) -> f64 {
+fn balanced_film(stored: f64, out: f64, left: f64) -> f64 {
     let mut x = 1.0;
     for _ in 0..ITERATIONS {
         let cubic = out * x * x;
@@ -86,14 +86,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_rest_lies_between_the_root_and_one() {
+    fn the_balanced_film_lies_between_the_root_and_one() {
         for (stored, out, left) in [
             (1.0, 0.0, 0.3),
             (1.0, 5.0, 0.1),
             (0.01, 9.0, 0.0),
             (1.0, 0.1, 1.1),
         ] {
-            let x = rest(stored, out, left);
+            let x = balanced_film(stored, out, left);
             assert!((0.0..=1.0 + 1e-12).contains(&x), "{x}");
             assert!(
                 stored * x + out * x * x * x >= left - 1e-12,
@@ -101,8 +101,8 @@ mod tests {
             );
         }
         // Without flow in one go; at the solution not at all.
-        assert!((rest(2.0, 0.0, 0.5) - 0.25).abs() < 1e-15);
-        assert!((rest(2.0, 3.0, 5.0) - 1.0).abs() < 1e-15);
+        assert!((balanced_film(2.0, 0.0, 0.5) - 0.25).abs() < 1e-15);
+        assert!((balanced_film(2.0, 3.0, 5.0) - 1.0).abs() < 1e-15);
     }
 
     #[test]

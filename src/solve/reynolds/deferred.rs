@@ -169,11 +169,11 @@ impl Reynolds {
     fn run<'a>(
         &'a self,
         at: &Guessed<'a>,
-        flow: FlowDirection,
+        direction: FlowDirection,
         (starts, len): ([usize; 4], usize),
         (tau, faces): (&'a [f64], [usize; 3]),
     ) -> Run<'a> {
-        let fluidities = self.fluidity.nodes(flow, &self.q, 0..self.q.len());
+        let fluidities = self.fluidity.nodes(direction, &self.q, 0..self.q.len());
         let all = |of: &'a [f64]| starts.map(|start| &of[start..start + len]);
         let two = |of: &'a [f64]| [starts[1], starts[2]].map(|start| &of[start..start + len]);
         Run {

@@ -55,11 +55,19 @@ impl Reynolds {
     }
 
     /// Fills `faces` between the runs of nodes that begin at `a` and `b`.
-    fn fill_run(&self, way: FlowDirection, (a, b): (usize, usize), len: usize, faces: &mut Faces) {
+    fn fill_run(
+        &self,
+        direction: FlowDirection,
+        (a, b): (usize, usize),
+        len: usize,
+        faces: &mut Faces,
+    ) {
         let run = |start: usize| {
             let range = start..start + len;
-            let nodes = self.fluidity.nodes(way, &self.q, range.clone());
-            let slopes = self.fluidity.slopes(way, (&self.q_p, &self.q_h), range);
+            let nodes = self.fluidity.nodes(direction, &self.q, range.clone());
+            let slopes = self
+                .fluidity
+                .slopes(direction, (&self.q_p, &self.q_h), range);
             (nodes, slopes)
         };
         let ((nodes_a, slopes_a), (nodes_b, slopes_b)) = (run(a), run(b));

@@ -177,9 +177,9 @@ pub(super) fn layers_at(
 
 /// Grid that holds the modes below `reach`, and how many of them (0..) are kept.
 fn grid(reach: f64, longest: usize) -> (usize, usize) {
-    let wanted = (reach.ceil().min(longest as f64) as usize + 1).max(LOW);
-    let n = LaneFft::good_length(2 * wanted).min(longest);
-    (n, wanted.min(n / 2))
+    let modes = (reach.ceil().min(longest as f64) as usize + 1).max(LOW);
+    let n = LaneFft::good_length(2 * modes).min(longest);
+    (n, modes.min(n / 2))
 }
 
 /// Whole steps in a length that count as inside: the edge itself is at zero pressure and left out.

@@ -213,16 +213,16 @@ impl LineStress {
                 (top, at) = (s, i);
             }
         }
-        for (law, way) in laws.iter().enumerate() {
-            let greatest = f64::from(top) - way.limit;
+        for (slot, law) in laws.iter().enumerate() {
+            let greatest = f64::from(top) - law.limit;
             let beyond = self.rows[0]
                 .iter()
                 .filter(|s| **s > NEGLIGIBLE)
-                .map(|s| (f64::from(*s) - way.limit) / greatest)
+                .map(|s| (f64::from(*s) - law.limit) / greatest)
                 .filter(|part| *part > 0.0);
             let ln = if greatest > 0.0 {
-                let sum: f64 = beyond.map(|part| part.powf(way.exponent)).sum();
-                (self.spec.weights[k] * self.spec.dx * sum).ln() + way.exponent * greatest.ln()
+                let sum: f64 = beyond.map(|part| part.powf(law.exponent)).sum();
+                (self.spec.weights[k] * self.spec.dx * sum).ln() + law.exponent * greatest.ln()
             } else {
                 f64::NEG_INFINITY
             };
@@ -232,7 +232,7 @@ impl LineStress {
                 y: 0.0,
                 z: self.spec.depths[k],
             };
-            self.sums.set(loading, law, k, LayerSum { ln, peak });
+            self.sums.set(loading, slot, k, LayerSum { ln, peak });
         }
     }
 

@@ -1,4 +1,4 @@
-//! The stress in the plane y = 0 as it is handed out, and the passes that write it.
+//! The stress in the plane y = 0 as it is given out, and the passes that write it.
 //!
 //! Part of `stress/engine/slice.rs`.
 

@@ -147,7 +147,7 @@ fn point(u: f64, v: f64, lx: f64, ly: f64, weight: f64) -> QuadraturePoint {
     p
 }
 
-/// The window at ρ: 1 at the source, ½ half way to the nearest image.
+/// The window at ρ: 1 at the source, ½ halfway to the nearest image.
 fn window(rho: f64, edge: f64) -> f64 {
     0.5 * erfc((rho - 0.5) / edge)
 }

@@ -130,7 +130,7 @@ impl StressEngine {
     ///
     /// # Panics
     /// When a field has not `nx · ny` values.
-    pub fn load_both_ways(&mut self, p: &[f32], qx: &[f32], qy: &[f32]) {
+    pub fn load_along_both(&mut self, p: &[f32], qx: &[f32], qy: &[f32]) {
         self.load(p, Some(qx));
         self.transform((qy, MirrorParity::Odd), None);
         self.spectrum.sheared = ShearedAlong::Xy;

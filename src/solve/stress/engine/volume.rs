@@ -116,7 +116,7 @@ struct LayerInput<'a> {
     plans: &'a [LaneFft],
     spectrum: &'a Spectrum,
     laws: &'a [StressLaw],
-    wanted: &'a [Loading],
+    computed: &'a [Loading],
 }
 
 impl StressEngine {
@@ -135,7 +135,7 @@ impl StressEngine {
     pub fn volume_under(&mut self, laws: &[StressLaw], bodies: &[BodyId]) -> &VolumeSums {
         assert!((1..=MAX_LAWS).contains(&laws.len()), "one or two laws");
         assert!(!self.workers.is_empty(), "made for volumes");
-        let (wanted, count) = self.wanted(bodies);
+        let (computed, count) = self.computed(bodies);
         let job = LayerInput {
             spec: &self.spec,
             waves: &self.waves,
@@ -144,7 +144,7 @@ impl StressEngine {
             plans: &self.plans,
             spectrum: &self.spectrum,
             laws,
-            wanted: &wanted[..count],
+            computed: &computed[..count],
         };
         let depths = self.layers.len();
         let next = AtomicUsize::new(0);
@@ -166,8 +166,8 @@ impl StressEngine {
         let results = self.workers.iter().map(|worker| &worker.results);
         self.sums.gather(&results, laws.len());
         for loading in Loading::ALL {
-            if !wanted[..count].contains(&loading) {
-                let same = stands_for(loading, &wanted[..count]);
+            if !computed[..count].contains(&loading) {
+                let same = stands_for(loading, &computed[..count]);
                 self.sums.copy(same, loading);
             }
         }
@@ -180,7 +180,7 @@ impl StressEngine {
     }
 
     /// The loadings that differ, and how many: both bodies are alike without traction.
-    fn wanted(&self, bodies: &[BodyId]) -> ([Loading; 4], usize) {
+    fn computed(&self, bodies: &[BodyId]) -> ([Loading; 4], usize) {
         let (mut list, mut count) = (Loading::ALL, 0);
         let sheared = self.spectrum.sheared != ShearedAlong::No;
         for body in BodyId::BOTH {
@@ -200,12 +200,12 @@ impl StressEngine {
 }
 
 /// The computed loading that equals one that was left out.
-fn stands_for(loading: Loading, wanted: &[Loading]) -> Loading {
+fn stands_for(loading: Loading, computed: &[Loading]) -> Loading {
     let normal = Loading::Normal(loading.body());
-    if wanted.contains(&normal) {
+    if computed.contains(&normal) {
         normal
     } else {
-        wanted[0]
+        computed[0]
     }
 }
 
@@ -215,7 +215,7 @@ impl LayerInput<'_> {
         let mut running = [[RunningSum::default(); MAX_LAWS]; 4];
         for material in 0..self.spec.materials() {
             let mine = |loading: &Loading| self.spec.material(loading.body()) == material;
-            if !self.wanted.iter().any(mine) {
+            if !self.computed.iter().any(mine) {
                 continue;
             }
             self.pass_along_y(worker, layer, Part::Normal, material);
@@ -232,7 +232,7 @@ impl LayerInput<'_> {
                 if part.is_some() {
                     self.pass_along_x(worker, layer, row_block, 1);
                 }
-                for loading in self.wanted.iter().filter(|l| mine(l)) {
+                for loading in self.computed.iter().filter(|l| mine(l)) {
                     let sums = &mut running[loading.index()];
                     self.reduce(worker, k, row_block, *loading, sums);
                 }

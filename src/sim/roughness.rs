@@ -10,8 +10,8 @@
 
 use std::sync::Arc;
 
-use super::door::Heading;
-use super::motion::Way;
+use super::motion::BodyTravel;
+use super::scaling::Heading;
 use crate::math::grid::Grid;
 use crate::physics::height_map::{HeightMap, MapEdges};
 use crate::scene::Surface;
@@ -56,13 +56,13 @@ enum Relief {
 
 /// Both surfaces.
 #[derive(Debug, Clone)]
-pub(super) struct Terrain {
+pub(super) struct Roughness {
     reliefs: [Option<Relief>; 2],
     /// Heights of both bodies, film units, shape ny × nx.
     pub(super) heights: [Vec<f64>; 2],
 }
 
-impl Terrain {
+impl Roughness {
     /// The surfaces of a scene on `grid` (lengths over `a_m`), mirrored where the flow goes backward.
     pub(super) fn new(grid: &Grid, surfaces: [&Surface; 2], a_m: f64, heading: Heading) -> Self {
         let reliefs = surfaces.map(|surface| Relief::new(grid, surface, a_m, heading));
@@ -92,12 +92,12 @@ impl Terrain {
         self.reliefs[body].is_some()
     }
 
-    /// Moves body `body` to `way` with amplitude `amplitude` (film units).
-    pub(super) fn place(&mut self, grid: &Grid, body: usize, way: Way, amplitude: f64) {
+    /// Moves body `body` to where its `travel` has brought it, with amplitude `amplitude` (film units).
+    pub(super) fn place(&mut self, grid: &Grid, body: usize, travel: BodyTravel, amplitude: f64) {
         let out = &mut self.heights[body];
         match &mut self.reliefs[body] {
-            Some(Relief::Waves(waves)) => waves.heights(grid, way.travelled, amplitude, out),
-            Some(Relief::Map(drawn)) => drawn.heights(grid, way, amplitude, out),
+            Some(Relief::Waves(waves)) => waves.heights(grid, travel.travelled, amplitude, out),
+            Some(Relief::Map(drawn)) => drawn.heights(grid, travel, amplitude, out),
             None => out.fill(0.0),
         }
     }
@@ -187,18 +187,19 @@ impl GriddedMap {
         }
     }
 
-    fn heights(&mut self, grid: &Grid, way: Way, amplitude: f64, out: &mut [f64]) {
-        let way = match self.map.beyond() {
-            MapEdges::Repeated => Some(way.travelled),
-            MapEdges::Nothing => way.in_passage,
+    fn heights(&mut self, grid: &Grid, travel: BodyTravel, amplitude: f64, out: &mut [f64]) {
+        let distance = match self.map.beyond() {
+            MapEdges::Repeated => Some(travel.travelled),
+            MapEdges::Nothing => travel.in_passage,
         };
-        let Some(way) = way else {
+        let Some(distance) = distance else {
             out.fill(0.0);
             return;
         };
         let nx = self.map.nx();
         for (i, (pixels, weights)) in self.along.iter_mut().enumerate() {
-            let (first, w) = HeightMap::stencil((grid.x(i) - way - self.start) / self.pixel, nx);
+            let (first, w) =
+                HeightMap::stencil((grid.x(i) - distance - self.start) / self.pixel, nx);
             for k in 0..4 {
                 let pixel = self.map.wrapped(first + k as i64, nx);
                 pixels[k] = pixel.unwrap_or(0) as u32;
@@ -292,21 +293,21 @@ mod tests {
             angle_deg: 25.0,
             phase_deg: 40.0,
         };
-        let mut terrain = Terrain::new(
+        let mut roughness = Roughness::new(
             &grid,
             [&surface, &Surface::Smooth {}],
             1e-3,
             Heading::Forward,
         );
-        let way = Way {
+        let travel = BodyTravel {
             travelled: 0.3,
             in_passage: None,
         };
-        terrain.place(&grid, 0, way, 0.02);
+        roughness.place(&grid, 0, travel, 0.02);
         let wave = Waviness::new(0.7, 0.4, 25_f64.to_radians(), 40_f64.to_radians());
         for n in 0..grid.len() {
             let exact = 0.02 * wave.shape(grid.x(n % 17) - 0.3, grid.y(n / 17));
-            assert!((terrain.heights[0][n] - exact).abs() < 1e-14);
+            assert!((roughness.heights[0][n] - exact).abs() < 1e-14);
         }
     }
     #[test]
@@ -331,13 +332,13 @@ mod tests {
                 digest: None,
                 map: Some(Arc::clone(&map)),
             };
-            let mut terrain = Terrain::new(
+            let mut roughness = Roughness::new(
                 &grid,
                 [&Surface::Smooth {}, &surface],
                 1e-3,
                 Heading::Forward,
             );
-            let way = Way {
+            let travel = BodyTravel {
                 travelled: 0.4,
                 in_passage: Some(0.9),
             };
@@ -346,22 +347,22 @@ mod tests {
             } else {
                 -0.5
             };
-            terrain.place(&grid, 1, way, 0.02);
+            roughness.place(&grid, 1, travel, 0.02);
             let mut rough = 0;
             for m in 0..grid.len() {
                 let x = (grid.x(m % 33) - travelled - start) / 0.05;
                 let exact = 0.02 * map.sample(x, grid.y(m / 33) / 0.05);
-                assert!((terrain.heights[1][m] - exact).abs() < 1e-7);
+                assert!((roughness.heights[1][m] - exact).abs() < 1e-7);
                 rough += usize::from(exact != 0.0);
             }
             assert!(rough > 50, "{rough}");
             // Before the passage a windowed map is not there yet.
-            let before = Way {
+            let before = BodyTravel {
                 travelled: 0.4,
                 in_passage: None,
             };
-            terrain.place(&grid, 1, before, 0.02);
-            let is_flat = terrain.heights[1].iter().all(|&z| z == 0.0);
+            roughness.place(&grid, 1, before, 0.02);
+            let is_flat = roughness.heights[1].iter().all(|&z| z == 0.0);
             assert_eq!(is_flat, beyond == MapEdges::Nothing);
         }
     }

@@ -1,4 +1,4 @@
-//! The one door between SI and the dimensionless solver.
+//! The scaling between SI and the dimensionless solver: the one place where it is done.
 //!
 //! ```text
 //! X = x/a, Y = y/a, P = p/p_h, H = h Rx/a², T = t U/a      a, b, p_h: Hertz at the scene's load
@@ -14,7 +14,7 @@ use crate::scene::Knob;
 use crate::scene::{ContactKind, DensityLaw, EyringFlow, Rheology, Scene, ViscosityLaw};
 use crate::solve::reynolds::Medium;
 
-/// Which way the oil flows. Everything below the door is solved with the flow along +x; a scene that flows
+/// The direction in which the oil flows. Everything dimensionless is solved with the flow along +x; a scene that flows
 /// towards −x is solved as its mirror image, ξ = −x, and mirrored back where numbers leave: places, fields,
 /// and the sign of shear along x.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,10 +37,10 @@ impl Heading {
 
 /// Scales and constants of one scene.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Door {
+pub(super) struct Scaling {
     /// Point or line.
     pub(super) kind: ContactKind,
-    /// Which way the oil flows.
+    /// The direction in which the oil flows.
     pub(super) heading: Heading,
     /// Half-width along x, m.
     pub(super) a_m: f64,
@@ -63,13 +63,13 @@ pub(super) struct Door {
     density: Density,
 }
 
-impl Door {
-    /// The door of `scene`.
+impl Scaling {
+    /// The scaling of `scene`.
     pub(super) fn new(scene: &Scene) -> Self {
         let hertz: Hertz = scene.hertz();
         let (a, p) = (hertz.a_m, hertz.p_max_pa);
         let rx = scene.contact.rx_m;
-        let mut door = Self {
+        let mut scaling = Self {
             kind: scene.kind(),
             heading: if scene.motion.entrainment_m_s < 0.0 {
                 Heading::Backward
@@ -93,12 +93,12 @@ impl Door {
         };
         if let Some(oil) = &scene.lubricant {
             let (eta, alpha) = (oil.viscosity_pa_s, oil.pressure_viscosity_per_pa);
-            door.lambda_s_m = 12.0 * eta * rx * rx / (a.powi(3) * p);
-            door.viscosity = match oil.viscosity_law {
+            scaling.lambda_s_m = 12.0 * eta * rx * rx / (a.powi(3) * p);
+            scaling.viscosity = match oil.viscosity_law {
                 ViscosityLaw::Barus => Viscosity::barus(alpha, p),
                 ViscosityLaw::Roelands => Viscosity::roelands(eta, alpha, p),
             };
-            door.density = match oil.density_law {
+            scaling.density = match oil.density_law {
                 DensityLaw::Incompressible => Density::Incompressible,
                 DensityLaw::DowsonHigginson => Density::DowsonHigginson {
                     p_hertz_gpa: p * 1e-9,
@@ -108,8 +108,8 @@ impl Door {
                 },
             };
             if oil.rheology == Rheology::Eyring {
-                door.sliding_s_m = eta * rx / (oil.eyring_stress_pa * a * a);
-                door.sheared = match oil.eyring_flow {
+                scaling.sliding_s_m = eta * rx / (oil.eyring_stress_pa * a * a);
+                scaling.sheared = match oil.eyring_flow {
                     EyringFlow::Secant => ShearedFlow::Secant,
                     EyringFlow::AlongAcross => ShearedFlow::AlongAcross {
                         limit: oil.limiting_shear_ratio * p / oil.eyring_stress_pa,
@@ -118,7 +118,7 @@ impl Door {
                 };
             }
         }
-        door
+        scaling
     }
 
     /// The fluid at entrainment speed `u_m_s` and slide-to-roll ratio `s`; a dry scene has λ = ∞: no flow.

@@ -36,14 +36,14 @@ impl Evaluation {
 }
 
 impl Newton {
-    /// [`Self::judge`] with the D of this evaluation.
-    pub(super) fn judge_anew(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
+    /// [`Self::sums`] with the D of this evaluation.
+    pub(super) fn sums_anew(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
         self.reference.copy_from_slice(&self.reynolds.diagonal);
-        self.judge(problem, iterate)
+        self.sums(problem, iterate)
     }
 
     /// Sums of the evaluation; the merit uses the frozen D in `reference`.
-    pub(super) fn judge(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
+    pub(super) fn sums(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
         let (grid, nx) = (problem.grid, problem.grid.nx);
         let interior = grid.interior_rows();
         let (reynolds, reference) = (&self.reynolds, &self.reference);
