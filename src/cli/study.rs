@@ -4,7 +4,8 @@ use std::path::Path;
 
 use asperity::files::write_whole;
 use asperity::study::accuracy::{
-    accuracy, accuracy_table, accuracy_text, life_plot, work_precision_plot,
+    DEFAULT_PART, accuracy, accuracy_table, accuracy_text, default_scene, default_scene_text,
+    life_plot, work_precision_plot,
 };
 use asperity::study::evidence::{
     agreement_plot, evidence, evidence_table, evidence_text, experiments_plot,
@@ -47,8 +48,13 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
 /// Options that a study has no use for.
 fn refuse_what_is_not_read(args: &StudyArgs) -> Result<(), Failure> {
     let refused = match args.kind {
-        StudyKind::Accuracy if args.only.is_some() => {
-            "--only: this study's cases belong together; stability, scaling and evidence take it"
+        StudyKind::Accuracy
+            if args
+                .only
+                .as_deref()
+                .is_some_and(|part| !DEFAULT_PART.contains(part)) =>
+        {
+            "--only: this study's parts belong together, but for --only \"default scene\""
         }
         StudyKind::Scaling if args.threads.is_some() => {
             "--threads: this study compares one thread with two; to have cases of one only: --only \"1 threads\""
@@ -59,6 +65,9 @@ fn refuse_what_is_not_read(args: &StudyArgs) -> Result<(), Failure> {
 }
 
 fn accurate(args: &StudyArgs, bar: &Bar) -> Result<StudyFiles, StudyError> {
+    if args.only.is_some() {
+        return default_alone(args, bar);
+    }
     let result = accuracy(extent(args), args.threads(), &mut |name, n, all| {
         bar.tell(name, n, all);
     })?;
@@ -76,6 +85,18 @@ fn accurate(args: &StudyArgs, bar: &Bar) -> Result<StudyFiles, StudyError> {
     Ok(StudyFiles {
         files,
         passes: result.passes(),
+    })
+}
+
+/// The part of the accuracy that stands alone.
+fn default_alone(args: &StudyArgs, bar: &Bar) -> Result<StudyFiles, StudyError> {
+    let runs = default_scene(extent(args), args.threads(), &mut |name, n, all| {
+        bar.tell(name, n, all);
+    })?;
+    let text = headed("Default scene", args, &default_scene_text(&runs));
+    Ok(StudyFiles {
+        files: vec![("default_scene.md".to_owned(), text)],
+        passes: true,
     })
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! units = time of a step / time of one padded transform pair (f64, whole grid, one thread), same nodes
+//! transforms, % = time of a step's transforms on their own, as many threads / time of the step
 //! ```
 //! The pair is what one deflection costs; it is measured in the same run, before and after the steps, so that
 //! units mean the same on any machine. Steps are those of the default scene's passage (rough on both bodies,
@@ -13,6 +14,9 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
+use rustfft::FftNum;
+
+use super::table::figure;
 use super::{Extent, StudyError, StudyProgress, refuse_nothing};
 use crate::math::filter::{Filter, Padding};
 use crate::math::grid::{Grid, Symmetry};
@@ -33,6 +37,8 @@ pub struct ScalingRow {
     pub pair_s: f64,
     /// Median step, s.
     pub step_s: f64,
+    /// What the transforms of a step take on their own, on as many threads, s; of a dry step, which has others, nothing.
+    pub transforms_s: Option<f64>,
     /// Newton iterations a step.
     pub newton: f64,
     /// Krylov iterations a step.
@@ -80,6 +86,7 @@ impl ScalingCase {
     }
 }
 
+const DRY: &str = "dry";
 const GENERAL: &[&str] = &["body_2.surface.angle_deg=0.01"];
 const MIRRORED: &[&str] = &[];
 const MIRRORED_CASE: &str = "mirrored in y";
@@ -126,7 +133,7 @@ fn cases(extent: Extent) -> Vec<ScalingCase> {
         for (name, keys) in SPEEDS {
             push(name, 129, 2, 256, keys);
         }
-        push("dry", 129, 2, 256, &["lubricant=none"]);
+        push(DRY, 129, 2, 256, &["lubricant=none"]);
     }
     cases
 }
@@ -173,6 +180,11 @@ fn measure(case: &ScalingCase) -> Result<ScalingRow, String> {
         threads: case.threads,
         pair_s,
         step_s: bare.median_s,
+        transforms_s: if case.name == DRY {
+            None
+        } else {
+            Some(transforms_s(case, bare.newton, bare.krylov)?)
+        },
         newton: bare.newton,
         krylov: bare.krylov,
         failed: bare.failed,
@@ -256,33 +268,57 @@ fn best(mut call: impl FnMut()) -> f64 {
 
 /// Best time of one padded double-precision transform pair on the whole grid, one thread.
 fn pair_s(nodes: usize) -> Result<f64, String> {
+    filter_s::<f64>(nodes, Symmetry::General, Padding::Doubled, 1)
+}
+
+/// Best time of one transform pair that works on so many threads.
+fn filter_s<T: FftNum>(
+    nodes: usize,
+    symmetry: Symmetry,
+    padding: Padding,
+    threads: usize,
+) -> Result<f64, String> {
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
+        .num_threads(threads)
         .build()
         .map_err(|error| error.to_string())?;
-    let grid = Grid::new(nodes, -2.5, 1.5, 2.0, Symmetry::General);
-    let mut filter = Filter::<f64>::new(&grid, Padding::Doubled, 1);
+    let grid = Grid::new(nodes, -2.5, 1.5, 2.0, symmetry);
+    let mut filter = Filter::<T>::new(&grid, padding, 1);
     filter.set_symbol(0, |_, _| 1.0);
-    let input = vec![1.0; grid.len()];
-    let mut out = vec![0.0; grid.len()];
+    let input = vec![T::one(); grid.len()];
+    let mut out = vec![T::zero(); grid.len()];
     Ok(pool.install(|| best(|| filter.apply(&input, &mut out))))
+}
+
+/// What the transforms of a mean step take on their own: a padded pair in double precision for each Newton iteration, a
+/// padded and a pinned one in single precision for each Krylov iteration.
+fn transforms_s(case: &ScalingCase, newton: f64, krylov: f64) -> Result<f64, String> {
+    let symmetry = if case.keys == GENERAL {
+        Symmetry::General
+    } else {
+        Symmetry::MirrorY
+    };
+    let pair = |padding| filter_s::<f32>(case.nodes, symmetry, padding, case.threads);
+    let double = filter_s::<f64>(case.nodes, symmetry, Padding::Doubled, case.threads)?;
+    Ok(newton * double + krylov * (pair(Padding::Doubled)? + pair(Padding::Pinned)?))
 }
 
 /// The rows as a Markdown table, with the ratios that the rows give.
 pub fn scaling_text(rows: &[ScalingRow]) -> String {
     let mut text = String::from(
-        "| grid | case | threads | pair, ms | step, ms | units (pairs) | steps/s | Newton | Krylov | MB | not converged |\n\
-         |---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| grid | case | threads | pair, ms | step, ms | units (pairs) | transforms, % | steps/s | Newton | Krylov | MB | not converged |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for row in rows {
         let _ = writeln!(
             text,
-            "| {n}² | {} | {} | {:.3} | {:.2} | {:.0} | {:.1} | {:.1} | {:.1} | {:.0} | {} |",
+            "| {n}² | {} | {} | {:.3} | {:.2} | {:.0} | {} | {:.1} | {:.1} | {:.1} | {:.0} | {} |",
             row.case,
             row.threads,
             row.pair_s * 1e3,
             row.step_s * 1e3,
             row.units(),
+            figure(row.transforms_s.map(|s| 100.0 * s / row.step_s)),
             1.0 / row.step_s,
             row.newton,
             row.krylov,

@@ -7,10 +7,13 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use super::super::Extent;
+use super::super::{Extent, StudyError, StudyProgress};
 use crate::plan::Plan;
 use crate::scene::{Order, Override, Scene, presets};
 use crate::sim::{Frame, Simulation, Stage, Summary};
+
+/// The name of this part.
+pub const DEFAULT_PART: &str = "default scene";
 
 /// Means of a passage that are compared, by their names in a summary.
 pub const COMPARED: [&str; 5] = [
@@ -93,29 +96,33 @@ fn settings(extent: Extent) -> Vec<DefaultSetting> {
     }
 }
 
-/// Runs them all.
+/// Runs them all on `threads` threads; the finest, last, is what the others are measured against.
 ///
 /// # Errors
-/// What a scene or a step says.
-pub(super) fn default_scene(
+/// [`StudyError`] when a scene cannot be made or a step fails.
+pub fn default_scene(
     extent: Extent,
     threads: usize,
-    mut heard: impl FnMut(&str),
-) -> Result<Vec<DefaultRun>, String> {
-    let asked = Scene::load_with(presets::DEFAULT, &[]).map_err(|error| error.to_string())?;
-    let plan = Plan::new(&asked).map_err(|error| error.to_string())?;
+    progress: &mut StudyProgress,
+) -> Result<Vec<DefaultRun>, StudyError> {
+    let failed = |reason: String| StudyError::Run {
+        case: DEFAULT_PART.to_owned(),
+        reason,
+    };
+    let asked =
+        Scene::load_with(presets::DEFAULT, &[]).map_err(|error| failed(error.to_string()))?;
+    let plan = Plan::new(&asked).map_err(|error| failed(error.to_string()))?;
     let own = DefaultSetting {
         nodes: plan.domain.nodes,
         order: plan.order,
         step: asked.time.step_nodes,
     };
     let settings = settings(extent);
-    let runs = settings.into_iter().map(|setting| {
-        heard(&format!(
-            "default scene, {}",
-            setting.sets()[..3].join(", ")
-        ));
-        run(setting, threads, setting == own)
+    let all = settings.len();
+    let runs = settings.into_iter().enumerate().map(|(n, setting)| {
+        let name = format!("{DEFAULT_PART}, {}", setting.sets()[..3].join(", "));
+        progress(&name, n, all);
+        run(setting, threads, setting == own).map_err(failed)
     });
     runs.collect()
 }
@@ -166,9 +173,10 @@ fn values(summary: &Summary) -> [f64; COMPARED.len()] {
 }
 
 /// The runs as a section of the report.
-pub(super) fn push_default_scene(text: &mut String, runs: &[DefaultRun]) {
+pub fn default_scene_text(runs: &[DefaultRun]) -> String {
+    let mut text = String::new();
     let Some(reference) = runs.last() else {
-        return;
+        return text;
     };
     let s = reference.setting;
     let _ = writeln!(
@@ -200,4 +208,5 @@ pub(super) fn push_default_scene(text: &mut String, runs: &[DefaultRun]) {
             run.seconds,
         );
     }
+    text
 }

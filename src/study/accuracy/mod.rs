@@ -14,7 +14,9 @@ mod row;
 mod smooth;
 mod stress;
 
-pub use default_scene::{COMPARED, DefaultRun, DefaultSetting};
+pub use default_scene::{
+    COMPARED, DEFAULT_PART, DefaultRun, DefaultSetting, default_scene, default_scene_text,
+};
 pub use passage::{LifeLimit, LifeRun, LifeValue, Resolution};
 pub use plot::{life_plot, work_precision_plot};
 pub use report::{accuracy_table, accuracy_text};
@@ -219,10 +221,9 @@ pub fn accuracy(
     })
     .map_err(failed(StudiedPart::Life))?;
     rows.extend(more);
-    let default_scene = default_scene::default_scene(extent, threads, |name| {
+    let default_scene = default_scene(extent, threads, &mut |name, _, _| {
         progress(name, all - 1, all);
-    })
-    .map_err(failed(StudiedPart::Life))?;
+    })?;
     row::observe_orders(&mut rows);
     row::mark_front(&mut rows);
     Ok(Accuracy {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::super::table::{MarkdownTable, figure};
-use super::default_scene::push_default_scene;
+use super::default_scene::default_scene_text;
 use super::{Accuracy, LEVELS, StudiedPart, Varied};
 
 /// Every row.
@@ -54,7 +54,7 @@ pub fn accuracy_text(result: &Accuracy) -> String {
     text.push_str(&accuracy_table(result).markdown());
     push_orders(&mut text, result);
     push_lives(&mut text, result);
-    push_default_scene(&mut text, &result.default_scene);
+    text.push_str(&default_scene_text(&result.default_scene));
     text
 }
 
