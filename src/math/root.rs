@@ -2,8 +2,13 @@
 //!
 //! The ITP method (Oliveira & Takahashi, ACM Trans. Math. Softw. 47, 2020): false position, truncated
 //! towards the middle and projected onto a shrinking interval about it. Its worst case is bisection
-//! plus one step, so it always ends, and it is superlinear on smooth functions. Brent's method of the crate `roots` needs
-//! as many values, 104 for 110 over five functions to 1e-12 (11 to 43 each): kept for its bound, and because it says no to NaN.
+//! plus one step, so it always ends, and it is superlinear on smooth functions.
+//!
+//! Measured against Brent's method of the crate `roots` 0.0.8, values of f for 1e-12: over x² − 2, cos x − x, x³ − 2x − 5,
+//! eˣ − 1000 and x⁹ 156 to 88, with a jump 41 to 82. As the crate comes it stops where |f| is small (x⁹: 1e-3 beside the root)
+//! and takes 402 values to refuse a NaN, for our 2. It is called once a plan, for the ellipse of Hertz (some 40 values, no
+//! measurable time), so neither gains anything; kept because another's last bits of κ would move every number of every point
+//! contact.
 
 use thiserror::Error;
 
@@ -26,7 +31,7 @@ pub struct NotBracketed {
 /// Root of `f` between `lo` and `hi`, to within `tolerance` (absolute, in x).
 ///
 /// # Errors
-/// [`NotBracketed`] when `f` has the same sign at both ends, or is NaN at one of them.
+/// [`NotBracketed`] when `f` has the same sign at both ends, or is NaN where it is asked for.
 ///
 /// ```
 /// let root = asperity::math::root::bracketed(|x| x * x - 2.0, 0.0, 2.0, 1e-14)?;
@@ -80,8 +85,16 @@ pub fn bracketed(
             (b, y_b) = (x, y);
         } else if y < 0.0 {
             (a, y_a) = (x, y);
-        } else {
+        } else if y == 0.0 {
             return Ok(x);
+        } else {
+            let [f_lo, f_hi] = [y_a, y].map(|y| sign * y);
+            return Err(NotBracketed {
+                lo: a,
+                hi: x,
+                f_lo,
+                f_hi,
+            });
         }
         n_done += 1.0;
     }
@@ -126,5 +139,14 @@ mod tests {
         assert!(bracketed(|x| x * x + 1.0, -1.0, 1.0, 1e-9).is_err());
         assert!(bracketed(|_| f64::NAN, -1.0, 1.0, 1e-9).is_err());
         assert!(bracketed(|x| x, 1.0, -1.0, 1e-9).is_err());
+        // Finite at both ends, and nothing in between.
+        let hole = |x: f64| {
+            if (x - 0.4).abs() < 0.2 {
+                f64::NAN
+            } else {
+                x - 0.45
+            }
+        };
+        assert!(bracketed(hole, 0.0, 1.0, 1e-9).is_err());
     }
 }

@@ -70,10 +70,6 @@ impl Directions {
     fn inx3(self) -> f64 {
         self.inx - self.inxny2
     }
-
-    fn iny3(self) -> f64 {
-        self.iny - self.inx2ny
-    }
 }
 
 /// Both families at a point.
@@ -109,19 +105,6 @@ impl Harmonics {
             xy: f.iny - 2.0 * nu * f.inx2ny - g.inx2ny,
             xz: -f.one + g.nx2,
             yz: g.nxny,
-        }
-    }
-
-    /// Stress due to the traction along y whose harmonics these are.
-    pub fn tangential_y(self, poisson: f64) -> Stress6 {
-        let (f, g, nu) = (self.f, self.g, poisson);
-        Stress6 {
-            xx: 2.0 * nu * (f.iny - f.inx2ny) - g.inx2ny,
-            yy: 2.0 * (1.0 + nu) * f.iny - 2.0 * nu * f.iny3() - g.iny3(),
-            zz: g.iny,
-            xy: f.inx - 2.0 * nu * f.inxny2 - g.inxny2,
-            xz: g.nxny,
-            yz: -f.one + g.ny2(),
         }
     }
 }

@@ -11,7 +11,7 @@ use super::Command;
 use super::checkpoint::Checkpoint;
 use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
 use super::settled::Gather;
-use super::shared::{Ending, SessionEvent, SharedStatus, lock};
+use super::shared::{Ending, SharedStatus, lock};
 use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind, SetBy};
@@ -335,7 +335,8 @@ impl Driver {
                 };
                 self.announce(sim, kind);
             }
-            Err(error) => self.show(SessionEvent::Refused(error)),
+            // Not done, and told where it would have been.
+            Err(error) => self.announce(sim, RunEventKind::Caption(error.to_string())),
         }
     }
 

@@ -27,7 +27,7 @@ pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
 pub use replay::HandTurn;
 pub use session::{Request, RunError, Session};
 pub use settled::Settled;
-pub use shared::{Ending, SessionEvent, Status};
+pub use shared::{Ending, Status};
 pub use stepper::Stepper;
 pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 

@@ -12,7 +12,7 @@ use super::driver::{Done, Driver};
 use super::outcome::{AppliedCommand, Outcome};
 use super::replay::HandTurn;
 use super::settled::Settled;
-use super::shared::{Ending, SessionEvent, SharedStatus, Status, lock};
+use super::shared::{Ending, SharedStatus, Status, lock};
 use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{Began, Latest, RunContext, SetBy};
@@ -221,11 +221,6 @@ impl Session {
     pub fn settled_reader(&self) -> impl Fn() -> Option<Arc<Settled>> + Send + 'static {
         let shared = Arc::clone(&self.shared);
         move || lock(&shared).settled.clone()
-    }
-
-    /// What happened since the last call.
-    pub fn take_events(&self) -> Vec<SessionEvent> {
-        lock(&self.shared).events.drain(..).collect()
     }
 
     /// Whether the run has ended, so that `join` returns at once.

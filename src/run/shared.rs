@@ -1,12 +1,10 @@
 //! What the simulation's thread and the session that watches it share.
 
-use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::settled::Settled;
 use super::watcher::WatcherStatus;
-use crate::observe::{ObserveError, RunEvent};
-use crate::sim::{SimError, Stage};
+use crate::sim::Stage;
 
 /// When a session ends by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,17 +15,6 @@ pub enum Ending {
     Steps(u64),
     /// Never: only when told to stop (the explorer). An output that fails is reported and left out.
     OnStop,
-}
-
-/// Something that happened, for a screen to show.
-#[derive(Debug, Clone)]
-pub enum SessionEvent {
-    /// A knob was set, a caption came up, a step did not converge.
-    Run(RunEvent),
-    /// A command was refused.
-    Refused(SimError),
-    /// An output failed.
-    OutputFailed(ObserveError),
 }
 
 /// Where a session is.
@@ -47,24 +34,10 @@ pub struct Status {
     pub failure: Option<String>,
 }
 
-/// Events that wait to be shown at most; a screen takes them at each drawing.
-const EVENTS_KEPT: usize = 256;
-
 #[derive(Debug, Default)]
 pub(super) struct SharedStatus {
     pub(super) status: Status,
     pub(super) settled: Option<Arc<Settled>>,
-    pub(super) events: VecDeque<SessionEvent>,
-}
-
-impl SharedStatus {
-    /// Keeps an event for the screen; the oldest makes room.
-    pub(super) fn show(&mut self, event: SessionEvent) {
-        if self.events.len() == EVENTS_KEPT {
-            self.events.pop_front();
-        }
-        self.events.push_back(event);
-    }
 }
 
 pub(super) fn lock(shared: &Mutex<SharedStatus>) -> MutexGuard<'_, SharedStatus> {

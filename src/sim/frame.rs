@@ -167,6 +167,9 @@ pub struct Metrics {
     /// Greatest shear stress on the surfaces, of sheared oil and of touching spots, Pa.
     #[serde(default)]
     pub traction_max_pa: f64,
+    /// Where along x the load acts, m: the load times it is the moment about the line of centres that rolling has to overcome.
+    #[serde(default)]
+    pub load_centre_x_m: f64,
     /// What body 1 and 2 have yielded since the roughness came up, m³ (of a line m³ per metre of length); `None`: both
     /// are elastic.
     #[serde(default)]
@@ -261,6 +264,7 @@ pub const CATALOGUE: &[Quantity] = {
         Q::new(["yielded_body_1_m3", "body 1 has yielded"], Volume, "what body 1 has yielded since the roughness came up", M(|m| m.yielded_m3.map(|both| both[0]).into())),
         Q::new(["yielded_body_2_m3", "body 2 has yielded"], Volume, "what body 2 has yielded since the roughness came up", M(|m| m.yielded_m3.map(|both| both[1]).into())),
         Q::new(["traction_max_pa", "τ max"], Pressure, "greatest shear stress on the surfaces", M(|m| m.traction_max_pa.into())).over(&[(Mean, "traction_max_pa"), (Greatest, "traction_max_greatest_pa")]).by_itself(),
+        Q::new(["load_centre_x_m", "x of the load"], Length, "where along x the load acts: its moment resists rolling", M(|m| m.load_centre_x_m.into())),
     ]
 };
 

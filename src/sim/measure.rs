@@ -29,6 +29,8 @@ pub(super) struct Measured {
     pub(super) friction: f64,
     /// Greatest |Q|.
     pub(super) traction_max: f64,
+    /// ∬XP/∬P.
+    pub(super) load_centre: f64,
 }
 
 impl Measured {
@@ -42,6 +44,7 @@ impl Measured {
         m.contact_load_ratio = self.contact_load_ratio;
         m.friction_coefficient = self.friction.abs();
         m.traction_max_pa = scaling.pa_from_p(self.traction_max);
+        m.load_centre_x_m = scaling.place_m(self.load_centre);
     }
 }
 
@@ -66,6 +69,7 @@ pub(super) struct RowSums {
     traction_max: f64,
     h_min: f64,
     load: f64,
+    moment: f64,
     drag: f64,
     touching: f64,
     /// Nodes in contact within the ellipse.
@@ -109,6 +113,7 @@ pub(super) fn measure(fields: &Fields, traction: &mut [f64], rows: &mut [RowSums
         contact_load_ratio: total.touching / load,
         friction: total.drag / load,
         traction_max: total.traction_max,
+        load_centre: total.moment / load,
     }
 }
 
@@ -118,6 +123,7 @@ impl RowSums {
         self.traction_max = self.traction_max.max(row.traction_max);
         self.h_min = self.h_min.min(row.h_min);
         self.load += weight * row.load;
+        self.moment += weight * row.moment;
         self.drag += weight * row.drag;
         self.touching += weight * row.touching;
         self.contact += weight * row.contact;
@@ -140,6 +146,7 @@ fn sum_row(
     };
     for i in 0..grid.nx {
         sums.load += p[i];
+        sums.moment += p[i] * grid.x(i);
         sums.drag += q[i];
         sums.p_max = sums.p_max.max(p[i]);
         sums.traction_max = sums.traction_max.max(q[i].abs());

@@ -150,30 +150,28 @@ impl Totals {
 
     /// The summary of the last step `m` and of what was summed up; `known`: what does not come from the steps.
     pub(super) fn summary(&self, m: &Metrics, known: Summary) -> Summary {
+        /// The catalogue's sums over the steps by their keys, and scalars of the last step by their names.
+        macro_rules! numbers {
+            ($($key:ident)*; $($last:ident)*) => {
+                Summary {
+                    $($key: self.number(const { total(stringify!($key)) }),)*
+                    $($last: m.$last,)*
+                    ..known
+                }
+            };
+        }
+        let numbers = numbers!(
+            h_central_m h_min_m h_min_least_m p_max_pa p_max_greatest_pa contact_ratio contact_load_ratio
+            load_n load_error mass_error friction_coefficient;
+            regime lambda_ratio n_body_1 n_body_2 n_counted_body_1 n_counted_body_2
+        );
         let stress = self.greatest_stress();
         Summary {
             converged: self.not_converged == 0,
             steps_not_converged: self.not_converged,
-            h_central_m: self.number(const { total("h_central_m") }),
-            h_min_m: self.number(const { total("h_min_m") }),
-            p_max_pa: self.number(const { total("p_max_pa") }),
-            p_max_greatest_pa: self.number(const { total("p_max_greatest_pa") }),
-            h_min_least_m: self.number(const { total("h_min_least_m") }),
-            regime: m.regime,
-            lambda_ratio: m.lambda_ratio,
-            contact_ratio: self.number(const { total("contact_ratio") }),
-            contact_load_ratio: self.number(const { total("contact_load_ratio") }),
-            load_n: self.number(const { total("load_n") }),
-            load_error: self.number(const { total("load_error") }),
-            mass_error: self.number(const { total("mass_error") }),
-            friction_coefficient: self.number(const { total("friction_coefficient") }),
             yielded_body_1_m3: m.yielded_m3.map(|both| both[0]),
             yielded_body_2_m3: m.yielded_m3.map(|both| both[1]),
             yielded_last_share: self.yielded_last_share(),
-            n_body_1: m.n_body_1,
-            n_body_2: m.n_body_2,
-            n_counted_body_1: m.n_counted_body_1,
-            n_counted_body_2: m.n_counted_body_2,
             sigma_eff_max_pa: stress.map(|s| s[0]),
             sigma_eff_max_depth_m: stress.map(|s| s[1]),
             sigma_eff_max_x_m: stress.map(|s| s[2]),
@@ -182,7 +180,7 @@ impl Totals {
             period_drift: m.repeat.and_then(|r| r.drift),
             periodic: m.repeat.map(|r| r.repeats),
             by_itself: self.by_themselves(),
-            ..known
+            ..numbers
         }
     }
 }

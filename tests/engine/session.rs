@@ -413,17 +413,18 @@ fn scripted_events_take_effect_at_their_time_in_order() {
 }
 
 #[test]
-fn a_knob_that_is_refused_is_shown_and_not_logged() {
+fn a_knob_that_is_refused_is_told_and_not_logged() {
     let mut case = Case::new(5);
     case.ending = Ending::OnStop;
-    let (session, _) = case.start();
+    let (session, seen) = case.start();
     session.send(Command::Set(Knob::SlideRoll, 3.0));
     wait_until(&session, |steps| steps > 2);
-    let events = session.take_events();
-    assert_eq!(events.len(), 1, "{events:?}");
     session.send(Command::Stop);
     let outcome = session.join().unwrap();
     assert_eq!(outcome.applied.len(), 1, "{:?}", outcome.applied);
+    let events = seen.lock().unwrap().events.clone();
+    assert_eq!(events.len(), 1, "{events:?}");
+    assert!(events[0].1.contains("at most 2"), "{events:?}");
 }
 
 #[test]

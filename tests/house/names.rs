@@ -87,7 +87,13 @@ fn retired() -> Vec<String> {
 /// Names of the code that hold one of the `words`; `at_rest` is a state of motion.
 fn holding(words: &[String], text: &str) -> BTreeSet<String> {
     let code = without_comments(text);
-    // Strings are text for people and names of files.
+    // Strings are text for people and names of files, raw ones first.
+    let raw = code.split("r#\"").enumerate();
+    let after = |(k, part): (usize, &str)| match part.split_once("\"#") {
+        Some((_, after)) if k > 0 => after.to_owned(),
+        _ => part.to_owned(),
+    };
+    let code: String = raw.map(after).collect();
     let code: String = code.split('"').step_by(2).collect::<Vec<_>>().join(" ");
     let names = code.split(|c: char| !(c.is_alphanumeric() || c == '_'));
     let holds = |name: &&str| {
@@ -137,7 +143,7 @@ fn names_use_the_words_of_the_field() {
 
 #[test]
 fn a_retired_word_is_found() {
-    let text = "fn judged(rest_p: f64) {} // way\nlet at_rest = \"door\"; struct OwnTerrain; let always = LEAST_WAYS;";
+    let text = "fn judged(rest_p: f64) {} // way\nlet at_rest = \"door\"; r#\"{\"way\"}\"#; struct OwnTerrain; let always = LEAST_WAYS;";
     let found = holding(&retired(), text);
     let expected = ["LEAST_WAYS", "OwnTerrain", "judged", "rest_p"];
     assert_eq!(found, expected.map(str::to_owned).into());

@@ -2,8 +2,7 @@
 //!
 //! {circle, ellipse, line} × {Reynolds, mass-conserving, dry} × {like, unlike bodies} × {sinusoid, height map} × {fixed,
 //! adaptive steps} × {no event, events}: each run is cut in the middle and taken up again through a file, and
-//! repeated from its own recording; every field of every frame is compared. Without an event each is also run with its
-//! workspace thrown away before steps of the start-up and of the passage.
+//! repeated from its own recording; every field of every frame is compared. Without their workspace: `workspace.rs`.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -48,11 +47,9 @@ const STEPS: [(&str, &str); 2] = [
 ];
 
 /// A case, and what it is called.
-struct Case {
-    name: String,
-    scene: Scene,
-    /// Whether two events are scripted.
-    scripted: bool,
+pub(crate) struct Case {
+    pub(crate) name: String,
+    pub(crate) scene: Scene,
 }
 
 fn load(sets: &[String]) -> Scene {
@@ -108,7 +105,7 @@ fn script(scene: &mut Scene) {
 }
 
 /// All 144 of them; the height map of body 2 is in `folder`.
-fn cases(folder: &Path) -> Vec<Case> {
+pub(crate) fn cases(folder: &Path) -> Vec<Case> {
     let height_m = |i: usize| {
         let turn = TAU * i as f64 / 16.0;
         1e-7 * (turn.cos() + 0.5 * (2.0 * turn + 1.0).cos())
@@ -140,7 +137,6 @@ fn cases(folder: &Path) -> Vec<Case> {
                             cases.push(Case {
                                 name: [shape, flow, bodies, surface, step, events].join(", "),
                                 scene,
-                                scripted,
                             });
                         }
                     }
@@ -292,44 +288,6 @@ fn a_run_cut_in_two_or_repeated_is_the_whole_run() {
     });
     println!(
         "restart matrix: {} cases, {rows} rows cut in two and {n_repeated:?} repeated, {differing} differ",
-        cases.len()
-    );
-    assert_eq!(differing, 0);
-}
-
-/// The workspace of every step is another one: what an attempt gives depends on the state alone.
-#[test]
-fn a_workspace_thrown_away_before_a_step_changes_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let cases: Vec<Case> = cases(folder.path())
-        .into_iter()
-        .filter(|case| !case.scripted)
-        .collect();
-    let made = |scene: &Scene| Simulation::new(scene, Plan::new(scene).unwrap(), 1).unwrap();
-    let [rows, differing] = over(&cases, |case| {
-        let mut whole = made(&case.scene);
-        let mut cut = made(&case.scene);
-        let (mut one, mut two) = (Frame::default(), Frame::default());
-        let mut count = [0; 2];
-        let mut made_steps = 0;
-        while whole.passage_steps() < 8 {
-            whole.step().unwrap();
-            // The smooth start-up is the same in all cases but for its grid.
-            if made_steps % 8 == 0 || whole.progress() > 0.4 {
-                cut.renew_work().unwrap();
-            }
-            cut.step().unwrap();
-            made_steps += 1;
-            whole.fill(&mut one);
-            cut.fill(&mut two);
-            count[0] += 1;
-            count[1] += usize::from(bits(&one) != bits(&two));
-        }
-        assert_eq!(whole.stats(), cut.stats(), "{}", case.name);
-        count
-    });
-    println!(
-        "thrown away: {} cases, {rows} rows, {differing} differ",
         cases.len()
     );
     assert_eq!(differing, 0);

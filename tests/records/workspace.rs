@@ -2,10 +2,10 @@
 //! the work that is counted are the same as of the run that kept it.
 //!
 //! Seen to fail with a warm start planted in the solver (the last attempt's pressure as the first guess of the next one in
-//! place of the state's): all three tests end at the second step.
+//! place of the state's): all four tests end at the second step.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use crate::restart_matrix::{lengthen, scene_smooth};
+use crate::restart_matrix::{cases, lengthen, scene_smooth};
 use asperity::plan::Plan;
 use asperity::scene::{ContactKind, Override, Scene, presets};
 use asperity::sim::{Frame, Knob, Simulation};
@@ -128,6 +128,29 @@ fn every_kind_of_contact_is_the_same_without_its_workspace() {
     for (name, preset, sets) in kinds {
         let count = compared(name, &small(preset, sets), 8, 1.0);
         println!("{name}: {count} frames");
+    }
+}
+
+/// Of the matrix of restarts what the kinds above lack: height maps, an ellipse, lines of every flow.
+#[test]
+fn height_maps_and_lines_are_the_same_without_the_workspace() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = [
+        "ellipse, jfo, unlike, height map, adaptive, no event",
+        "circle, dry, like, height map, fixed, no event",
+        "line, reynolds, unlike, height map, fixed, no event",
+        "line, jfo, like, sinusoid, adaptive, no event",
+        "line, dry, unlike, sinusoid, fixed, no event",
+    ];
+    let all = cases(folder.path());
+    let chosen: Vec<_> = all
+        .iter()
+        .filter(|case| names.contains(&&*case.name))
+        .collect();
+    assert_eq!(chosen.len(), names.len());
+    for case in chosen {
+        let count = compared(&case.name, &case.scene, 8, 1.0);
+        println!("{}: {count} frames", case.name);
     }
 }
 

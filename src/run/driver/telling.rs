@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::Driver;
 use crate::observe::{ObserveError, ObserverReport, RunEvent, RunEventKind};
 use crate::run::outcome::End;
-use crate::run::shared::{Ending, SessionEvent, lock};
+use crate::run::shared::{Ending, lock};
 use crate::run::stepper::Stepper;
 use crate::run::watcher::Watcher;
 use crate::sim::Stage;
@@ -39,16 +39,10 @@ impl Driver {
             let written = self.watchers[index].event(&event);
             self.note_output(written);
         }
-        self.show(SessionEvent::Run(event));
-    }
-
-    pub(super) fn show(&self, event: SessionEvent) {
-        lock(&self.shared).show(event);
     }
 
     pub(super) fn note_output(&mut self, result: Result<(), ObserveError>) {
         if let Err(error) = result {
-            self.show(SessionEvent::OutputFailed(error.clone()));
             self.output_errors.push(error);
         }
     }

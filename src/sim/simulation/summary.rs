@@ -35,17 +35,22 @@ impl Simulation {
 
 /// What a summary says of the life.
 fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary {
+    /// Numbers of the estimate and of its detail, by their names.
+    macro_rules! numbers {
+        ($($known:ident)*; $($detail:ident)*) => {
+            Summary {
+                $($known: life.map(|l| l.$known),)*
+                $($detail: life.and_then(|l| l.detail.$detail),)*
+                ..Summary::default()
+            }
+        };
+    }
+    let numbers = numbers!(
+        i_ref i_mean cycle_factor stress_factor peak_factor traction_factor load_factor
+        life_relative life_relative_low life_relative_high;
+        life_system life_global life_damage life_snapshot life_swept
+    );
     Summary {
-        i_ref: life.map(|l| l.i_ref),
-        i_mean: life.map(|l| l.i_mean),
-        cycle_factor: life.map(|l| l.cycle_factor),
-        stress_factor: life.map(|l| l.stress_factor),
-        peak_factor: life.map(|l| l.peak_factor),
-        traction_factor: life.map(|l| l.traction_factor),
-        load_factor: life.map(|l| l.load_factor),
-        life_relative: life.map(|l| l.life_relative),
-        life_relative_low: life.map(|l| l.life_relative_low),
-        life_relative_high: life.map(|l| l.life_relative_high),
         survival_ratio: stage.map(LifeStage::survival_ratio),
         life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
         life_count: stage.map(LifeStage::count_text),
@@ -53,11 +58,6 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
         life_body: life.map(|l| l.detail.body),
         life_body_1: life.and_then(|l| l.detail.life_body[0]),
         life_body_2: life.and_then(|l| l.detail.life_body[1]),
-        life_system: life.and_then(|l| l.detail.life_system),
-        life_global: life.and_then(|l| l.detail.life_global),
-        life_damage: life.and_then(|l| l.detail.life_damage),
-        life_snapshot: life.and_then(|l| l.detail.life_snapshot),
-        life_swept: life.and_then(|l| l.detail.life_swept),
         life_models_low: life.map(|l| l.detail.spread_low),
         life_models_high: life.map(|l| l.detail.spread_high),
         life_models: life.map(|l| l.detail.variants),
@@ -66,7 +66,7 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
             .and_then(|l| Some(l.detail.cycles? * l.life_relative_low / l.life_relative)),
         life_cycles_high: life
             .and_then(|l| Some(l.detail.cycles? * l.life_relative_high / l.life_relative)),
-        ..Summary::default()
+        ..numbers
     }
 }
 

@@ -10,8 +10,6 @@
 //! ```text
 //! q_x:  d1 = i nx E [2 − (nx² − ny²) B] q̂x      d2 = i nx E [2ν − kz − ny² B] q̂x
 //!       σxy = i ny E [1 − nx² B] q̂x    σxz = E [nx² kz − 1] q̂x    σyz = E nx ny kz q̂x
-//! q_y:  d1 = −i ny E [2 + (nx² − ny²) B] q̂y     d2 = i ny E [2 + 2ν − kz − ny² B] q̂y
-//!       σxy = i nx E [1 − ny² B] q̂y    σxz = E nx ny kz q̂y        σyz = E [ny² kz − 1] q̂y
 //! ```
 //!
 //! Part of `stress/mod.rs`: its responses, added and subtracted.
@@ -30,8 +28,6 @@ pub(super) enum Part {
     Normal,
     /// Traction along x.
     AlongX,
-    /// Traction along x and y.
-    AlongBoth,
 }
 
 /// One lane's complex number.
@@ -80,11 +76,6 @@ fn turned(factor: f32, (re, im): ComplexLane) -> ComplexLane {
 }
 
 #[inline(always)]
-fn plus(a: ComplexLane, b: ComplexLane) -> ComplexLane {
-    (a.0 + b.0, a.1 + b.1)
-}
-
-#[inline(always)]
 fn along_x(m: Mode, s: PoissonTerms, x: ComplexLane) -> DeviatorLane {
     let Mode { e, kz, nx, ny } = m;
     let b = s.two_nu + kz;
@@ -96,22 +87,6 @@ fn along_x(m: Mode, s: PoissonTerms, x: ComplexLane) -> DeviatorLane {
         turned(e_y * (1.0 - nx * nx * b), x),
         (fxz * x.0, fxz * x.1),
         (fyz * x.0, fyz * x.1),
-    ]
-}
-
-#[inline(always)]
-fn along_both(m: Mode, s: PoissonTerms, x: ComplexLane, y: ComplexLane) -> DeviatorLane {
-    let Mode { e, kz, nx, ny } = m;
-    let b = s.two_nu + kz;
-    let (e_x, e_y) = (e * nx, e * ny);
-    let (fxz, fyz) = (e_x * ny * kz, e * (ny * ny * kz - 1.0));
-    let [d1, d2, xy, xz, yz] = along_x(m, s, x);
-    [
-        plus(d1, turned(-e_y * (2.0 + (nx * nx - ny * ny) * b), y)),
-        plus(d2, turned(e_y * (2.0 + s.two_nu - kz - ny * ny * b), y)),
-        plus(xy, turned(e_x * (1.0 - ny * ny * b), y)),
-        plus(xz, (fxz * y.0, fxz * y.1)),
-        plus(yz, (fyz * y.0, fyz * y.1)),
     ]
 }
 
@@ -140,21 +115,6 @@ fn low_along_x(row: &LowRow, l: usize, ny: f32, x: ComplexLane) -> DeviatorLane 
         turned(ny * t(3), x),
         (t(4) * x.0, t(4) * x.1),
         (yz * x.0, yz * x.1),
-    ]
-}
-
-/// Same under traction along x and y.
-#[inline(always)]
-fn low_along_both(row: &LowRow, l: usize, ny: f32, x: ComplexLane, y: ComplexLane) -> DeviatorLane {
-    let t = |i: usize| row.y[i].0[l];
-    let [d1, d2, xy, xz, yz] = low_along_x(row, l, ny, x);
-    let fxz = ny * t(4);
-    [
-        plus(d1, turned(ny * t(0), y)),
-        plus(d2, turned(ny * t(1), y)),
-        plus(xy, turned(t(3), y)),
-        plus(xz, (fxz * y.0, fxz * y.1)),
-        plus(yz, (t(5) * y.0, t(5) * y.1)),
     ]
 }
 
@@ -211,7 +171,6 @@ struct ModeRow<'a> {
     ny: &'a V,
     p: (&'a V, &'a V),
     x: (&'a V, &'a V),
-    y: (&'a V, &'a V),
     z: f32,
     /// Sign of ky.
     sign: f32,
@@ -237,11 +196,6 @@ impl ModeRow<'_> {
     fn x(&self, l: usize) -> ComplexLane {
         (self.x.0.0[l], self.x.1.0[l])
     }
-
-    #[inline(always)]
-    fn y(&self, l: usize) -> ComplexLane {
-        (self.y.0.0[l], self.y.1.0[l])
-    }
 }
 
 #[inline(always)]
@@ -260,7 +214,6 @@ fn row_of<'a>(
         ny: &waves.ny[i],
         p: (&half.p.re[i], &half.p.im[i]),
         x: (&half.x.re[i], &half.x.im[i]),
-        y: (&half.y.re[i], &half.y.im[i]),
         z: layer.z as f32,
         sign,
     }
@@ -314,12 +267,6 @@ macro_rules! five_of {
             (Part::Normal, true) => in_lanes!(l => $shape(low_normal($t, l, $sign, $r.p(l)))),
             (Part::AlongX, false) => in_lanes!(l => $shape(along_x($r.mode(l), $s, $r.x(l)))),
             (Part::AlongX, true) => in_lanes!(l => $shape(low_along_x($t, l, $sign, $r.x(l)))),
-            (Part::AlongBoth, false) => {
-                in_lanes!(l => $shape(along_both($r.mode(l), $s, $r.x(l), $r.y(l))))
-            }
-            (Part::AlongBoth, true) => {
-                in_lanes!(l => $shape(low_along_both($t, l, $sign, $r.x(l), $r.y(l))))
-            }
         }
     };
 }

@@ -68,14 +68,13 @@ impl Waves {
     }
 }
 
-/// Windowed responses of the sixteen modes of one ky row: `[σ]` of p, of q_x and of q_y, in the order
+/// Windowed responses of the sixteen modes of one ky row: `[σ]` of p and of q_x, in the order
 /// xx − yy, yy − zz, zz, xy, xz, yz. For p, xz and yz are to be taken times i; for q, all but those. At −ky,
-/// xy and yz of p and q_x turn their sign, and all but those of q_y.
+/// xy and yz turn their sign.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LowRow {
     pub(super) p: [V; 6],
     pub(super) x: [V; 6],
-    pub(super) y: [V; 6],
 }
 
 /// One depth.
@@ -109,7 +108,7 @@ pub(super) struct Layer {
 
 impl Layer {
     pub(super) fn bytes(&self) -> usize {
-        LANES * 4 * (self.e.len() + 18 * LOW * self.low.len())
+        LANES * 4 * (self.e.len() + 12 * LOW * self.low.len())
     }
 
     /// Blocks of sixteen rows.
@@ -214,20 +213,12 @@ fn decay_table(waves: &Waves, z: f64, modes_x: usize, blocks: usize, rows: usize
 
 fn low_rows(table: &LowModes, nu: f64) -> Vec<LowRow> {
     let zero = [V::ZERO; 6];
-    let row = LowRow {
-        p: zero,
-        x: zero,
-        y: zero,
-    };
+    let row = LowRow { p: zero, x: zero };
     let mut rows = vec![row; LOW];
     for (my, row) in rows.iter_mut().enumerate() {
         for mx in 0..LOW {
             let h = table.at(mx, my);
-            let states = [
-                (&mut row.p, h.normal(nu)),
-                (&mut row.x, h.tangential_x(nu)),
-                (&mut row.y, h.tangential_y(nu)),
-            ];
+            let states = [(&mut row.p, h.normal(nu)), (&mut row.x, h.tangential_x(nu))];
             for (slot, s) in states {
                 for (v, number) in slot.iter_mut().zip(differences(s)) {
                     v.0[mx] = number as f32;

@@ -4,8 +4,7 @@
 //! Z = FFT(p + i q_x);   P(k) = (Z(k) + conj Z(−k))/2,   X(k) = (Z(k) − conj Z(−k))/2i
 //! ```
 //! First along y (x in the lanes: rows are read as they lie), then along x. A mirror surface is
-//! extended evenly, and its spectrum is even in ky, so one half serves. Traction along y has a transform
-//! of its own where there is any; across a mirror it is odd, and so is its spectrum.
+//! extended evenly, and its spectrum is even in ky, so one half serves.
 //!
 //! Source: Press et al. (2007), *Numerical Recipes*, §12.3: two real transforms in one.
 
@@ -20,7 +19,6 @@ use crate::math::lanes::{LANES, V, transpose};
 pub(in crate::solve::stress) struct Half {
     pub(in crate::solve::stress) p: Lanes,
     pub(in crate::solve::stress) x: Lanes,
-    pub(in crate::solve::stress) y: Lanes,
 }
 
 /// Spectrum of the surface loaded last.
@@ -29,24 +27,7 @@ pub(in crate::solve::stress) struct Spectrum {
     /// At −ky; `None` for a mirror surface, where it equals `plus`.
     pub(in crate::solve::stress) minus: Option<Half>,
     /// Whether a traction was loaded.
-    pub(in crate::solve::stress) sheared: ShearedAlong,
-}
-
-/// Whether a traction acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::solve::stress) enum ShearedAlong {
-    No,
-    /// Along x.
-    X,
-    /// Along x and y.
-    Xy,
-}
-
-/// How a field goes on across the mirror y = 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum MirrorParity {
-    Even,
-    Odd,
+    pub(in crate::solve::stress) sheared: bool,
 }
 
 impl Spectrum {
@@ -54,19 +35,18 @@ impl Spectrum {
         let half = || Half {
             p: Lanes::new(waves.blocks * waves.modes_y),
             x: Lanes::new(waves.blocks * waves.modes_y),
-            y: Lanes::new(waves.blocks * waves.modes_y),
         };
         Self {
             plus: half(),
             minus: (symmetry == Symmetry::General).then(half),
-            sheared: ShearedAlong::No,
+            sheared: false,
         }
     }
 
     pub(in crate::solve::stress) fn lanes(&self) -> impl Iterator<Item = &Lanes> {
         std::iter::once(&self.plus)
             .chain(&self.minus)
-            .flat_map(|half| [&half.p, &half.x, &half.y])
+            .flat_map(|half| [&half.p, &half.x])
     }
 }
 
@@ -115,33 +95,16 @@ impl StressEngine {
     /// # Panics
     /// When a field has not `nx · ny` values.
     pub fn load(&mut self, p: &[f32], qx: Option<&[f32]>) {
-        self.transform((p, MirrorParity::Even), qx);
-        self.spectrum.sheared = match qx {
-            Some(_) => ShearedAlong::X,
-            None => ShearedAlong::No,
-        };
+        self.transform(p, qx);
+        self.spectrum.sheared = qx.is_some();
         let scale = 0.5 / (self.waves.n_x as f64 * self.waves.n_y as f64);
         self.along_x(|z, mate, waves, ky_block, half| {
             separate(z, mate, waves, ky_block, scale as f32, half);
         });
     }
 
-    /// Same with traction along y too. Across a mirror it is odd: `qy(x, −y) = −qy(x, y)`.
-    ///
-    /// # Panics
-    /// When a field has not `nx · ny` values.
-    pub fn load_along_both(&mut self, p: &[f32], qx: &[f32], qy: &[f32]) {
-        self.load(p, Some(qx));
-        self.transform((qy, MirrorParity::Odd), None);
-        self.spectrum.sheared = ShearedAlong::Xy;
-        let scale = 1.0 / (self.waves.n_x as f64 * self.waves.n_y as f64);
-        self.along_x(|z, _, waves, ky_block, half| {
-            keep(z, waves, ky_block, scale as f32, &mut half.y);
-        });
-    }
-
     /// The pass along y of `re + i im`.
-    fn transform(&mut self, (re, parity): (&[f32], MirrorParity), im: Option<&[f32]>) {
+    fn transform(&mut self, re: &[f32], im: Option<&[f32]>) {
         let nodes = self.spec.nx * self.spec.ny;
         for field in std::iter::once(re).chain(im) {
             assert_eq!(field.len(), nodes, "a field has nx · ny values");
@@ -153,9 +116,9 @@ impl StressEngine {
         };
         for block in 0..spec.nx.div_ceil(LANES) {
             let [input, other] = &mut work.along_y;
-            read_rows(spec, block, re, parity, &mut input.re);
+            read_rows(spec, block, re, &mut input.re);
             match im {
-                Some(im) => read_rows(spec, block, im, MirrorParity::Even, &mut input.im),
+                Some(im) => read_rows(spec, block, im, &mut input.im),
                 None => input.im.fill(V::ZERO),
             }
             self.plans[work.fft_y].forward(input, other);
@@ -196,7 +159,7 @@ impl StressEngine {
 }
 
 /// Sixteen columns of the surface, the axis at index 0 and y < 0 at the end of the period.
-fn read_rows(spec: &StressSpec, block: usize, field: &[f32], parity: MirrorParity, out: &mut [V]) {
+fn read_rows(spec: &StressSpec, block: usize, field: &[f32], out: &mut [V]) {
     let n = out.len();
     let columns = block * LANES..spec.nx.min((block + 1) * LANES);
     let row = |j: usize| V::from_part(&field[j * spec.nx..][columns.clone()]);
@@ -205,14 +168,8 @@ fn read_rows(spec: &StressSpec, block: usize, field: &[f32], parity: MirrorParit
         Symmetry::MirrorY => {
             for j in 0..spec.ny {
                 let here = row(j);
-                out[(n - j) % n] = match parity {
-                    MirrorParity::Even => here,
-                    MirrorParity::Odd => -here,
-                };
+                out[(n - j) % n] = here;
                 out[j] = here;
-            }
-            if parity == MirrorParity::Odd {
-                out[0] = V::ZERO;
             }
         }
         Symmetry::General | Symmetry::Line => {
@@ -272,25 +229,6 @@ fn separate(
         let targets = [&mut half.p.re, &mut half.p.im, &mut half.x.re, &mut half.x.im];
         for (line, to) in [&p_re, &p_im, &q_re, &q_im].into_iter().zip(targets) {
             to[from..from + count].copy_from_slice(&transpose(line)[..count]);
-        }
-    }
-}
-}
-
-dispatched! {
-/// The spectrum of a field that was transformed alone.
-fn keep(z: &Lanes, waves: &Waves, ky_block: usize, scale: f32, out: &mut Lanes) {
-    let scale = V::splat(scale);
-    for block in 0..waves.blocks {
-        let first = block * LANES;
-        let from = block * waves.modes_y + ky_block * LANES;
-        let count = (waves.modes_y - ky_block * LANES).min(LANES);
-        for (line, to) in [(&z.re, &mut out.re), (&z.im, &mut out.im)] {
-            let mut rows = [V::ZERO; LANES];
-            for kx in first..waves.modes_x.min(first + LANES) {
-                rows[kx - first] = line[kx] * scale;
-            }
-            to[from..from + count].copy_from_slice(&transpose(&rows)[..count]);
         }
     }
 }

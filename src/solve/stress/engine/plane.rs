@@ -19,7 +19,7 @@ use super::super::peak::measure_of;
 use super::super::spec::Loading;
 use super::super::window::LOW;
 use super::StressEngine;
-use super::load::{Half, ShearedAlong};
+use super::load::Half;
 use crate::physics::invariants::Stress6;
 
 type ComplexMode = Complex<f32>;
@@ -216,56 +216,51 @@ impl StressEngine {
         let lanes = crate::math::lanes::LANES;
         let (block, l) = (kx / lanes, kx % lanes);
         let i = block * self.waves.modes_y + ky;
-        let [p, x, y] = self.loads(loading, i, l, sign);
+        let [p, x] = self.loads(loading, i, l, sign);
         if block == 0 && ky < LOW {
             return low(
                 layer,
                 self.spec.material(loading.body()),
                 (kx, ky),
                 sign,
-                [p, x, y],
+                [p, x],
             );
         }
         let nu2 = 2.0 * self.spec.poisson(loading.body()) as f32;
         let e = layer.e[block * layer.rows + ky].0[l];
         let kz = self.waves.k[i].0[l] * layer.z as f32;
         let (nx, ny) = (self.waves.nx[i].0[l], sign * self.waves.ny[i].0[l]);
-        let q = ComplexMode::i() * (x * nx + y * ny);
+        let q = ComplexMode::i() * x * nx;
         let d = p - q;
         let a = p * (1.0 - nu2) + q * nu2 - d * kz;
         [
             ComplexMode::i() * x * (2.0 * nx) - d * nu2 - a * (nx * nx),
-            ComplexMode::i() * y * (2.0 * ny) - d * nu2 - a * (ny * ny),
+            -d * nu2 - a * (ny * ny),
             -(p + d * kz),
-            ComplexMode::i() * (x * ny + y * nx) - a * (nx * ny),
+            ComplexMode::i() * x * ny - a * (nx * ny),
             -x + ComplexMode::i() * d * (nx * kz),
-            -y + ComplexMode::i() * d * (ny * kz),
+            ComplexMode::i() * d * (ny * kz),
         ]
         .map(|c| c * e)
     }
 
-    /// p̂, q̂x, q̂y on the body at one mode.
-    fn loads(&self, loading: Loading, i: usize, l: usize, sign: f32) -> [ComplexMode; 3] {
+    /// p̂ and q̂x on the body at one mode.
+    fn loads(&self, loading: Loading, i: usize, l: usize, sign: f32) -> [ComplexMode; 2] {
         let minus = if sign < 0.0 {
             self.spectrum.minus.as_ref()
         } else {
             None
         };
-        let mirrored = sign < 0.0 && minus.is_none();
         let half: &Half = minus.unwrap_or(&self.spectrum.plus);
         let at = |lanes: &crate::math::lane_fft::Lanes| {
             ComplexMode::new(lanes.re[i].0[l], lanes.im[i].0[l])
         };
-        let factor = loading.traction_sign();
-        let p = at(&half.p);
-        match self.spectrum.sheared {
-            ShearedAlong::No => [p, ComplexMode::default(), ComplexMode::default()],
-            ShearedAlong::X => [p, at(&half.x) * factor, ComplexMode::default()],
-            ShearedAlong::Xy => {
-                let odd = if mirrored { -factor } else { factor };
-                [p, at(&half.x) * factor, at(&half.y) * odd]
-            }
-        }
+        let traction = if self.spectrum.sheared {
+            at(&half.x) * loading.traction_sign()
+        } else {
+            ComplexMode::default()
+        };
+        [at(&half.p), traction]
     }
 }
 
@@ -280,19 +275,19 @@ fn low(
     material: usize,
     (kx, ky): (usize, usize),
     sign: f32,
-    [p, x, y]: [ComplexMode; 3],
+    [p, x]: [ComplexMode; 2],
 ) -> [ComplexMode; 6] {
     let row = &layer.low[material][ky];
-    let [t, u, w] = [&row.p, &row.x, &row.y].map(|six| six.map(|v| v.0[kx]));
-    let even = |c: usize| p * t[c] + ComplexMode::i() * (x * u[c] + y * (sign * w[c]));
+    let [t, u] = [&row.p, &row.x].map(|six| six.map(|v| v.0[kx]));
+    let even = |c: usize| p * t[c] + ComplexMode::i() * x * u[c];
     let (d1, d2, zz) = (even(0), even(1), even(2));
     let yy = d2 + zz;
     [
         d1 + yy,
         yy,
         zz,
-        p * (sign * t[3]) + ComplexMode::i() * (x * (sign * u[3]) + y * w[3]),
-        ComplexMode::i() * p * t[4] + x * u[4] + y * (sign * w[4]),
-        ComplexMode::i() * p * (sign * t[5]) + x * (sign * u[5]) + y * w[5],
+        p * (sign * t[3]) + ComplexMode::i() * x * (sign * u[3]),
+        ComplexMode::i() * p * t[4] + x * u[4],
+        ComplexMode::i() * p * (sign * t[5]) + x * (sign * u[5]),
     ]
 }

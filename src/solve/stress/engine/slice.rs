@@ -4,7 +4,6 @@
 //! S(c) = Σ_ky E c     σzz = −S(p̂) − z S(kD)          σxx = 2i kx S(q̂/k) − 2ν S(D) − kx² S(A0/k²) + kx² z S(D/k)
 //!                     σxz = −S(q̂) + i kx z S(D)      σyy = −2(1+ν) S(D) − σxx − σzz
 //! unsymmetric:        σxy = i S(ny q̂) − kx S(ny A0/k) + kx z S(ny D)      σyz = i z S(ny kD)
-//! traction along y:   σxy + i kx S(q̂y/k)      σyz − S(q̂y)      Q + i ny q̂y
 //! A0 = (1−2ν) p̂ + 2ν Q
 //! ```
 //! The columns c are formed once per surface and shared by all depths. Every depth is given at the full
@@ -18,17 +17,15 @@ use super::super::slice_out::{SliceOut, turn_depths, write_rows};
 use super::super::spec::{Loading, StressSpec, Symmetry};
 use super::super::window::LOW;
 use super::StressEngine;
-use super::load::{Half, ShearedAlong, Spectrum};
+use super::load::{Half, Spectrum};
 use crate::math::lane_fft::{Lanes, pack_pair};
 use crate::math::lanes::{C, LANES, V};
 use crate::physics::cycles::BodyId;
 
-/// Most columns: seven even, four odd, two of the traction along y.
-const COLUMNS: usize = 13;
+/// Most columns: seven even, four odd.
+const COLUMNS: usize = 11;
 /// First odd column.
 const ODD: usize = 7;
-/// First column of the traction along y.
-const ALONG_Y: usize = 11;
 
 /// Columns and sums.
 pub(in crate::solve::stress) struct SliceScratch {
@@ -65,7 +62,7 @@ struct SliceCase {
     loading: Loading,
     material: usize,
     nu: f64,
-    sheared: ShearedAlong,
+    sheared: bool,
 }
 
 /// Spectra of one depth and block: xx, yy, zz, xz, xy, yz.
@@ -91,7 +88,7 @@ impl StressEngine {
             material: spec.material(loading.body()),
             nu: spec.poisson(loading.body()),
             sheared: match loading {
-                Loading::Normal(_) => ShearedAlong::No,
+                Loading::Normal(_) => false,
                 Loading::Full(_) => self.spectrum.sheared,
             },
         };
@@ -160,7 +157,7 @@ fn form_columns(waves: &Waves, spectrum: &Spectrum, case: SliceCase, columns: &m
             }
             let c = &mut columns[i * COLUMNS..(i + 1) * COLUMNS];
             let f = folded(spectrum, case, i, y, V::splat(1.0));
-            let q = f.x.scale_i(nx).plus(f.y_other.scale_i(ny));
+            let q = f.x.scale_i(nx);
             let d = f.p.minus(q);
             let a0 = q.fma(two_nu, f.p.scale(one_less));
             let six = [f.p, d.scale(k), d, a0.scale(by_k * by_k), d.scale(by_k), f.x];
@@ -168,12 +165,11 @@ fn form_columns(waves: &Waves, spectrum: &Spectrum, case: SliceCase, columns: &m
             c[6] = f.x.scale(by_k);
             if spectrum.minus.is_some() {
                 let f = folded(spectrum, case, i, y, V::splat(-1.0));
-                let q = f.x.scale_i(nx).plus(f.y_other.scale_i(ny));
+                let q = f.x.scale_i(nx);
                 let d = f.p.minus(q);
                 let a0 = q.fma(two_nu, f.p.scale(one_less));
                 let odd = [f.x.scale(ny), a0.scale(ny * by_k), d.scale(ny), d.scale(ny * k)];
-                c[ODD..ALONG_Y].copy_from_slice(&odd);
-                c[ALONG_Y..].copy_from_slice(&[f.y_other, f.y_other.scale(by_k)]);
+                c[ODD..].copy_from_slice(&odd);
             }
         }
     }
@@ -184,8 +180,6 @@ fn form_columns(waves: &Waves, spectrum: &Spectrum, case: SliceCase, columns: &m
 struct Folded {
     p: C,
     x: C,
-    /// Of the traction along y, with the other sign: where p is added, it is subtracted.
-    y_other: C,
 }
 
 /// Spectrum at ky plus `sign` times that at −ky; ky = 0 counts once.
@@ -196,34 +190,25 @@ fn folded(spectrum: &Spectrum, case: SliceCase, i: usize, y: usize, sign: V) -> 
         re: lanes.re[i],
         im: lanes.im[i],
     };
-    let at = |half: &Half| match case.sheared {
-        ShearedAlong::No => (c(&half.p), C::ZERO, C::ZERO),
-        ShearedAlong::X => (c(&half.p), c(&half.x).scale(factor), C::ZERO),
-        ShearedAlong::Xy => (
-            c(&half.p),
-            c(&half.x).scale(factor),
-            c(&half.y).scale(factor),
-        ),
+    let at = |half: &Half| {
+        let traction = if case.sheared {
+            c(&half.x).scale(factor)
+        } else {
+            C::ZERO
+        };
+        (c(&half.p), traction)
     };
     let plus = at(&spectrum.plus);
     if y == 0 {
         return Folded {
             p: plus.0,
             x: plus.1,
-            y_other: plus.2,
         };
     }
-    let (p, x, along_y) = at(spectrum.minus.as_ref().unwrap_or(&spectrum.plus));
-    // Across a mirror the traction along y is odd: there the other half is its negative.
-    let y_sign = if spectrum.minus.is_some() {
-        -sign
-    } else {
-        sign
-    };
+    let (p, x) = at(spectrum.minus.as_ref().unwrap_or(&spectrum.plus));
     Folded {
         p: p.fma(sign, plus.0),
         x: x.fma(sign, plus.1),
-        y_other: along_y.fma(y_sign, plus.2),
     }
 }
 
@@ -255,12 +240,6 @@ fn sum_depth(
         let [x, a0, d, kd] = odd_sums(&e[first..], &columns[first * COLUMNS..]);
         six[4] = x.scale_i(V::splat(1.0)).plus(d.scale(kx * z)).minus(a0.scale(kx));
         six[5] = kd.scale_i(z);
-        if case.sheared == ShearedAlong::Xy {
-            let which = [ALONG_Y, ALONG_Y + 1, ALONG_Y, ALONG_Y + 1];
-            let [along_y, by_k, ..] = four_sums(&e[first..], &columns[first * COLUMNS..], which);
-            six[4] = by_k.fma_i(kx, six[4]);
-            six[5] = six[5].minus(along_y);
-        }
     }
     if block == 0 {
         add_low(layer, spectrum, case, columns, &mut six);
@@ -279,15 +258,13 @@ fn negative(c: C) -> C {
 
 /// Σ E c of the seven even columns: p̂, kD, D, A0/k², D/k, q̂, q̂/k.
 #[inline(always)]
-fn even_sums(e: &[V], columns: &[C], sheared: ShearedAlong) -> [C; 7] {
+fn even_sums(e: &[V], columns: &[C], sheared: bool) -> [C; 7] {
     let [p, kd, a0, d_by_k] = four_sums(e, columns, [0, 1, 3, 4]);
-    match sheared {
-        ShearedAlong::No => [p, kd, p, a0, d_by_k, C::ZERO, C::ZERO],
-        ShearedAlong::X | ShearedAlong::Xy => {
-            let [d, x, x_by_k, _] = four_sums(e, columns, [2, 5, 6, 6]);
-            [p, kd, d, a0, d_by_k, x, x_by_k]
-        }
+    if !sheared {
+        return [p, kd, p, a0, d_by_k, C::ZERO, C::ZERO];
     }
+    let [d, x, x_by_k, _] = four_sums(e, columns, [2, 5, 6, 6]);
+    [p, kd, d, a0, d_by_k, x, x_by_k]
 }
 
 /// Σ E c of the four odd columns: ny q̂, ny A0/k, ny D, ny kD.
@@ -327,7 +304,7 @@ fn four_sums(e: &[V], columns: &[C], which: [usize; 4]) -> [C; 4] {
 fn add_low(layer: &Layer, spectrum: &Spectrum, case: SliceCase, columns: &[C], six: &mut Six) {
     let [xx, yy, zz, xz, xy, yz] = six;
     for (y, row) in layer.low[case.material].iter().enumerate() {
-        let LowRow { p: t, x: u, y: w } = row;
+        let LowRow { p: t, x: u } = row;
         let c = &columns[y * COLUMNS..(y + 1) * COLUMNS];
         let (p, x) = (c[0], c[5]);
         let (t_yy, u_yy) = (t[1] + t[2], u[1] + u[2]);
@@ -335,20 +312,10 @@ fn add_low(layer: &Layer, spectrum: &Spectrum, case: SliceCase, columns: &[C], s
         *yy = x.fma_i(u_yy, p.fma(t_yy, *yy));
         *zz = x.fma_i(u[2], p.fma(t[2], *zz));
         *xz = x.fma(u[4], p.fma_i(t[4], *xz));
-        if case.sheared == ShearedAlong::Xy {
-            let along_y = folded(spectrum, case, y, y, V::splat(1.0)).y_other;
-            let w_yy = w[1] + w[2];
-            *xx = along_y.fma_i(w[0] + w_yy, *xx);
-            *yy = along_y.fma_i(w_yy, *yy);
-            *zz = along_y.fma_i(w[2], *zz);
-            *xz = along_y.fma(w[4], *xz);
-        }
         if spectrum.minus.is_some() {
             let f = folded(spectrum, case, y, y, V::splat(-1.0));
             *xy = f.x.fma_i(u[3], f.p.fma(t[3], *xy));
             *yz = f.x.fma(u[5], f.p.fma_i(t[5], *yz));
-            *xy = f.y_other.fma_i(w[3], *xy);
-            *yz = f.y_other.fma(w[5], *yz);
         }
     }
 }

@@ -28,7 +28,7 @@ use super::super::sums::{
     Integral, LayerResult, LayerResults, LayerSum, MAX_LAWS, StressLaw, VolumeSums,
 };
 use super::StressEngine;
-use super::load::{ShearedAlong, Spectrum};
+use super::load::Spectrum;
 use crate::math::lane_fft::{LaneFft, Lanes, pack_pair};
 use crate::math::lanes::{LANES, V};
 use crate::physics::cycles::BodyId;
@@ -182,7 +182,7 @@ impl StressEngine {
     /// The loadings that differ, and how many: both bodies are alike without traction.
     fn computed(&self, bodies: &[BodyId]) -> ([Loading; 4], usize) {
         let (mut list, mut count) = (Loading::ALL, 0);
-        let sheared = self.spectrum.sheared != ShearedAlong::No;
+        let sheared = self.spectrum.sheared;
         for body in BodyId::BOTH {
             let own = self.spec.materials() == 2 && bodies.contains(&body);
             let first = body == BodyId::One && self.spec.materials() == 1;
@@ -219,17 +219,13 @@ impl LayerInput<'_> {
                 continue;
             }
             self.pass_along_y(worker, layer, Part::Normal, material);
-            let part = match self.spectrum.sheared {
-                ShearedAlong::No => None,
-                ShearedAlong::X => Some(Part::AlongX),
-                ShearedAlong::Xy => Some(Part::AlongBoth),
-            };
-            if let Some(part) = part {
-                self.pass_along_y(worker, layer, part, material);
+            let sheared = self.spectrum.sheared;
+            if sheared {
+                self.pass_along_y(worker, layer, Part::AlongX, material);
             }
             for row_block in 0..layer.row_blocks() {
                 self.pass_along_x(worker, layer, row_block, 0);
-                if part.is_some() {
+                if sheared {
                     self.pass_along_x(worker, layer, row_block, 1);
                 }
                 for loading in self.computed.iter().filter(|l| mine(l)) {
