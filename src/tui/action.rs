@@ -4,6 +4,8 @@ mod table;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
+use crate::tui::app::PanelKind;
+
 pub use table::{KEYS, MOUSE};
 
 /// What a person asks for. The app turns it into a change of its own state and, where the run is
@@ -74,10 +76,18 @@ pub enum Action {
     Save,
     /// Write the shown frame as fields, pictures and tables.
     Write,
-    /// Start, or end, the tour.
-    Tour,
-    /// Next lesson of the tour.
-    NextLesson,
+    /// The list of lessons.
+    Lessons,
+    /// End the lesson.
+    EndTour,
+    /// On with the lesson: to what is shown, to the answer, to the next beat.
+    NextBeat,
+    /// Back to the beat before.
+    PreviousBeat,
+    /// The keys speak of this panel.
+    Focus(PanelKind),
+    /// The keys speak of the panel so many places further on.
+    NextPanel(usize),
     /// Other units.
     Units,
     /// Other contrast.
@@ -90,9 +100,9 @@ pub enum Action {
     Plan,
     /// Another scene, lay, wave, oil, model.
     Scene,
-    /// Run the scene that was put together.
-    Run,
-    /// Close what lies over the screen, forget the probe, return to the present.
+    /// Run the scene that was put together, begin the chosen lesson, give the focused panel the screen.
+    Enter,
+    /// Close what lies over the screen, shrink the panel, forget the probe, return to the present.
     Close,
 }
 

@@ -47,7 +47,6 @@ pub const KEYS: &[Row] = &[
             (ch('k'), Action::ChoosePrevious),
             (key(KeyCode::Down), Action::ChooseNext),
             (ch('j'), Action::ChooseNext),
-            (key(KeyCode::Tab), Action::ChooseNext),
         ],
         "↑↓ kj",
         "choose a knob",
@@ -132,10 +131,32 @@ pub const KEYS: &[Row] = &[
         Group::Time,
     ),
     row(
-        &[(ch('t'), Action::Tour), (ch('n'), Action::NextLesson)],
-        "t n",
-        "tour on or off; next lesson",
+        &[(ch('t'), Action::Lessons), (ch('T'), Action::EndTour)],
+        "t T",
+        "lessons; end the lesson",
         Group::Time,
+    ),
+    row(
+        &[(ch('n'), Action::NextBeat), (ch('N'), Action::PreviousBeat)],
+        "n N",
+        "lesson: go on; go back",
+        Group::Time,
+    ),
+    row(
+        &[
+            (key(KeyCode::Tab), Action::NextPanel(1)),
+            (key(KeyCode::BackTab), Action::NextPanel(4)),
+            (shift(KeyCode::BackTab), Action::NextPanel(4)),
+        ],
+        "Tab",
+        "another panel",
+        Group::Show,
+    ),
+    row(
+        &[(key(KeyCode::Enter), Action::Enter)],
+        "⏎",
+        "panel whole screen; run; start",
+        Group::Show,
     ),
     row(
         &[(ch('m'), Action::NextMap), (ch('M'), Action::PreviousMap)],
@@ -152,7 +173,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('p'), Action::PointQuantity)],
         "p",
-        "point: p, shear, stress",
+        "point: p, p-Hertz, shear, σ",
         Group::Show,
     ),
     row(
@@ -206,8 +227,8 @@ pub const KEYS: &[Row] = &[
         Group::Show,
     ),
     row(
-        &[(ch('e'), Action::Scene), (key(KeyCode::Enter), Action::Run)],
-        "e ⏎",
+        &[(ch('e'), Action::Scene)],
+        "e",
         "change scene, lay, oil, model",
         Group::Program,
     ),

@@ -9,6 +9,7 @@ mod kinds;
 mod lives;
 mod reduce;
 mod staged;
+mod tour;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -24,7 +25,7 @@ use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
 use crate::tui::estimate::basis;
 use crate::tui::kymograph::{Kymograph, Span};
-use crate::tui::lessons::{Staging, TourState};
+use crate::tui::lessons::{Lesson, Staging, TourState, built_in};
 use crate::tui::pixels::Pixels;
 use crate::tui::replay::Replay;
 use crate::tui::theme::Theme;
@@ -34,7 +35,9 @@ use crate::tui::wiring::{Health, RunStatus, Setup};
 use curve::MeanFriction;
 pub use data::{Effect, ErrandKind, LifeSample, Pinned, Reached, Trouble, WhyUnconverged};
 pub use held::PointNow;
-pub use kinds::{AutoReplay, CurveKind, Leading, MapKind, Overlay, PointQuantity, RunPace, Zoom};
+pub use kinds::{
+    AutoReplay, CurveKind, Leading, MapKind, Overlay, PanelKind, PointQuantity, RunPace, Zoom,
+};
 
 /// The screen's state.
 #[derive(Debug, Clone)]
@@ -82,6 +85,14 @@ pub struct App {
     /// The material point that was chosen, or that a replay began with.
     pub(crate) point: Option<Chosen>,
     pub(crate) tour: Option<TourState>,
+    /// Those of the program, and a lecturer's own.
+    pub(crate) lessons: Arc<[Arc<Lesson>]>,
+    /// The lesson that is chosen in their list.
+    pub(crate) lesson: usize,
+    /// The panel that the keys speak of.
+    pub(crate) focus: PanelKind,
+    /// The panel that takes the screen.
+    pub(crate) enlarged: Option<PanelKind>,
     /// The lesson's scene that runs; `None`: the user's own.
     staged: Option<Staging>,
     /// The user's own scene and its name, for the end of the tour.
@@ -150,6 +161,10 @@ impl App {
             auto_replay: AutoReplay::default(),
             point: None,
             tour: None,
+            lessons: built_in(),
+            lesson: 0,
+            focus: PanelKind::default(),
+            enlarged: None,
             staged: None,
             own: (Arc::clone(&setup.scene), setup.name.clone()),
             draft: None,

@@ -12,6 +12,9 @@ impl App {
         if let Some(effects) = self.draft_takes(action) {
             return effects;
         }
+        if let Some(effects) = self.lessons_take(action) {
+            return effects;
+        }
         match action {
             Action::Quit => vec![Effect::Quit],
             Action::Suspend => vec![Effect::Suspend],
@@ -43,8 +46,9 @@ impl App {
             Action::PointDepth(by) => self.point_depth(by),
             Action::MovePoint(quarters) => self.move_point(quarters),
             Action::PutPoint(x) => self.put_point(x),
-            Action::Tour => self.toggle_tour(),
-            Action::NextLesson => self.next_lesson(),
+            Action::EndTour => self.leave_tour(),
+            Action::NextBeat => self.next_beat(),
+            Action::PreviousBeat => self.previous_beat(),
             shown => {
                 self.show(shown);
                 Vec::new()
@@ -74,6 +78,10 @@ impl App {
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
             Action::Scene => self.toggle_draft(),
+            Action::Lessons => self.toggle_lessons(),
+            Action::Focus(panel) => self.focus = panel,
+            Action::NextPanel(by) => self.focus_next(by),
+            Action::Enter => self.toggle_enlarged(),
             Action::Close => self.close(),
             _ => {}
         }
@@ -108,7 +116,7 @@ impl App {
                 let all = self.setup.plan_text.lines().count() + self.setup.left_out.len();
                 3 * (all + self.cautions().len())
             }
-            Overlay::Help | Overlay::Scene | Overlay::None => KEYS.len(),
+            _ => KEYS.len(),
         };
         self.scroll = if action == Action::ChooseNext {
             (self.scroll + 1).min(last as u16)
@@ -252,7 +260,7 @@ impl App {
         });
     }
 
-    fn toggle(&mut self, overlay: Overlay) {
+    pub(super) fn toggle(&mut self, overlay: Overlay) {
         // What is asked for is seen, not hidden behind a fault.
         self.fault_read |= self.fault().is_some();
         self.scroll = 0;
@@ -264,9 +272,26 @@ impl App {
         };
     }
 
+    /// The focused panel takes the screen, or gives it back.
+    fn toggle_enlarged(&mut self) {
+        self.enlarged = match self.enlarged {
+            None => Some(self.focus),
+            Some(_) => None,
+        };
+    }
+
+    fn focus_next(&mut self, by: usize) {
+        self.focus = self.focus.next(by);
+        if self.enlarged.is_some() {
+            self.enlarged = Some(self.focus);
+        }
+    }
+
     fn close(&mut self) {
         if self.fault().is_some() {
             self.fault_read = true;
+        } else if self.overlay == Overlay::None && self.enlarged.is_some() {
+            self.enlarged = None;
         } else if self.overlay == Overlay::None {
             self.probe = None;
             self.back = 0;

@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::sim::Frame;
-use crate::tui::app::{App, Zoom};
+use crate::tui::app::{App, PanelKind, Zoom};
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
 use crate::tui::view::chart::{CurvePanel, Pen};
@@ -16,8 +16,7 @@ use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
 const AXIS: u16 = 5;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let inner = panel(theme, areas, areas.centre_line, heading(app), buffer);
+    let inner = panel(app, areas, PanelKind::CentreLine, heading(app), buffer);
     let Some(frame) = app.frame() else { return };
     if inner.height < 3 || inner.width < 2 * AXIS + 8 {
         return;

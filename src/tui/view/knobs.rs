@@ -9,7 +9,7 @@ use ratatui::text::{Line, Span};
 use crate::scene::CycleBasis;
 use crate::sim::Knob;
 use crate::tui::action::Action;
-use crate::tui::app::App;
+use crate::tui::app::{App, PanelKind};
 use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
@@ -19,7 +19,7 @@ pub(super) use speeds::{SPECIFIC, SYMBOLS};
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
     let heading = title(theme, theme.pick("↑↓←→", "hjkl"), "knobs");
-    let inner = panel(theme, areas, areas.knobs, heading, buffer);
+    let inner = panel(app, areas, PanelKind::Knobs, heading, buffer);
     for (place, dial) in app.dials.iter().enumerate() {
         let slot = slot(areas, place);
         if slot.is_empty() {

@@ -11,16 +11,16 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::text::Line;
 
-use crate::tui::app::{App, Leading};
+use crate::tui::app::{App, Leading, PanelKind};
 use crate::tui::theme::Role;
 use crate::tui::view::{Areas, PanelSpacing, curve, panel, put, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
     let inner = panel(
-        theme,
+        app,
         areas,
-        areas.life,
+        PanelKind::Life,
         title(theme, "", number::name(app, areas)),
         buffer,
     );

@@ -15,7 +15,7 @@ use ratatui::text::{Line, Span};
 use crate::picture::{Picture, Subject};
 use crate::sim::Frame;
 use crate::tui::action::Action;
-use crate::tui::app::{App, MapKind, Zoom};
+use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
@@ -29,7 +29,7 @@ const BAR: u16 = 8;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
-    let inner = panel(theme, areas, areas.map, heading(app), buffer);
+    let inner = panel(app, areas, PanelKind::Map, heading(app), buffer);
     let Some(frame) = app.frame() else {
         waiting(app, inner, buffer);
         return;

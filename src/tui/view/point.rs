@@ -7,16 +7,16 @@ use ratatui::text::{Line, Span};
 
 use crate::sim::{Frame, Stage};
 use crate::tui::action::Action;
-use crate::tui::app::{App, PointNow, PointQuantity};
+use crate::tui::app::{App, PanelKind, PointNow, PointQuantity};
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
-use crate::tui::units::{sig_or_dash, tick};
+use crate::tui::units::{nice_ceiling, sig_or_dash, tick};
 use crate::tui::view::chart::{CurvePanel, Pen};
 use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
-    let inner = panel(theme, areas, areas.point, heading(app), buffer);
+    let inner = panel(app, areas, PanelKind::Point, heading(app), buffer);
     let Some(frame) = app.frame() else { return };
     let Some(point) = app.point_now() else {
         let text = match (frame.stage, &app.setup.scene.stress) {
@@ -44,7 +44,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     }
     trace(app, frame, plot, buffer);
     peaks_ticked(app, frame, plot, buffer);
-    axis(app, plot, point.depth_m, buffer);
+    axis(app, frame, plot, point.depth_m, buffer);
 }
 
 /// Columns of the numbers.
@@ -92,6 +92,7 @@ fn heading(app: &App) -> Line<'static> {
     let theme = app.theme;
     let name = match app.quantity {
         PointQuantity::Pressure => "material point: pressure on it",
+        PointQuantity::Excess => "material point: pressure on it less Hertz's",
         PointQuantity::Shear => "material point: shear below it",
         PointQuantity::Effective => "material point: effective stress below it",
     };
@@ -160,44 +161,54 @@ fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut 
     }
 }
 
-fn value(quantity: PointQuantity, sample: &TraceSample) -> f64 {
+fn value(quantity: PointQuantity, sample: &TraceSample, frame: &Frame) -> f64 {
     match quantity {
         PointQuantity::Pressure => sample.pressure_pa,
+        PointQuantity::Excess => sample.pressure_pa - hertz_pa(sample.x_m / frame.a_m, frame),
         PointQuantity::Shear => sample.tau_xz_pa,
         PointQuantity::Effective => sample.effective_pa,
     }
 }
 
+/// Hertz's pressure at x/a on y = 0.
+fn hertz_pa(x: f64, frame: &Frame) -> f64 {
+    frame.p_hertz_pa * (1.0 - x * x).max(0.0).sqrt()
+}
+
 fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    let range = range(app);
+    let range = range(app, frame);
     let mut chart = CurvePanel::new(plot, X_RANGE, range);
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let quantity = app.quantity;
     let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
         samples
             .iter()
-            .map(|sample| (sample.x_m / frame.a_m, value(quantity, sample)))
+            .map(|sample| (sample.x_m / frame.a_m, value(quantity, sample, frame)))
             .collect()
     };
-    if quantity == PointQuantity::Pressure {
+    if matches!(quantity, PointQuantity::Pressure | PointQuantity::Excess) {
         let fine = usize::from(plot.width) * 2;
         let hertz = (0..=fine).filter_map(|i| {
             let x = X_RANGE[0] + (X_RANGE[1] - X_RANGE[0]) * i as f64 / fine as f64;
-            (x.abs() < 1.0).then(|| (x, frame.p_hertz_pa * (1.0 - x * x).sqrt()))
+            let p = match quantity {
+                PointQuantity::Excess => 0.0,
+                _ => hertz_pa(x, frame),
+            };
+            (x.abs() < 1.0).then_some((x, p))
         });
         chart.scatter(hertz, pen(Role::Hertz, '.'));
     }
     chart.line(points(app.trace.before()), pen(Role::Border, '.'));
     let role = match quantity {
-        PointQuantity::Pressure => Role::Pressure,
+        PointQuantity::Pressure | PointQuantity::Excess => Role::Pressure,
         PointQuantity::Shear => Role::Shear,
         PointQuantity::Effective => Role::Peaks,
     };
     chart.line(points(app.trace.current()), pen(role, '*'));
     chart.render(theme.is_ascii(), buffer);
     if let Some(last) = app.trace.current().last() {
-        let row = row_of(plot, range, value(quantity, last));
+        let row = row_of(plot, range, value(quantity, last, frame));
         mark(
             app,
             plot,
@@ -213,20 +224,23 @@ fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
 /// x/a over which the point is followed.
 const X_RANGE: [f64; 2] = [-1.5, 1.5];
 
-fn range(app: &App) -> [f64; 2] {
+/// The scale of the trace itself: this crossing and the one before, so that small teeth are seen.
+fn range(app: &App, frame: &Frame) -> [f64; 2] {
+    let samples = app.trace.before().iter().chain(app.trace.current());
+    let values = samples.map(|sample| value(app.quantity, sample, frame).abs());
+    let reached = nice_ceiling(values.fold(0.0, f64::max));
+    // Nothing yet, or next to nothing: a part of Hertz's pressure.
+    let most = reached.max(0.02 * frame.p_hertz_pa).max(1.0);
     match app.quantity {
-        PointQuantity::Pressure => [0.0, app.reached.pressure_pa.max(1.0)],
-        PointQuantity::Shear => {
-            let most = app.reached.shear_pa.max(1.0);
-            [-most, most]
-        }
-        PointQuantity::Effective => [0.0, app.reached.stress_pa.max(1.0)],
+        PointQuantity::Pressure => [0.0, most.max(frame.p_hertz_pa)],
+        PointQuantity::Effective => [0.0, most],
+        PointQuantity::Shear | PointQuantity::Excess => [-most, most],
     }
 }
 
 /// A tick under the trace for each peak that has passed, and its number on the curve where there is room.
 fn peaks_ticked(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
-    let range = range(app);
+    let range = range(app, frame);
     let mut free_from = 0;
     for tick in app.trace.ticks() {
         let x = tick.x_m / frame.a_m;
@@ -244,7 +258,7 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
             continue;
         }
         // Above the curve, or on it where it touches the top.
-        let row = row_of(plot, range, value(app.quantity, sample)).saturating_sub(1);
+        let row = row_of(plot, range, value(app.quantity, sample, frame)).saturating_sub(1);
         let line = Line::styled(number, app.theme.style(Role::Cycles));
         buffer.set_line(first, plot.y + row, &line, width);
         free_from = first + width + 1;
@@ -289,7 +303,7 @@ fn mark(
     }
 }
 
-fn axis(app: &App, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
+fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
     let theme = app.theme;
     let pressure = app.units.pressure();
     let dim = theme.style(Role::Dim);
@@ -298,7 +312,7 @@ fn axis(app: &App, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
         width: 5,
         ..plot
     };
-    let range = range(app);
+    let range = range(app, frame);
     put_right(
         left,
         0,
