@@ -41,7 +41,7 @@ use ratatui::layout::Rect;
 use crate::run::Command;
 use crate::scene::Scene;
 use crate::sweep::Background;
-use action::lookup;
+use action::{lookup, lookup_typed};
 use app::{App, Effect, ErrandKind};
 use canvas::Canvas;
 use pixels::Pixels;
@@ -227,6 +227,7 @@ impl Show<'_> {
             self.canvas.forget();
         }
         let action = match event {
+            Event::Key(key) if self.app.is_typing() => lookup_typed(key),
             Event::Key(key) => lookup(key),
             Event::Mouse(mouse) => {
                 let size = self.stage.terminal.size()?;

@@ -44,6 +44,25 @@ fn enlarged_panels() {
     }
 }
 
+/// Both surfaces passing each other: in its panel and on the whole screen, sliding and rolling.
+#[test]
+fn profiles() {
+    for (name, slide_roll) in [("sliding", 0.5), ("rolling", 0.0)] {
+        let mut app = app(plain());
+        let state = State {
+            slide_roll,
+            slide_roll_target: slide_roll,
+            ..State::default()
+        };
+        play(&mut app, 1..=70, &state);
+        app.apply(Action::NextMap);
+        assert_eq!(app.map(), MapKind::Profile);
+        insta::assert_snapshot!(format!("profile_{name}_160x48"), text(&app, 160, 48));
+        app.apply(Action::Enter);
+        insta::assert_snapshot!(format!("profile_{name}_80x24"), text(&app, 80, 24));
+    }
+}
+
 #[test]
 fn every_map() {
     let mut app = running(plain());

@@ -447,7 +447,7 @@ fn the_source_of_the_life_and_its_weightiest_caution_fit_small_screens() {
         assert!(screen.contains("formula"), "{screen}");
         let screen = text(&live, width, height);
         assert!(screen.contains("simulated"), "{screen}");
-        assert!(screen.contains("× smooth rolling"), "{screen}");
+        assert!(screen.contains("smooth rolling"), "{screen}");
         assert!(screen.contains("load"), "{screen}");
         let more = format!(" +{} i", live.cautions().len() - 1);
         assert!(screen.contains(&more), "{screen}");

@@ -93,6 +93,12 @@ pub const KEYS: &[Row] = &[
         Group::Knobs,
     ),
     row(
+        &[(ch('='), Action::Type)],
+        "=",
+        "type a value, as in = 0.37 ⏎",
+        Group::Knobs,
+    ),
+    row(
         &[
             (ch('x'), Action::Home),
             (key(KeyCode::Home), Action::Home),
@@ -124,7 +130,6 @@ pub const KEYS: &[Row] = &[
         &[
             (ch('-'), Action::ReplayFaster(-1)),
             (ch('+'), Action::ReplayFaster(1)),
-            (ch('='), Action::ReplayFaster(1)),
         ],
         "- +",
         "replay slower, faster",
@@ -196,9 +201,9 @@ pub const KEYS: &[Row] = &[
         Group::Show,
     ),
     row(
-        &[(ch('b'), Action::Pin), (ch('B'), Action::Unpin)],
-        "b B",
-        "pin to compare; unpin",
+        &[(ch('b'), Action::Pin)],
+        "b",
+        "freeze to compare; release",
         Group::Show,
     ),
     row(
@@ -288,4 +293,6 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("wheel", "turns the knob under it"),
     ("click", "on the map: read values"),
     ("click", "on the trace: follow it"),
+    ("click", "on life against S: go there"),
+    ("click", "on a key in the last line"),
 ];

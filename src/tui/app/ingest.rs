@@ -51,9 +51,11 @@ impl App {
             self.trouble = Some((trouble, self.now + TOLD));
         }
         self.take_life(&frame);
+        self.take_film(&frame);
         self.waves.push(&frame);
         self.keep(frame);
         self.refresh_estimate();
+        self.keep_ghost_alike();
         self.tour_on()
     }
 

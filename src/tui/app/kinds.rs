@@ -22,12 +22,15 @@ pub enum MapKind {
     PressureWaves,
     /// Film on the centre line over time.
     FilmWaves,
+    /// Both surfaces along the centre line, with the oil between them.
+    Profile,
 }
 
 impl MapKind {
     /// All maps in the order of the key.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Pressure,
+        Self::Profile,
         Self::Film,
         Self::Fringes,
         Self::Contact,
@@ -48,6 +51,7 @@ impl MapKind {
             Self::Stress => "stress below",
             Self::PressureWaves => "pressure x-t",
             Self::FilmWaves => "film x-t",
+            Self::Profile => "profile",
         }
     }
 
@@ -55,7 +59,7 @@ impl MapKind {
     pub fn subject(self) -> Subject {
         match self {
             Self::Pressure | Self::PressureWaves => Subject::Pressure,
-            Self::Film | Self::FilmWaves => Subject::Film,
+            Self::Film | Self::FilmWaves | Self::Profile => Subject::Film,
             Self::Fringes => Subject::Interferogram,
             Self::Contact => Subject::Contact,
             Self::Roughness => Subject::RoughnessOfBoth,
@@ -70,7 +74,10 @@ impl MapKind {
 
     /// Whether it shows the plane of the contact: x and y.
     pub(crate) fn is_plane(self) -> bool {
-        !matches!(self, Self::Stress | Self::PressureWaves | Self::FilmWaves)
+        !matches!(
+            self,
+            Self::Stress | Self::PressureWaves | Self::FilmWaves | Self::Profile
+        )
     }
 
     pub(super) fn shifted(self, by: usize) -> Self {

@@ -3,6 +3,7 @@
 
 mod curve;
 mod data;
+mod ghost;
 mod held;
 mod ingest;
 mod kinds;
@@ -10,6 +11,8 @@ mod lives;
 mod reduce;
 mod staged;
 mod tour;
+mod typed;
+mod why;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -38,6 +41,8 @@ pub use held::PointNow;
 pub use kinds::{
     AutoReplay, CurveKind, Leading, MapKind, Overlay, PanelKind, PointQuantity, RunPace, Zoom,
 };
+use why::MeanFilm;
+pub use why::{LifeAccount, StateBefore, WhyLine};
 
 /// The screen's state.
 #[derive(Debug, Clone)]
@@ -60,6 +65,10 @@ pub struct App {
     pub(crate) pace: RunPace,
     pub(crate) probe: Option<(f64, f64)>,
     pub(crate) pinned: Option<Pinned>,
+    /// The screen as it was when it was frozen: map, trace and bars are drawn beside those of now.
+    pub(crate) ghost: Option<Arc<Self>>,
+    /// Whether this is such a one.
+    pub(crate) is_frozen: bool,
     pub(crate) status: RunStatus,
     /// What the ranges of pictures come from.
     scope: Option<Scope>,
@@ -71,6 +80,11 @@ pub struct App {
     /// What was simulated, by the run and beside it.
     simulated: Vec<Found>,
     friction: MeanFriction,
+    film: MeanFilm,
+    /// The state that the knobs were turned away from.
+    before: Option<StateBefore>,
+    /// A value for the chosen knob, as far as it has been typed.
+    pub(crate) typing: Option<String>,
     /// Values done and in all, while a sweep is under way.
     pub(crate) sweep: Option<(usize, usize)>,
     /// What it goes along.
@@ -145,6 +159,8 @@ impl App {
             pace: RunPace::default(),
             probe: None,
             pinned: None,
+            ghost: None,
+            is_frozen: false,
             status: RunStatus::default(),
             scope: None,
             reached: Reached::default(),
@@ -153,6 +169,9 @@ impl App {
             waves: Kymograph::default(),
             simulated: Vec::new(),
             friction: MeanFriction::default(),
+            film: MeanFilm::default(),
+            before: None,
+            typing: None,
             sweep: None,
             sweeping: Along::default(),
             held: None,

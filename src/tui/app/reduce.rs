@@ -9,10 +9,16 @@ use crate::tui::dial::DialState;
 impl App {
     /// Does what an action asks, and says what the loop has to do about it.
     pub fn apply(&mut self, action: Action) -> Vec<Effect> {
+        let effects = self.applied(action);
+        self.keep_ghost_alike();
+        effects
+    }
+
+    fn applied(&mut self, action: Action) -> Vec<Effect> {
         if let Some(effects) = self.draft_takes(action) {
             return effects;
         }
-        if let Some(effects) = self.lessons_take(action) {
+        if let Some(effects) = self.typed(action).or_else(|| self.lessons_take(action)) {
             return effects;
         }
         match action {
@@ -28,6 +34,8 @@ impl App {
             Action::Turn(steps) => self.turn(steps),
             Action::TurnFar(steps) => self.turn(steps * self.dials[self.chosen].far),
             Action::Slide(place, fraction) => self.slide(place, fraction),
+            Action::Type => self.begin_typing(),
+            Action::GoTo(knob, value) => self.go_to(knob, value),
             Action::Typical(n) => self.typical(n),
             Action::Home => self.set(self.chosen, self.dials[self.chosen].home),
             Action::HomeAll => (0..self.dials.len())
@@ -69,7 +77,6 @@ impl App {
             }
             Action::Probe(x, y) => self.probe = Some((x, y)),
             Action::Pin => self.pin(),
-            Action::Unpin => self.pinned = None,
             Action::PointQuantity => self.quantity = self.quantity.next(),
             Action::ReplayFaster(times) => self.replay_faster(times),
             Action::Units => self.units = self.units.next(),
@@ -160,7 +167,7 @@ impl App {
 
     /// Moves a knob's target; the estimate follows at once, the run when it gets there.
     pub(super) fn set(&mut self, place: usize, value: f64) -> Vec<Effect> {
-        let dial = &mut self.dials[place];
+        let dial = &self.dials[place];
         if let DialState::Dead(reason) = dial.life {
             let line = format!(
                 "{}: the surface is {reason}, so there is nothing to turn",
@@ -172,8 +179,9 @@ impl App {
         if dial.target == value {
             return Vec::new();
         }
-        dial.target = value;
         let command = Command::Set(dial.knob, value);
+        self.keep_before();
+        self.dials[place].target = value;
         self.set_at[place] = Some(self.now);
         self.back = 0;
         self.refresh_estimate();
@@ -245,9 +253,14 @@ impl App {
     }
 
     fn pin(&mut self) {
+        if self.ghost.take().is_some() {
+            self.pinned = None;
+            return;
+        }
+        self.ghost = self.frozen();
         let lives = self.leading_life().zip(self.leading_factors());
         let Some((life_relative, factors)) = lives else {
-            self.say("nothing to pin yet: there is no life estimate");
+            self.say("no life to compare with: there is no estimate");
             return;
         };
         self.pinned = Some(Pinned {

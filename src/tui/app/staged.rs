@@ -23,6 +23,8 @@ impl App {
         (self.map, self.zoom, self.quantity) = (old.map, old.zoom, old.quantity);
         (self.curve, self.pixels) = (old.curve, old.pixels);
         self.pinned = old.pinned.filter(|_| same_contact);
+        // A frozen picture can be looked at beside any other.
+        self.ghost = old.ghost;
         (self.staged, self.own) = (old.staged, old.own);
         (self.lessons, self.lesson) = (old.lessons, old.lesson);
         (self.focus, self.enlarged) = (old.focus, old.enlarged);

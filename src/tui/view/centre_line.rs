@@ -16,7 +16,13 @@ use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
 const AXIS: u16 = 5;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let inner = panel(app, areas, PanelKind::CentreLine, heading(app), buffer);
+    let inner = panel(
+        app,
+        areas,
+        PanelKind::CentreLine,
+        heading(app, areas),
+        buffer,
+    );
     let Some(frame) = app.frame() else { return };
     if inner.height < 3 || inner.width < 2 * AXIS + 8 {
         return;
@@ -32,9 +38,15 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     axes(app, inner, plot, x, buffer);
 }
 
-fn heading(app: &App) -> Line<'static> {
+fn heading(app: &App, areas: &Areas) -> Line<'static> {
+    /// Columns of the whole.
+    const WHOLE: u16 = 37;
     let theme = app.theme;
-    let mut line = title(theme, "", "centre line");
+    let name = match areas.centre_line.width {
+        ..WHOLE => "y = 0",
+        _ => "centre line",
+    };
+    let mut line = title(theme, "", name);
     let entry = |mark: &'static str, text: &'static str, role: Role| {
         Span::styled(format!("{mark}{text} "), theme.style(role))
     };

@@ -69,6 +69,8 @@ pub struct Areas {
     pub point: Rect,
     /// Last lines.
     pub status: Rect,
+    /// Left of the map the one that was frozen, where there is room for two.
+    pub frozen: Rect,
 }
 
 impl Areas {
@@ -114,6 +116,7 @@ impl Areas {
             life: Rect::new(centre + middle + gap, top, right, body_rows),
             point: Rect::new(screen.x, below, screen.width, point_rows),
             status: Rect::new(screen.x, below + point_rows, screen.width, status_rows),
+            frozen: Rect::default(),
         })
     }
 }
@@ -139,6 +142,30 @@ impl Areas {
         }
     }
 
+    /// The same with one more of the last lines, taken from the panel above them.
+    #[must_use]
+    fn with_a_line(mut self) -> Self {
+        self.point.height -= 1;
+        self.status.y -= 1;
+        self.status.height += 1;
+        self
+    }
+
+    /// The same with two maps beside each other, where both have room.
+    #[must_use]
+    fn with_two_maps(mut self) -> Self {
+        let half = self.map.width / 2;
+        if half >= LEAST_MAP {
+            self.frozen = Rect {
+                width: half,
+                ..self.map
+            };
+            self.map.x += half;
+            self.map.width -= half;
+        }
+        self
+    }
+
     /// The panel at a place.
     fn panel_at(&self, at: Position) -> Option<PanelKind> {
         PanelKind::ALL
@@ -161,12 +188,23 @@ impl Areas {
 /// The panels of the screen as it is now.
 fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
     let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
-    Some(match app.enlarged {
+    let areas = if app.why().is_some() {
+        areas.with_a_line()
+    } else {
+        areas
+    };
+    let areas = match app.enlarged {
         Some(panel) => areas.enlarged(panel),
+        None => areas,
+    };
+    Some(match &app.ghost {
+        Some(_) => areas.with_two_maps(),
         None => areas,
     })
 }
 
+/// Columns in which a map can be read.
+const LEAST_MAP: u16 = 26;
 /// Rows of a caption, its title included.
 const MOST_WORDS: u16 = 6;
 /// Rows that the life and its factors take.
@@ -220,9 +258,13 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
             PanelKind::Knobs => knobs::render(app, &areas, buffer),
             PanelKind::Map => map::render(app, &areas, buffer),
             PanelKind::CentreLine => centre_line::render(app, &areas, buffer),
-            PanelKind::Life => life::render(app, &areas, buffer),
+            PanelKind::Life => drop(life::render(app, &areas, buffer)),
             PanelKind::Point => point::render(app, &areas, buffer),
         }
+    }
+    if let Some(ghost) = app.ghost.as_ref().filter(|_| !areas.frozen.is_empty()) {
+        let map = areas.frozen;
+        map::render(ghost, &Areas { map, ..areas }, buffer);
     }
     status::render(app, &areas, buffer);
     if let Some(caption) = caption::of(app) {
@@ -274,7 +316,9 @@ pub fn pointed(app: &App, screen: Rect, event: &MouseEvent) -> Option<Action> {
         return closes.then_some(Action::Close);
     }
     match event.kind {
-        MouseEventKind::Down(MouseButton::Left) => knobs::pressed(app, &areas, at)
+        MouseEventKind::Down(MouseButton::Left) => status::pressed(app, &areas, at)
+            .or_else(|| knobs::pressed(app, &areas, at))
+            .or_else(|| life::pressed(app, &areas, screen, at))
             .or_else(|| map::pressed(app, &areas, at))
             .or_else(|| point::pressed(&areas, at))
             .or_else(|| areas.panel_at(at).map(Action::Focus)),
@@ -321,6 +365,7 @@ fn panel(app: &App, areas: &Areas, kind: PanelKind, title: Line<'_>, buffer: &mu
     let (theme, area) = (app.theme, areas.of_panel(kind));
     let (role, key) = match app.enlarged {
         Some(_) => (Role::Key, " Esc "),
+        None if app.is_frozen => (Role::Formula, ""),
         None if app.focus == kind => (Role::Key, " ⏎ "),
         None => (Role::Border, ""),
     };
