@@ -4,6 +4,8 @@
 pub mod using {}
 #[doc = include_str!("../assets/guide/explorer.md")]
 pub mod explorer {}
+#[doc = include_str!("../assets/guide/lessons.md")]
+pub mod lessons {}
 #[doc = include_str!("../assets/guide/scenes.md")]
 pub mod scenes {}
 #[doc = include_str!("../assets/guide/sweeps.md")]

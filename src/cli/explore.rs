@@ -9,13 +9,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use asperity::observe::Overwrite;
 use asperity::run::{Activity, Command, Ending, Request, RunError, Session, Status};
 use asperity::sweep::{Background, Ground};
+use asperity::tui::lessons::Lesson;
 use asperity::tui::{
     Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, TuiError, Wiring,
 };
 use miette::miette;
 
 use super::Engine;
-use super::args::RunArgs;
+use super::args::{ExploreArgs, RunArgs};
 use super::failure::{Failure, tell};
 use super::names::Names;
 use super::outputs::{Outputs, RecorderPace, Recording};
@@ -75,7 +76,10 @@ impl Sitting {
 }
 
 /// Opens the explorer and runs until the user quits.
-pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
+pub(crate) fn explore(args: &ExploreArgs, engine: Engine) -> Result<u8, Failure> {
+    let lesson = args.lesson.as_deref().map(Lesson::load).transpose();
+    let lesson = lesson.map_err(|error| Failure::input(miette!("{error}")))?;
+    let args = &args.run;
     let prepared = scenes::prepare(args)?;
     let path = match &args.out {
         Some(path) => path.clone(),
@@ -94,6 +98,7 @@ pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
         ..Sitting::default()
     };
     let runs = Runs::new(RefCell::new(sitting));
+    wiring.lesson = lesson.map(Arc::new);
     wiring.rebuild = Some(rebuild(engine, args, Rc::clone(&runs), interrupt));
     let shown = asperity::tui::explore(wiring);
     let code = end(&runs)?;
@@ -237,6 +242,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         save_scene: Some(Box::new(move |toml| save(&name, toml))),
         write_shown: Some(shown::writer(prepared)),
         rebuild: None,
+        lesson: None,
     }
 }
 

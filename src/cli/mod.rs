@@ -23,7 +23,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-use args::{Cli, CliCommand, HeadlessArgs, RunArgs};
+use args::{Cli, CliCommand, ExploreArgs, HeadlessArgs, RunArgs};
 use asperity::run::{Request, RunError, Session};
 use failure::Failure;
 
@@ -64,19 +64,19 @@ fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> 
 fn bare(engine: Engine) -> Result<u8, Failure> {
     let on_a_terminal = std::io::stdout().is_terminal() && std::io::stdin().is_terminal();
     if on_a_terminal && cfg!(feature = "tui") {
-        explore(&RunArgs::bare(), engine)
+        explore(&ExploreArgs::bare(), engine)
     } else {
         run::run(&HeadlessArgs::whole(RunArgs::bare_headless()))
     }
 }
 
 #[cfg(feature = "tui")]
-fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
+fn explore(args: &ExploreArgs, engine: Engine) -> Result<u8, Failure> {
     explore::explore(args, engine)
 }
 
 #[cfg(not(feature = "tui"))]
-fn explore(_args: &RunArgs, _engine: Engine) -> Result<u8, Failure> {
+fn explore(_args: &ExploreArgs, _engine: Engine) -> Result<u8, Failure> {
     Err(Failure::input(miette::miette!(
         help = "asperity run computes the same without a screen; a build with the default features has the explorer",
         "this program was built without the feature tui, so it has no explorer"

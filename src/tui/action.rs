@@ -4,6 +4,9 @@ mod table;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
+use crate::scene::Knob;
+use crate::tui::app::PanelKind;
+
 pub use table::{KEYS, MOUSE};
 
 /// What a person asks for. The app turns it into a change of its own state and, where the run is
@@ -28,6 +31,14 @@ pub enum Action {
     Slide(usize, f64),
     /// Put the chosen knob at its n-th typical value.
     Typical(usize),
+    /// Put a knob at the step that is nearest to a value, SI.
+    GoTo(Knob, f64),
+    /// Type a value for the chosen knob.
+    Type,
+    /// A letter of it.
+    Letter(char),
+    /// Take its last letter back.
+    Erase,
     /// Put the chosen knob back where the scene has it.
     Home,
     /// Put all knobs back.
@@ -46,10 +57,8 @@ pub enum Action {
     Zoom,
     /// Read the map at a place given in parts of the picture (0 to 1 along and down).
     Probe(f64, f64),
-    /// Keep this state to compare with.
+    /// Freeze this state to compare with; let it go again.
     Pin,
-    /// Forget the pinned state.
-    Unpin,
     /// What the material point shows.
     PointQuantity,
     /// The point of the other body.
@@ -74,10 +83,18 @@ pub enum Action {
     Save,
     /// Write the shown frame as fields, pictures and tables.
     Write,
-    /// Start, or end, the tour.
-    Tour,
-    /// Next lesson of the tour.
-    NextLesson,
+    /// The list of lessons.
+    Lessons,
+    /// End the lesson.
+    EndTour,
+    /// On with the lesson: to what is shown, to the answer, to the next beat.
+    NextBeat,
+    /// Back to the beat before.
+    PreviousBeat,
+    /// The keys speak of this panel.
+    Focus(PanelKind),
+    /// The keys speak of the panel so many places further on.
+    NextPanel(usize),
     /// Other units.
     Units,
     /// Other contrast.
@@ -90,9 +107,9 @@ pub enum Action {
     Plan,
     /// Another scene, lay, wave, oil, model.
     Scene,
-    /// Run the scene that was put together.
-    Run,
-    /// Close what lies over the screen, forget the probe, return to the present.
+    /// Run the scene that was put together, begin the chosen lesson, give the focused panel the screen.
+    Enter,
+    /// Close what lies over the screen, shrink the panel, forget the probe, return to the present.
     Close,
 }
 
@@ -156,6 +173,19 @@ pub fn lookup(event: &KeyEvent) -> Option<Action> {
         .flat_map(|row| row.keys)
         .find(|(own, _)| *own == chord)
         .map(|(_, action)| *action)
+}
+
+/// What a key event asks for while a value is typed: letters are letters.
+pub fn lookup_typed(event: &KeyEvent) -> Option<Action> {
+    let chord = normal(event);
+    match chord.code {
+        _ if event.kind == KeyEventKind::Release => None,
+        KeyCode::Char(letter) if chord.modifiers.is_empty() => Some(Action::Letter(letter)),
+        KeyCode::Backspace => Some(Action::Erase),
+        KeyCode::Enter => Some(Action::Enter),
+        KeyCode::Esc => Some(Action::Close),
+        _ => lookup(event).filter(|action| matches!(action, Action::Quit | Action::Suspend)),
+    }
 }
 
 /// Shift is part of a character already; terminals disagree on whether they name it too.

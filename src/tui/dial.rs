@@ -71,6 +71,11 @@ impl Dial {
         self.clamped(value)
     }
 
+    /// The step that is nearest to a value.
+    pub fn nearest(&self, value: f64) -> f64 {
+        self.at_fraction(self.fraction(value))
+    }
+
     /// Whether it is the dial for `knob`; a lesson that turns the load means either kind of it.
     pub fn answers(&self, knob: Knob) -> bool {
         self.knob == knob || self.knob.is_load() && knob.is_load()

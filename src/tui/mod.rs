@@ -41,7 +41,7 @@ use ratatui::layout::Rect;
 use crate::run::Command;
 use crate::scene::Scene;
 use crate::sweep::Background;
-use action::lookup;
+use action::{lookup, lookup_typed};
 use app::{App, Effect, ErrandKind};
 use canvas::Canvas;
 use pixels::Pixels;
@@ -94,7 +94,7 @@ pub fn explore(mut wiring: Wiring) -> Result<(), TuiError> {
             sweep: None,
             writing: Vec::new(),
         };
-        let shown = show.go_on(&input);
+        let shown = show.teach().and_then(|()| show.go_on(&input));
         show.finish_writing();
         shown
     });
@@ -130,6 +130,13 @@ struct Show<'a> {
 }
 
 impl Show<'_> {
+    /// Begins the lesson that was asked for.
+    fn teach(&mut self) -> io::Result<()> {
+        let own = self.wiring.lesson.take();
+        let effects = own.map_or_else(Vec::new, |lesson| self.app.teach(lesson));
+        self.carry_out(effects).map(|_| ())
+    }
+
     /// Draws, waits for an event but not longer than a frame's time, takes all that came; again.
     fn go_on(&mut self, input: &Input) -> io::Result<()> {
         let start = Instant::now();
@@ -220,6 +227,7 @@ impl Show<'_> {
             self.canvas.forget();
         }
         let action = match event {
+            Event::Key(key) if self.app.is_typing() => lookup_typed(key),
             Event::Key(key) => lookup(key),
             Event::Mouse(mouse) => {
                 let size = self.stage.terminal.size()?;

@@ -13,6 +13,7 @@ use crate::run::{Command, Settled};
 use crate::scene::Scene;
 use crate::sim::Frame;
 use crate::sweep::{Background, CurveOrder};
+use crate::tui::lessons::Lesson;
 
 /// How the run is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -134,6 +135,8 @@ pub struct Wiring {
     pub save_scene: Option<SaveScene>,
     /// Writes the frame on the screen as fields, pictures and tables.
     pub write_shown: Option<WriteShown>,
+    /// A lesson to begin with.
+    pub lesson: Option<Arc<Lesson>>,
 }
 
 /// Why the screen ended otherwise than by `q`.

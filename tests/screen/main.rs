@@ -9,4 +9,5 @@ mod session;
 mod state;
 mod terminal;
 mod ticks;
+mod why;
 mod words;

@@ -61,15 +61,16 @@ impl Closed {
     }
 }
 
-struct Bench {
-    app: App,
+/// A real simulation behind a screen.
+pub(super) struct Bench {
+    pub(super) app: App,
     sim: Simulation,
     frame: Arc<Frame>,
     ticks: u32,
 }
 
 impl Bench {
-    fn new(scene: &Scene) -> Self {
+    pub(super) fn new(scene: &Scene) -> Self {
         let plan = Plan::new(scene).unwrap();
         let sim = Simulation::new(scene, plan.clone(), 1).unwrap();
         let app = App::new(
@@ -88,13 +89,7 @@ impl Bench {
     /// Until the life has settled with all knobs where they go.
     fn settle(&mut self) {
         loop {
-            self.sim.step().unwrap();
-            let mut frame = Frame::default();
-            self.sim.fill(&mut frame);
-            self.frame = Arc::new(frame);
-            self.ticks += 1;
-            self.app.tick(Duration::from_millis(25) * self.ticks);
-            self.app.take_frame(Arc::clone(&self.frame));
+            self.step();
             let settled = self.frame.metrics.life.is_some_and(|life| life.settled);
             if self.frame.stage == Stage::Passage
                 && settled
@@ -105,7 +100,26 @@ impl Bench {
         }
     }
 
-    fn press(&mut self, actions: &[Action]) {
+    fn step(&mut self) {
+        self.sim.step().unwrap();
+        let mut frame = Frame::default();
+        self.sim.fill(&mut frame);
+        self.frame = Arc::new(frame);
+        self.ticks += 1;
+        self.app.tick(Duration::from_millis(25) * self.ticks);
+        self.app.take_frame(Arc::clone(&self.frame));
+    }
+
+    /// The same and two passages more, over which means are taken.
+    pub(super) fn settle_and_go_on(&mut self) {
+        self.settle();
+        let until = self.frame.passages + 2.0;
+        while self.frame.passages < until {
+            self.step();
+        }
+    }
+
+    pub(super) fn press(&mut self, actions: &[Action]) {
         for action in actions {
             for effect in self.app.apply(*action) {
                 if let Effect::Send(Command::Set(knob, value)) = effect {

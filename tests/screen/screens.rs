@@ -13,7 +13,7 @@ use asperity::run::Command;
 use asperity::scene::Surface;
 use asperity::sim::Frame;
 use asperity::tui::action::{Action, KEYS};
-use asperity::tui::app::{App, Effect, MapKind};
+use asperity::tui::app::{App, Effect, MapKind, PanelKind};
 use asperity::tui::pixels::Pixels;
 use asperity::tui::theme::{ColorDepth, Glyphs, Theme};
 use asperity::tui::{Health, RunStatus, view};
@@ -25,8 +25,41 @@ use ratatui::style::Color;
 #[test]
 fn live_screens() {
     let app = running(plain());
-    for (width, height) in [(60, 20), (80, 24), (120, 36), (160, 48)] {
+    for (width, height) in [(60, 20), (80, 24), (120, 36), (160, 48), (200, 60)] {
         insta::assert_snapshot!(format!("live_{width}x{height}"), text(&app, width, height));
+    }
+}
+
+/// Each panel in place of all.
+#[test]
+fn enlarged_panels() {
+    let mut app = running(plain());
+    for kind in PanelKind::ALL {
+        app.apply(Action::Focus(kind));
+        app.apply(Action::Enter);
+        let name = kind.name().replace(' ', "_");
+        insta::assert_snapshot!(format!("enlarged_{name}_80x24"), text(&app, 80, 24));
+        app.apply(Action::Close);
+        assert_eq!(text(&app, 80, 24).matches("Esc").count(), 0, "as before");
+    }
+}
+
+/// Both surfaces passing each other: in its panel and on the whole screen, sliding and rolling.
+#[test]
+fn profiles() {
+    for (name, slide_roll) in [("sliding", 0.5), ("rolling", 0.0)] {
+        let mut app = app(plain());
+        let state = State {
+            slide_roll,
+            slide_roll_target: slide_roll,
+            ..State::default()
+        };
+        play(&mut app, 1..=70, &state);
+        app.apply(Action::NextMap);
+        assert_eq!(app.map(), MapKind::Profile);
+        insta::assert_snapshot!(format!("profile_{name}_160x48"), text(&app, 160, 48));
+        app.apply(Action::Enter);
+        insta::assert_snapshot!(format!("profile_{name}_80x24"), text(&app, 80, 24));
     }
 }
 
@@ -102,8 +135,11 @@ fn overlays() {
     app.apply(Action::Plan);
     insta::assert_snapshot!("plan_80x24", text(&app, 80, 24));
     app.apply(Action::Close);
-    app.apply(Action::Tour);
-    app.apply(Action::NextLesson);
+    app.apply(Action::Lessons);
+    insta::assert_snapshot!("lessons_80x24", text(&app, 80, 24));
+    app.apply(Action::Typical(0));
+    insta::assert_snapshot!("lesson_asks_80x24", text(&app, 80, 24));
+    app.apply(Action::NextBeat);
     insta::assert_snapshot!("lesson_80x24", text(&app, 80, 24));
     insta::assert_snapshot!("lesson_160x48", text(&app, 160, 48));
 }
@@ -111,6 +147,7 @@ fn overlays() {
 #[test]
 fn other_readings() {
     let mut app = running(plain());
+    app.apply(Action::PointQuantity);
     app.apply(Action::PointQuantity);
     app.apply(Action::Units);
     app.apply(Action::Units);
@@ -137,7 +174,18 @@ fn many(theme: Theme) -> Vec<App> {
         with(&[Action::PreviousMap, Action::PointQuantity]),
         with(&[Action::Help]),
         with(&[Action::Plan]),
-        with(&[Action::Tour]),
+        with(&[Action::Lessons]),
+        with(&[Action::Lessons, Action::Enter]),
+        with(&[Action::Lessons, Action::Enter, Action::NextBeat]),
+        with(&[Action::Enter]),
+        with(&[Action::Focus(PanelKind::Life), Action::Enter]),
+        with(&[Action::Focus(PanelKind::Knobs), Action::Enter]),
+        with(&[Action::Focus(PanelKind::CentreLine), Action::Enter]),
+        with(&[
+            Action::Focus(PanelKind::Point),
+            Action::Enter,
+            Action::PointQuantity,
+        ]),
         with(&[Action::StepBack, Action::Probe(0.0, 0.0)]),
     ]
 }
@@ -284,12 +332,12 @@ fn another_scene_is_put_together_judged_and_run() {
     for _ in 0..12 {
         app.apply(Action::Turn(-1));
     }
-    assert_eq!(app.apply(Action::Run), [], "what has no plan is not run");
+    assert_eq!(app.apply(Action::Enter), [], "what has no plan is not run");
     insta::assert_snapshot!("scene_refused_80x24", text(&app, 80, 24));
     for _ in 0..12 {
         app.apply(Action::Turn(1));
     }
-    let effects = app.apply(Action::Run);
+    let effects = app.apply(Action::Enter);
     let [Effect::Rebuild(next, name)] = &effects[..] else {
         panic!("{effects:?}");
     };

@@ -188,47 +188,119 @@ fn a_smooth_surface_has_nothing_to_turn() {
     assert!(app.message().unwrap().contains("smooth"));
 }
 
-#[test]
-fn the_tour_stages_scenes_moves_on_by_itself_and_returns() {
-    let mut app = running(plain());
-    app.apply(Action::Turn(1));
-    let effects = app.apply(Action::Tour);
-    let [Effect::Rebuild(staged, _)] = &effects[..] else {
+/// The scene that effects ask for.
+fn staged(effects: &[Effect]) -> Scene {
+    let [Effect::Rebuild(staged, _)] = effects else {
         panic!("{effects:?}");
     };
-    assert_eq!(staged.motion.slide_roll, 0.0);
-    assert_eq!(staged.body_2.surface, Surface::Smooth {});
+    (**staged).clone()
+}
+
+#[test]
+fn a_lesson_asks_shows_tells_moves_on_and_returns() {
+    let mut app = running(plain());
+    app.apply(Action::Turn(1));
+    app.apply(Action::Lessons);
+    assert!(text(&app, 80, 24).contains("One asperity, one passage"));
+    let asked = sent(&app.apply(Action::Enter));
     // The words of the lesson go to the run, and so to the recording.
-    let commands = sent(&app.rebuilt(setup_of((**staged).clone())));
-    assert!(matches!(&commands[..], [Command::Say(words)] if words.contains("n = 1")));
+    assert!(matches!(&asked[..], [Command::Say(words)] if words.contains("How often")));
     let first = text(&app, 160, 48);
     assert!(
-        first.contains("1/7 One asperity, one passage (1/2)"),
+        first.contains("1/10 One asperity, one passage (1/2)") && first.contains("1 once"),
         "{first}"
     );
+    assert!(
+        !first.contains("counted₁"),
+        "the answer is not shown yet: {first}"
+    );
+    // However late it gets, a question waits; a digit that is no answer is none.
+    play(&mut app, 97..=900, &State::default());
+    assert_eq!(app.apply(Action::Typical(6)), []);
+    assert!(text(&app, 160, 48).contains("1 once"));
+    let scene_1 = staged(&app.apply(Action::Typical(1)));
+    assert_eq!(scene_1.motion.slide_roll, 0.0);
+    assert_eq!(scene_1.body_2.surface, Surface::Smooth {});
+    let shown = sent(&app.rebuilt(setup_of(scene_1)));
+    assert!(matches!(&shown[0], Command::Say(words) if words.contains("Follow the diamond")));
     let rolling = State {
         slide_roll: 0.0,
         slide_roll_target: 0.0,
         ..State::default()
     };
     // A passage is 128 steps; the first beat lasts one and a half.
-    play(&mut app, 1..=200, &rolling);
-    let second = text(&app, 160, 48);
-    assert!(
-        second.contains("(2/2)") && second.contains("counted₁"),
-        "{second}"
-    );
-    let effects = app.apply(Action::NextLesson);
-    assert!(matches!(&effects[..], [Effect::Rebuild(..)]), "{effects:?}");
+    play(&mut app, 1..=190, &rolling);
+    assert!(!text(&app, 160, 48).contains("You said"));
+    play(&mut app, 191..=200, &rolling);
+    let told = text(&app, 160, 48);
+    // The fixture counts n - 0.2.
+    assert!(told.contains("You said “once by each ridge"), "{told}");
+    assert!(told.contains("counted₁ 0.800, “once”"), "{told}");
+    // Then time to read it, unless a key asks for more: on, and back to the question.
+    play(&mut app, 201..=210, &rolling);
+    assert!(text(&app, 160, 48).contains("(1/2)"));
+    play(&mut app, 800..=810, &rolling);
+    assert!(text(&app, 160, 48).contains("(2/2)"));
+    app.apply(Action::PreviousBeat);
+    assert!(text(&app, 160, 48).contains("1 once"));
+    app.apply(Action::NextBeat);
+    app.apply(Action::NextBeat);
+    assert!(text(&app, 160, 48).contains("(2/2)"), "nothing to tell yet");
+    // The next lesson has a scene of its own.
+    let flanks = staged(&app.apply(Action::NextBeat));
+    assert_eq!(flanks.grid.nodes, 257);
+    app.rebuilt(setup_of(flanks));
     // Leaving it brings the scene back as it was turned to.
-    let effects = app.apply(Action::Tour);
-    let [Effect::Rebuild(own, _)] = &effects[..] else {
-        panic!("{effects:?}");
-    };
+    let own = staged(&app.apply(Action::EndTour));
     assert_eq!(own.title, scene().title);
     assert!((own.motion.slide_roll - 0.55).abs() < 1e-9);
-    app.rebuilt(setup_of((**own).clone()));
+    app.rebuilt(setup_of(own));
     assert!(!text(&app, 160, 48).contains("One asperity"));
+    assert_eq!(app.apply(Action::NextBeat), []);
+}
+
+#[test]
+fn what_was_answered_right_is_said() {
+    let mut app = running(plain());
+    app.apply(Action::Lessons);
+    app.apply(Action::Typical(0));
+    let scene_1 = staged(&app.apply(Action::Typical(0)));
+    app.rebuilt(setup_of(scene_1));
+    let state = |slide_roll: f64| State {
+        slide_roll,
+        slide_roll_target: slide_roll,
+        ..State::default()
+    };
+    play(&mut app, 1..=200, &state(0.0));
+    assert!(text(&app, 80, 24).contains("Right: counted₁ 0.800"));
+    // The simulation says what is right, not the file: where it counts otherwise, another answer is.
+    app.apply(Action::PreviousBeat);
+    app.apply(Action::Typical(0));
+    play(&mut app, 200..=500, &state(0.5));
+    let told = text(&app, 160, 48);
+    assert!(
+        told.contains("You said “once”; it is counted₁ 3.73"),
+        "{told}"
+    );
+}
+
+/// The sixth lesson's first beat asks nothing: it moves on by time, but not while the run stands.
+#[test]
+fn a_paused_run_stops_the_lesson() {
+    for pauses in [false, true] {
+        let mut app = running(plain());
+        app.apply(Action::Lessons);
+        let load = staged(&app.apply(Action::Typical(5)));
+        app.rebuilt(setup_of(load));
+        play(&mut app, 1..=300, &State::default());
+        assert!(text(&app, 80, 24).contains("(1/4)"), "it is still read");
+        if pauses {
+            app.apply(Action::TogglePause);
+        }
+        play(&mut app, 900..=901, &State::default());
+        let shown = text(&app, 80, 24);
+        assert_eq!(shown.contains("(2/4)"), !pauses, "{shown}");
+    }
 }
 
 #[test]
@@ -375,7 +447,7 @@ fn the_source_of_the_life_and_its_weightiest_caution_fit_small_screens() {
         assert!(screen.contains("formula"), "{screen}");
         let screen = text(&live, width, height);
         assert!(screen.contains("simulated"), "{screen}");
-        assert!(screen.contains("× smooth rolling"), "{screen}");
+        assert!(screen.contains("smooth rolling"), "{screen}");
         assert!(screen.contains("load"), "{screen}");
         let more = format!(" +{} i", live.cautions().len() - 1);
         assert!(screen.contains(&more), "{screen}");

@@ -163,8 +163,8 @@ def main():
     # The default scene, its period replayed, the curve of life against S filled in.
     swept = [([], "sweeping S", patience), ([], "sweeping S 15/18", patience)]
     shoot(program, arguments.folder, "explorer.png", (160, 48), swept)
-    # The second lesson at S = 0.5, its period replayed: the comb.
-    comb = [(["t"], "1/7", patience), (["n"], "2/7", patience), ([], "(3/4)", patience), ([], "↻ replay", patience)]
+    # The second lesson at S = 0.5, its question answered: the comb.
+    comb = [(["t", "2"], "2/10", patience), (["n"], "(2/4)", patience), (["n", "3"], "(3/4)", patience), ([], "Right:", patience)]
     shoot(program, arguments.folder, "explorer_lesson.png", (160, 48), comb)
     shoot(program, arguments.folder, "explorer_80x24.png", (80, 24), [([], "live", patience), (["e"], "change the scene", patience)])
 

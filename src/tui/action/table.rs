@@ -47,7 +47,6 @@ pub const KEYS: &[Row] = &[
             (ch('k'), Action::ChoosePrevious),
             (key(KeyCode::Down), Action::ChooseNext),
             (ch('j'), Action::ChooseNext),
-            (key(KeyCode::Tab), Action::ChooseNext),
         ],
         "↑↓ kj",
         "choose a knob",
@@ -94,6 +93,12 @@ pub const KEYS: &[Row] = &[
         Group::Knobs,
     ),
     row(
+        &[(ch('='), Action::Type)],
+        "=",
+        "type a value, as in = 0.37 ⏎",
+        Group::Knobs,
+    ),
+    row(
         &[
             (ch('x'), Action::Home),
             (key(KeyCode::Home), Action::Home),
@@ -125,17 +130,38 @@ pub const KEYS: &[Row] = &[
         &[
             (ch('-'), Action::ReplayFaster(-1)),
             (ch('+'), Action::ReplayFaster(1)),
-            (ch('='), Action::ReplayFaster(1)),
         ],
         "- +",
         "replay slower, faster",
         Group::Time,
     ),
     row(
-        &[(ch('t'), Action::Tour), (ch('n'), Action::NextLesson)],
-        "t n",
-        "tour on or off; next lesson",
+        &[(ch('t'), Action::Lessons), (ch('T'), Action::EndTour)],
+        "t T",
+        "lessons; end the lesson",
         Group::Time,
+    ),
+    row(
+        &[(ch('n'), Action::NextBeat), (ch('N'), Action::PreviousBeat)],
+        "n N",
+        "lesson: go on; go back",
+        Group::Time,
+    ),
+    row(
+        &[
+            (key(KeyCode::Tab), Action::NextPanel(1)),
+            (key(KeyCode::BackTab), Action::NextPanel(4)),
+            (shift(KeyCode::BackTab), Action::NextPanel(4)),
+        ],
+        "Tab",
+        "another panel",
+        Group::Show,
+    ),
+    row(
+        &[(key(KeyCode::Enter), Action::Enter)],
+        "⏎",
+        "panel whole screen; run; start",
+        Group::Show,
     ),
     row(
         &[(ch('m'), Action::NextMap), (ch('M'), Action::PreviousMap)],
@@ -152,7 +178,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(ch('p'), Action::PointQuantity)],
         "p",
-        "point: p, shear, stress",
+        "point: p, p-Hertz, shear, σ",
         Group::Show,
     ),
     row(
@@ -175,9 +201,9 @@ pub const KEYS: &[Row] = &[
         Group::Show,
     ),
     row(
-        &[(ch('b'), Action::Pin), (ch('B'), Action::Unpin)],
-        "b B",
-        "pin to compare; unpin",
+        &[(ch('b'), Action::Pin)],
+        "b",
+        "freeze to compare; release",
         Group::Show,
     ),
     row(
@@ -206,8 +232,8 @@ pub const KEYS: &[Row] = &[
         Group::Show,
     ),
     row(
-        &[(ch('e'), Action::Scene), (key(KeyCode::Enter), Action::Run)],
-        "e ⏎",
+        &[(ch('e'), Action::Scene)],
+        "e",
         "change scene, lay, oil, model",
         Group::Program,
     ),
@@ -267,4 +293,6 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("wheel", "turns the knob under it"),
     ("click", "on the map: read values"),
     ("click", "on the trace: follow it"),
+    ("click", "on life against S: go there"),
+    ("click", "on a key in the last line"),
 ];

@@ -65,10 +65,6 @@ pub struct Reached {
     pub pressure_pa: f64,
     /// Film, m.
     pub film_m: f64,
-    /// Effective stress, Pa.
-    pub stress_pa: f64,
-    /// Shear of the material point to either side, Pa.
-    pub shear_pa: f64,
 }
 
 /// A step that did not converge, and what of it.

@@ -40,8 +40,7 @@ impl App {
         };
         replay.advance(wall.as_secs_f64());
         self.retrace();
-        let passages = self.passages();
-        self.tour_on(passages)
+        self.tour_on()
     }
 
     /// Passages of 4 a since the start, those of a replay too.

@@ -51,11 +51,12 @@ impl App {
             self.trouble = Some((trouble, self.now + TOLD));
         }
         self.take_life(&frame);
+        self.take_film(&frame);
         self.waves.push(&frame);
         self.keep(frame);
         self.refresh_estimate();
-        let passages = self.passages();
-        self.tour_on(passages)
+        self.keep_ghost_alike();
+        self.tour_on()
     }
 
     /// Takes the material points of all steps since the last frame: the screen is slower than the run, and a
@@ -173,19 +174,6 @@ impl App {
             self.back = (self.back + 1).min(self.past.len() - 1);
         }
     }
-
-    pub(super) fn tour_on(&mut self, passages: f64) -> Vec<Effect> {
-        let Some(tour) = self.tour else {
-            return Vec::new();
-        };
-        match tour.after(passages) {
-            Some(next) => {
-                self.tour = Some(next);
-                self.play(next)
-            }
-            None => Vec::new(),
-        }
-    }
 }
 
 fn grow(reached: &mut Reached, frame: &Frame) {
@@ -203,12 +191,6 @@ fn grow(reached: &mut Reached, frame: &Frame) {
     grow(&mut reached.pressure_pa, frame.p_hertz_pa);
     grow(&mut reached.pressure_pa, greatest(&frame.pressure_pa));
     grow(&mut reached.film_m, film_inside(frame));
-    if let Some(slice) = &frame.slice {
-        grow(&mut reached.stress_pa, greatest(&slice.effective_pa));
-    }
-    if let Some(point) = &frame.material_point {
-        grow(&mut reached.shear_pa, point.tau_xz_pa.abs());
-    }
 }
 
 /// The greatest film on the centre line inside the contact: outside it the gap grows without end.

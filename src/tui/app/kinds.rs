@@ -22,12 +22,15 @@ pub enum MapKind {
     PressureWaves,
     /// Film on the centre line over time.
     FilmWaves,
+    /// Both surfaces along the centre line, with the oil between them.
+    Profile,
 }
 
 impl MapKind {
     /// All maps in the order of the key.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Pressure,
+        Self::Profile,
         Self::Film,
         Self::Fringes,
         Self::Contact,
@@ -48,6 +51,7 @@ impl MapKind {
             Self::Stress => "stress below",
             Self::PressureWaves => "pressure x-t",
             Self::FilmWaves => "film x-t",
+            Self::Profile => "profile",
         }
     }
 
@@ -55,7 +59,7 @@ impl MapKind {
     pub fn subject(self) -> Subject {
         match self {
             Self::Pressure | Self::PressureWaves => Subject::Pressure,
-            Self::Film | Self::FilmWaves => Subject::Film,
+            Self::Film | Self::FilmWaves | Self::Profile => Subject::Film,
             Self::Fringes => Subject::Interferogram,
             Self::Contact => Subject::Contact,
             Self::Roughness => Subject::RoughnessOfBoth,
@@ -70,7 +74,10 @@ impl MapKind {
 
     /// Whether it shows the plane of the contact: x and y.
     pub(crate) fn is_plane(self) -> bool {
-        !matches!(self, Self::Stress | Self::PressureWaves | Self::FilmWaves)
+        !matches!(
+            self,
+            Self::Stress | Self::PressureWaves | Self::FilmWaves | Self::Profile
+        )
     }
 
     pub(super) fn shifted(self, by: usize) -> Self {
@@ -89,12 +96,57 @@ pub enum Zoom {
     Domain,
 }
 
+/// A panel, which may take the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PanelKind {
+    /// The knobs.
+    Knobs,
+    /// The map.
+    #[default]
+    Map,
+    /// Pressure and film along y = 0.
+    CentreLine,
+    /// Relative life.
+    Life,
+    /// The material point.
+    Point,
+}
+
+impl PanelKind {
+    /// All panels in the order of the key.
+    pub const ALL: [Self; 5] = [
+        Self::Map,
+        Self::CentreLine,
+        Self::Life,
+        Self::Point,
+        Self::Knobs,
+    ];
+
+    /// Name in lessons and on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Knobs => "knobs",
+            Self::Map => "map",
+            Self::CentreLine => "centre line",
+            Self::Life => "life",
+            Self::Point => "point",
+        }
+    }
+
+    pub(super) fn next(self, by: usize) -> Self {
+        let place = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
+        Self::ALL[(place + by) % Self::ALL.len()]
+    }
+}
+
 /// What the trace of the material point shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PointQuantity {
     /// Pressure above it.
     #[default]
     Pressure,
+    /// What of that the roughness adds to Hertz's.
+    Excess,
     /// Orthogonal shear at its depth.
     Shear,
     /// Effective stress at its depth.
@@ -102,9 +154,23 @@ pub enum PointQuantity {
 }
 
 impl PointQuantity {
+    /// All in the order of the key.
+    pub const ALL: [Self; 4] = [Self::Pressure, Self::Excess, Self::Shear, Self::Effective];
+
+    /// Name in lessons.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pressure => "pressure",
+            Self::Excess => "over Hertz",
+            Self::Shear => "shear",
+            Self::Effective => "effective",
+        }
+    }
+
     pub(super) fn next(self) -> Self {
         match self {
-            Self::Pressure => Self::Shear,
+            Self::Pressure => Self::Excess,
+            Self::Excess => Self::Shear,
             Self::Shear => Self::Effective,
             Self::Effective => Self::Pressure,
         }
@@ -155,6 +221,8 @@ pub enum Overlay {
     Plan,
     /// Another scene, and what of it only a new run can change.
     Scene,
+    /// The lessons.
+    Lessons,
 }
 
 /// Whether the run steps.

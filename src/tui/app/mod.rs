@@ -3,12 +3,16 @@
 
 mod curve;
 mod data;
+mod ghost;
 mod held;
 mod ingest;
 mod kinds;
 mod lives;
 mod reduce;
 mod staged;
+mod tour;
+mod typed;
+mod why;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -24,7 +28,7 @@ use crate::tui::choice::Draft;
 use crate::tui::dial::{Dial, dials};
 use crate::tui::estimate::basis;
 use crate::tui::kymograph::{Kymograph, Span};
-use crate::tui::lessons::{Staging, TourState};
+use crate::tui::lessons::{Lesson, Staging, TourState, built_in};
 use crate::tui::pixels::Pixels;
 use crate::tui::replay::Replay;
 use crate::tui::theme::Theme;
@@ -34,7 +38,11 @@ use crate::tui::wiring::{Health, RunStatus, Setup};
 use curve::MeanFriction;
 pub use data::{Effect, ErrandKind, LifeSample, Pinned, Reached, Trouble, WhyUnconverged};
 pub use held::PointNow;
-pub use kinds::{AutoReplay, CurveKind, Leading, MapKind, Overlay, PointQuantity, RunPace, Zoom};
+pub use kinds::{
+    AutoReplay, CurveKind, Leading, MapKind, Overlay, PanelKind, PointQuantity, RunPace, Zoom,
+};
+use why::MeanFilm;
+pub use why::{LifeAccount, StateBefore, WhyLine};
 
 /// The screen's state.
 #[derive(Debug, Clone)]
@@ -57,6 +65,10 @@ pub struct App {
     pub(crate) pace: RunPace,
     pub(crate) probe: Option<(f64, f64)>,
     pub(crate) pinned: Option<Pinned>,
+    /// The screen as it was when it was frozen: map, trace and bars are drawn beside those of now.
+    pub(crate) ghost: Option<Arc<Self>>,
+    /// Whether this is such a one.
+    pub(crate) is_frozen: bool,
     pub(crate) status: RunStatus,
     /// What the ranges of pictures come from.
     scope: Option<Scope>,
@@ -68,6 +80,11 @@ pub struct App {
     /// What was simulated, by the run and beside it.
     simulated: Vec<Found>,
     friction: MeanFriction,
+    film: MeanFilm,
+    /// The state that the knobs were turned away from.
+    before: Option<StateBefore>,
+    /// A value for the chosen knob, as far as it has been typed.
+    pub(crate) typing: Option<String>,
     /// Values done and in all, while a sweep is under way.
     pub(crate) sweep: Option<(usize, usize)>,
     /// What it goes along.
@@ -82,6 +99,14 @@ pub struct App {
     /// The material point that was chosen, or that a replay began with.
     pub(crate) point: Option<Chosen>,
     pub(crate) tour: Option<TourState>,
+    /// Those of the program, and a lecturer's own.
+    pub(crate) lessons: Arc<[Arc<Lesson>]>,
+    /// The lesson that is chosen in their list.
+    pub(crate) lesson: usize,
+    /// The panel that the keys speak of.
+    pub(crate) focus: PanelKind,
+    /// The panel that takes the screen.
+    pub(crate) enlarged: Option<PanelKind>,
     /// The lesson's scene that runs; `None`: the user's own.
     staged: Option<Staging>,
     /// The user's own scene and its name, for the end of the tour.
@@ -134,6 +159,8 @@ impl App {
             pace: RunPace::default(),
             probe: None,
             pinned: None,
+            ghost: None,
+            is_frozen: false,
             status: RunStatus::default(),
             scope: None,
             reached: Reached::default(),
@@ -142,6 +169,9 @@ impl App {
             waves: Kymograph::default(),
             simulated: Vec::new(),
             friction: MeanFriction::default(),
+            film: MeanFilm::default(),
+            before: None,
+            typing: None,
             sweep: None,
             sweeping: Along::default(),
             held: None,
@@ -150,6 +180,10 @@ impl App {
             auto_replay: AutoReplay::default(),
             point: None,
             tour: None,
+            lessons: built_in(),
+            lesson: 0,
+            focus: PanelKind::default(),
+            enlarged: None,
             staged: None,
             own: (Arc::clone(&setup.scene), setup.name.clone()),
             draft: None,

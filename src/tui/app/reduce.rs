@@ -9,7 +9,16 @@ use crate::tui::dial::DialState;
 impl App {
     /// Does what an action asks, and says what the loop has to do about it.
     pub fn apply(&mut self, action: Action) -> Vec<Effect> {
+        let effects = self.applied(action);
+        self.keep_ghost_alike();
+        effects
+    }
+
+    fn applied(&mut self, action: Action) -> Vec<Effect> {
         if let Some(effects) = self.draft_takes(action) {
+            return effects;
+        }
+        if let Some(effects) = self.typed(action).or_else(|| self.lessons_take(action)) {
             return effects;
         }
         match action {
@@ -25,6 +34,8 @@ impl App {
             Action::Turn(steps) => self.turn(steps),
             Action::TurnFar(steps) => self.turn(steps * self.dials[self.chosen].far),
             Action::Slide(place, fraction) => self.slide(place, fraction),
+            Action::Type => self.begin_typing(),
+            Action::GoTo(knob, value) => self.go_to(knob, value),
             Action::Typical(n) => self.typical(n),
             Action::Home => self.set(self.chosen, self.dials[self.chosen].home),
             Action::HomeAll => (0..self.dials.len())
@@ -43,8 +54,9 @@ impl App {
             Action::PointDepth(by) => self.point_depth(by),
             Action::MovePoint(quarters) => self.move_point(quarters),
             Action::PutPoint(x) => self.put_point(x),
-            Action::Tour => self.toggle_tour(),
-            Action::NextLesson => self.next_lesson(),
+            Action::EndTour => self.leave_tour(),
+            Action::NextBeat => self.next_beat(),
+            Action::PreviousBeat => self.previous_beat(),
             shown => {
                 self.show(shown);
                 Vec::new()
@@ -65,7 +77,6 @@ impl App {
             }
             Action::Probe(x, y) => self.probe = Some((x, y)),
             Action::Pin => self.pin(),
-            Action::Unpin => self.pinned = None,
             Action::PointQuantity => self.quantity = self.quantity.next(),
             Action::ReplayFaster(times) => self.replay_faster(times),
             Action::Units => self.units = self.units.next(),
@@ -74,6 +85,10 @@ impl App {
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
             Action::Scene => self.toggle_draft(),
+            Action::Lessons => self.toggle_lessons(),
+            Action::Focus(panel) => self.focus = panel,
+            Action::NextPanel(by) => self.focus_next(by),
+            Action::Enter => self.toggle_enlarged(),
             Action::Close => self.close(),
             _ => {}
         }
@@ -108,7 +123,7 @@ impl App {
                 let all = self.setup.plan_text.lines().count() + self.setup.left_out.len();
                 3 * (all + self.cautions().len())
             }
-            Overlay::Help | Overlay::Scene | Overlay::None => KEYS.len(),
+            _ => KEYS.len(),
         };
         self.scroll = if action == Action::ChooseNext {
             (self.scroll + 1).min(last as u16)
@@ -152,7 +167,7 @@ impl App {
 
     /// Moves a knob's target; the estimate follows at once, the run when it gets there.
     pub(super) fn set(&mut self, place: usize, value: f64) -> Vec<Effect> {
-        let dial = &mut self.dials[place];
+        let dial = &self.dials[place];
         if let DialState::Dead(reason) = dial.life {
             let line = format!(
                 "{}: the surface is {reason}, so there is nothing to turn",
@@ -164,8 +179,9 @@ impl App {
         if dial.target == value {
             return Vec::new();
         }
-        dial.target = value;
         let command = Command::Set(dial.knob, value);
+        self.keep_before();
+        self.dials[place].target = value;
         self.set_at[place] = Some(self.now);
         self.back = 0;
         self.refresh_estimate();
@@ -237,9 +253,14 @@ impl App {
     }
 
     fn pin(&mut self) {
+        if self.ghost.take().is_some() {
+            self.pinned = None;
+            return;
+        }
+        self.ghost = self.frozen();
         let lives = self.leading_life().zip(self.leading_factors());
         let Some((life_relative, factors)) = lives else {
-            self.say("nothing to pin yet: there is no life estimate");
+            self.say("no life to compare with: there is no estimate");
             return;
         };
         self.pinned = Some(Pinned {
@@ -252,7 +273,7 @@ impl App {
         });
     }
 
-    fn toggle(&mut self, overlay: Overlay) {
+    pub(super) fn toggle(&mut self, overlay: Overlay) {
         // What is asked for is seen, not hidden behind a fault.
         self.fault_read |= self.fault().is_some();
         self.scroll = 0;
@@ -264,9 +285,26 @@ impl App {
         };
     }
 
+    /// The focused panel takes the screen, or gives it back.
+    fn toggle_enlarged(&mut self) {
+        self.enlarged = match self.enlarged {
+            None => Some(self.focus),
+            Some(_) => None,
+        };
+    }
+
+    fn focus_next(&mut self, by: usize) {
+        self.focus = self.focus.next(by);
+        if self.enlarged.is_some() {
+            self.enlarged = Some(self.focus);
+        }
+    }
+
     fn close(&mut self) {
         if self.fault().is_some() {
             self.fault_read = true;
+        } else if self.overlay == Overlay::None && self.enlarged.is_some() {
+            self.enlarged = None;
         } else if self.overlay == Overlay::None {
             self.probe = None;
             self.back = 0;

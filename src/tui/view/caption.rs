@@ -2,19 +2,20 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::app::App;
-use crate::tui::lessons::{Beat, Claim, LESSONS};
+use crate::tui::lessons::{Beat, Claim, FoundAnswer, LessonQuestion, TourPhase, TourState};
 use crate::tui::theme::Role;
-use crate::tui::units::sig_or_dash;
 use crate::tui::view::{ascii_text, put, put_right};
 
 /// Words to show.
-pub(super) struct Caption<'a> {
+pub(super) struct Caption {
     title: String,
-    text: &'a str,
+    /// Words with their roles, one after the other.
+    words: Vec<(String, Role)>,
     hint: &'static str,
     /// The numbers that the words speak of, as they are now.
     figures: String,
@@ -22,7 +23,7 @@ pub(super) struct Caption<'a> {
     longest: usize,
 }
 
-impl Caption<'_> {
+impl Caption {
     /// Rows that it takes on a screen of that width, title included.
     pub(super) fn rows(&self, screen_width: u16) -> u16 {
         // Lines break at words, which leaves up to some ten columns empty.
@@ -32,47 +33,116 @@ impl Caption<'_> {
 }
 
 /// What is to be said, if anything.
-pub(super) fn of(app: &App) -> Option<Caption<'_>> {
-    if let Some(tour) = app.tour {
+pub(super) fn of(app: &App) -> Option<Caption> {
+    if let Some(tour) = &app.tour {
+        let lesson = &tour.lesson;
+        let figures = match tour.phase {
+            TourPhase::Asks => String::new(),
+            TourPhase::Shows | TourPhase::Tells(_) => figures(app, tour),
+        };
         return Some(Caption {
             title: format!(
                 "{}/{} {} ({}/{})",
-                tour.lesson + 1,
-                LESSONS.len(),
-                tour.lesson().title,
+                tour.place + 1,
+                app.lessons.len(),
+                lesson.title,
                 tour.beat + 1,
-                tour.lesson().beats.len()
+                lesson.beats.len()
             ),
-            text: tour.beat().caption,
-            hint: " n next  t ends ",
-            figures: figures(app, tour.beat().claims),
-            longest: longest(tour.lesson().beats),
+            words: words(app, tour),
+            hint: match tour.phase {
+                TourPhase::Asks => " 1-9 answer  n show ",
+                _ => " n on  N back  T ends ",
+            },
+            figures,
+            longest: lesson.beats.iter().map(letters).max().unwrap_or(0),
         });
     }
     scripted(app).map(|text| Caption {
         title: "the scene says".to_owned(),
-        text,
+        words: vec![(text.to_owned(), Role::Text)],
         hint: "",
         figures: String::new(),
         longest: text.chars().count(),
     })
 }
 
+/// The question with its answers, what to look at, or what was found.
+fn words(app: &App, tour: &TourState) -> Vec<(String, Role)> {
+    let beat = tour.beat();
+    let caption = || vec![(beat.caption.clone(), Role::Text)];
+    let Some(question) = &beat.question else {
+        return caption();
+    };
+    match tour.phase {
+        TourPhase::Shows => caption(),
+        TourPhase::Asks => {
+            let mut words = vec![(question.ask.clone(), Role::Strong)];
+            for (place, answer) in question.answers.iter().enumerate() {
+                words.push((format!(" {}", place + 1), Role::Key));
+                words.push((answer.clone(), Role::Text));
+            }
+            words
+        }
+        TourPhase::Tells(found) => {
+            let (verdict, role) = verdict(app, tour, question, found);
+            let because = (question.because.clone(), Role::Text);
+            vec![(verdict, role), because]
+        }
+    }
+}
+
+/// `You said "once"; it is 9.8: "some ten times".`
+fn verdict(
+    app: &App,
+    tour: &TourState,
+    question: &LessonQuestion,
+    found: FoundAnswer,
+) -> (String, Role) {
+    let (Some(frame), Some(right)) = (app.frame(), found.right) else {
+        return ("This scene does not know it.".to_owned(), Role::Warn);
+    };
+    let value = question.measure.shown(found.value, app.units, frame);
+    let name = question.measure.symbol();
+    let answer = |place: usize| question.answers.get(place).map_or("", String::as_str);
+    let is = format!("{name} {value}, \u{201c}{}\u{201d}.", answer(right));
+    match tour.said {
+        Some(said) if said == right => (format!("Right: {is}"), Role::Good),
+        Some(said) => (
+            format!("You said \u{201c}{}\u{201d}; it is {is}", answer(said)),
+            Role::Warn,
+        ),
+        None => (format!("It is {is}"), Role::Strong),
+    }
+}
+
 /// `n₁ 14.0  counted₁ 13.1`.
-fn figures(app: &App, claims: &[Claim]) -> String {
+fn figures(app: &App, tour: &TourState) -> String {
     let Some(frame) = app.frame() else {
         return String::new();
     };
     let shown = |claim: &Claim| {
-        let value = claim.figure.of(frame);
-        format!("   {} {}", claim.figure.name(), sig_or_dash(value, 3))
+        let value = claim.measure.value(frame, tour.before.as_deref());
+        let value = claim.measure.shown(value, app.units, frame);
+        format!("   {} {value}", claim.measure.symbol())
     };
-    claims.iter().map(shown).collect()
+    tour.beat().claims.iter().map(shown).collect()
 }
 
-fn longest(beats: &[Beat]) -> usize {
-    let letters = beats.iter().map(|beat| beat.caption.chars().count());
-    letters.max().unwrap_or(0)
+/// Letters of the longest that a beat says.
+fn letters(beat: &Beat) -> usize {
+    let caption = beat.caption.chars().count();
+    let asked = beat.question.as_ref().map_or(0, |question| {
+        let answers = question.answers.iter();
+        let answers = answers.map(|answer| answer.chars().count() + 4);
+        question.ask.chars().count() + answers.sum::<usize>()
+    });
+    let told = beat.question.as_ref().map_or(0, |question| {
+        /// Two answers and a number at most.
+        const VERDICT: usize = 90;
+        question.because.chars().count() + VERDICT
+    });
+    caption.max(asked).max(told)
 }
 
 /// The caption of the last scripted event, while it is fresh (half a passage).
@@ -88,7 +158,7 @@ fn scripted(app: &App) -> Option<&str> {
         .map(|event| event.caption.as_str())
 }
 
-pub(super) fn render(app: &App, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     for row in 0..area.height {
         put(
@@ -120,7 +190,16 @@ pub(super) fn render(app: &App, caption: &Caption<'_>, area: Rect, buffer: &mut 
         height: text.height.saturating_sub(1),
         ..text
     };
-    Paragraph::new(ascii_text(theme, caption.text))
+    let mut spans = Vec::new();
+    for (text, role) in &caption.words {
+        let style = match role {
+            Role::Text => Style::default(),
+            other => theme.style(*other),
+        };
+        spans.push(Span::styled(ascii_text(theme, text), style));
+        spans.push(Span::raw(" "));
+    }
+    Paragraph::new(Line::from(spans))
         .wrap(Wrap { trim: true })
         .render(below, buffer);
 }

@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::sim::Frame;
-use crate::tui::app::{App, Zoom};
+use crate::tui::app::{App, PanelKind, Zoom};
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
 use crate::tui::view::chart::{CurvePanel, Pen};
@@ -16,8 +16,13 @@ use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
 const AXIS: u16 = 5;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let inner = panel(theme, areas, areas.centre_line, heading(app), buffer);
+    let inner = panel(
+        app,
+        areas,
+        PanelKind::CentreLine,
+        heading(app, areas),
+        buffer,
+    );
     let Some(frame) = app.frame() else { return };
     if inner.height < 3 || inner.width < 2 * AXIS + 8 {
         return;
@@ -33,9 +38,15 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     axes(app, inner, plot, x, buffer);
 }
 
-fn heading(app: &App) -> Line<'static> {
+fn heading(app: &App, areas: &Areas) -> Line<'static> {
+    /// Columns of the whole.
+    const WHOLE: u16 = 37;
     let theme = app.theme;
-    let mut line = title(theme, "", "centre line");
+    let name = match areas.centre_line.width {
+        ..WHOLE => "y = 0",
+        _ => "centre line",
+    };
+    let mut line = title(theme, "", name);
     let entry = |mark: &'static str, text: &'static str, role: Role| {
         Span::styled(format!("{mark}{text} "), theme.style(role))
     };

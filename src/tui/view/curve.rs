@@ -4,9 +4,10 @@ mod along;
 mod history;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
+use crate::tui::action::Action;
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::view::chart::{CurvePanel, Pen};
@@ -39,29 +40,42 @@ struct CurveFigure {
     foot: [String; 3],
 }
 
-pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+/// A press on a plot along S, or along the speed, puts that knob there.
+pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {
+    let figure = along::figure(app);
+    plot.contains(at).then(|| {
+        let part = f64::from(at.x - plot.x) / f64::from(plot.width.max(2) - 1);
+        let x = figure.x[0] + part * (figure.x[1] - figure.x[0]);
+        along::goes_to(app, x)
+    })
+}
+
+/// Draws what there is room for, and says where the curve's plot is.
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
     let below = |rows: u16, from: u16| Rect {
         y: area.y + from,
         height: rows,
         ..area
     };
+    let figure = || along::figure(app);
     if area.height >= CURVE_ROWS + 5 {
         let rows = (area.height / 3).clamp(4, 8);
         let curve = area.height - rows - 1;
-        draw(app, &along::figure(app), below(curve, 1), buffer);
         history::render(app, below(rows, 1 + curve), buffer);
+        return Some(draw(app, &figure(), below(curve, 1), buffer));
     } else if area.height > CURVE_ROWS {
-        draw(app, &along::figure(app), below(area.height - 1, 1), buffer);
+        return Some(draw(app, &figure(), below(area.height - 1, 1), buffer));
     } else if area.height >= 2 {
         history::render(app, area, buffer);
     }
+    None
 }
 
 fn pen(app: &App, role: Role, letter: char) -> Pen {
     Pen::new(app.theme, role, letter)
 }
 
-fn draw(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
+fn draw(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) -> Rect {
     let theme = app.theme;
     heading(app, figure, area, buffer);
     let plot = Rect {
@@ -87,6 +101,7 @@ fn draw(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
         spot(app, figure, plot, (figure.knob, now), here, buffer);
     }
     axes(app, figure, area, plot, buffer);
+    plot
 }
 
 /// A mark on a place, where that is in the plot.

@@ -9,7 +9,7 @@ use ratatui::text::{Line, Span};
 use crate::scene::CycleBasis;
 use crate::sim::Knob;
 use crate::tui::action::Action;
-use crate::tui::app::App;
+use crate::tui::app::{App, PanelKind};
 use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
@@ -19,7 +19,7 @@ pub(super) use speeds::{SPECIFIC, SYMBOLS};
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
     let heading = title(theme, theme.pick("↑↓←→", "hjkl"), "knobs");
-    let inner = panel(theme, areas, areas.knobs, heading, buffer);
+    let inner = panel(app, areas, PanelKind::Knobs, heading, buffer);
     for (place, dial) in app.dials.iter().enumerate() {
         let slot = slot(areas, place);
         if slot.is_empty() {
@@ -29,6 +29,9 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         slider(app, place, dial, track(slot), buffer);
         if slot.height >= 3 {
             range(app, dial, slot, buffer);
+        }
+        if slot.height >= 4 && slot.width + 4 >= WIDE {
+            typical(app, dial, slot, buffer);
         }
     }
     let used = app.dials.len() as u16 * rows_each(areas);
@@ -70,10 +73,37 @@ fn fraction(track: Rect, column: u16) -> f64 {
     f64::from(from_left) / f64::from(last)
 }
 
+/// Columns from which typical values are named below a slider.
+const WIDE: u16 = 60;
+
+/// `3 0.10 micropitting_rig`: the digits, where they go, and what that is typical of.
+fn typical(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let unit = dial.unit(app.units);
+    let mut spans = vec![Span::raw(" ")];
+    let mut used = 1;
+    for (n, (value, of)) in dial.typical.iter().enumerate() {
+        let shown = figure(dial, unit.of(*value), 2);
+        let words = if of.is_empty() {
+            format!(" {shown}  ")
+        } else {
+            format!(" {shown} {of}  ")
+        };
+        used += 1 + words.chars().count();
+        if used > usize::from(slot.width) {
+            break;
+        }
+        spans.push(Span::styled((n + 1).to_string(), theme.style(Role::Key)));
+        spans.push(Span::styled(words, theme.style(Role::Dim)));
+    }
+    put(slot, 3, &Line::from(spans), buffer);
+}
+
 fn rows_each(areas: &Areas) -> u16 {
     // Three rows are enough; the fourth is air, where there is plenty.
     let height = inside(areas, areas.knobs).height;
-    let most = if height >= 44 { 4 } else { 3 };
+    let enlarged = areas.knobs.width >= WIDE;
+    let most = if height >= 44 || enlarged { 4 } else { 3 };
     (height / 5).clamp(2, most)
 }
 

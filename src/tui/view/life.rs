@@ -7,20 +7,32 @@ mod scale;
 mod validity;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use ratatui::text::Line;
 
-use crate::tui::app::{App, Leading};
+use crate::tui::action::Action;
+use crate::tui::app::{App, Leading, PanelKind};
 use crate::tui::theme::Role;
 use crate::tui::view::{Areas, PanelSpacing, curve, panel, put, title};
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
+/// A press on the curve against S goes there.
+pub(super) fn pressed(app: &App, areas: &Areas, screen: Rect, at: Position) -> Option<Action> {
+    if !areas.life.contains(at) {
+        return None;
+    }
+    // Where the curve is depends on all that stands above it: as it is drawn.
+    let plot = render(app, areas, &mut Buffer::empty(screen))?;
+    curve::pressed(app, plot, at)
+}
+
+/// Draws it, and says where the curve's plot is.
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Rect> {
     let theme = app.theme;
     let inner = panel(
-        theme,
+        app,
         areas,
-        areas.life,
+        PanelKind::Life,
         title(theme, "", number::name(app, areas)),
         buffer,
     );
@@ -38,8 +50,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         next: 0,
     };
     if app.setup.scene.life.is_none() {
-        without_life(app, &mut rows, buffer);
-        return;
+        return without_life(app, &mut rows, buffer);
     }
     let roomy = inner.height >= 20;
     if roomy {
@@ -63,11 +74,11 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     if app.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }
-    curve::render(app, rows.rest(), buffer);
+    curve::render(app, rows.rest(), buffer)
 }
 
 /// A scene that asks for no life: it is not waited for.
-fn without_life(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
+fn without_life(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) -> Option<Rect> {
     let dim = app.theme.style(Role::Dim);
     let words = ["no life in this scene", "(no [life] table)"];
     for text in words {
@@ -76,7 +87,7 @@ fn without_life(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     validity::line(app, rows.take(1), buffer);
     rows.skip();
     counts::counts(app, rows, buffer);
-    curve::render(app, rows.rest(), buffer);
+    curve::render(app, rows.rest(), buffer)
 }
 
 /// Rows handed out from above.

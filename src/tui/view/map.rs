@@ -6,6 +6,7 @@
 mod axes;
 mod motion;
 mod paint;
+mod profile;
 mod raster;
 
 use ratatui::buffer::Buffer;
@@ -15,13 +16,15 @@ use ratatui::text::{Line, Span};
 use crate::picture::{Picture, Subject};
 use crate::sim::Frame;
 use crate::tui::action::Action;
-use crate::tui::app::{App, MapKind, Zoom};
+use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, title};
+use crate::tui::units::sig;
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, point, put, title};
 use motion::motion;
 use paint::{MapMark, Pixel, color_bar, look, paint};
+use profile::SurfaceProfile;
 use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
@@ -29,11 +32,15 @@ const BAR: u16 = 8;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
-    let inner = panel(theme, areas, areas.map, heading(app), buffer);
+    let inner = panel(app, areas, PanelKind::Map, heading(app, areas), buffer);
     let Some(frame) = app.frame() else {
         waiting(app, inner, buffer);
         return;
     };
+    if app.map == MapKind::Profile {
+        side_view(app, frame, inner, buffer);
+        return;
+    }
     let (picture, bar) = split(areas, inner);
     let look = look(app);
     let window = window(app, frame, picture);
@@ -70,9 +77,25 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     probe(app, frame, (picture, image), buffer);
 }
 
+/// Both surfaces with the oil between them, and below them the trace of the point that rides on one.
+fn side_view(app: &App, frame: &Frame, inner: Rect, buffer: &mut Buffer) {
+    let Some(profile) = SurfaceProfile::of(app, frame) else {
+        return;
+    };
+    let (area, below) = profile::rooms(inner);
+    profile::draw(app, &profile, area, inner, buffer);
+    if let Some(below) = below {
+        point::under_profile(app, frame, (below, profile.x), buffer);
+    }
+}
+
 /// The cells that the map fills.
 pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
     let frame = app.frame()?;
+    if app.map == MapKind::Profile {
+        let (area, _) = profile::rooms(inside(areas, areas.map));
+        return Some(area).filter(|area| !area.is_empty());
+    }
     let (picture, _) = split(areas, inside(areas, areas.map));
     let window = window(app, frame, picture);
     Some(image_area(app.map, &window, picture)).filter(|image| !image.is_empty())
@@ -82,6 +105,18 @@ pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
 pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitmap> {
     let frame = app.frame()?;
     let area = room(app, areas)?;
+    if app.map == MapKind::Profile {
+        let profile = SurfaceProfile::of(app, frame)?;
+        let mut picture = profile::pixels(&profile, area, cell);
+        if let Some([x, y]) = profile::point_part(app, &profile) {
+            let whole = MapWindow {
+                x: [0.0, 1.0],
+                y: [0.0, 1.0],
+            };
+            MapMark::Diamond.draw(&mut picture, &whole, (x, y), 0.6 * f64::from(cell.0));
+        }
+        return Some(picture);
+    }
     let (picture, _) = split(areas, inside(areas, areas.map));
     let window = window(app, frame, picture);
     let look = look(app);
@@ -131,6 +166,15 @@ fn picture_of(
 /// A press on the picture reads it there.
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let frame = app.frame()?;
+    if app.map == MapKind::Profile {
+        // There the point is put.
+        let profile = SurfaceProfile::of(app, frame)?;
+        let (area, _) = profile::rooms(inside(areas, areas.map));
+        let across = at.x >= area.x && at.x < area.right() && areas.map.contains(at);
+        let part = (f64::from(at.x.saturating_sub(area.x)) + 0.5) / f64::from(area.width.max(1));
+        let x = profile.x[0] + part * (profile.x[1] - profile.x[0]);
+        return across.then_some(Action::PutPoint(x));
+    }
     let (picture, _) = split(areas, inside(areas, areas.map));
     let window = window(app, frame, picture);
     let image = image_area(app.map, &window, picture);
@@ -145,9 +189,23 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
     })
 }
 
-fn heading(app: &App) -> Line<'static> {
+fn heading(app: &App, areas: &Areas) -> Line<'static> {
     let theme = app.theme;
+    if app.is_frozen {
+        let slide_roll = app.frame().map_or(0.0, |frame| frame.metrics.slide_roll);
+        let text = format!(" frozen: {} at S {slide_roll:.2} ", app.map.name());
+        return Line::styled(ascii_text(theme, &text), theme.style(Role::Formula));
+    }
     let mut line = title(theme, "m", app.map.name());
+    if app.map == MapKind::Profile {
+        let profile = app.frame().and_then(|frame| SurfaceProfile::of(app, frame));
+        let (area, _) = profile::rooms(inside(areas, areas.map));
+        let times = profile.map_or(1.0, |profile| profile.exaggeration(area));
+        let note = format!("y = 0, heights × {} ", sig(times, 2));
+        let note = ascii_text(theme, &note);
+        line.push_span(Span::styled(note, theme.style(Role::Dim)));
+        return line;
+    }
     let note = match (app.map, app.zoom) {
         (MapKind::Stress, _) => "x–z plane, y = 0 ",
         (MapKind::PressureWaves | MapKind::FilmWaves, _) => "y = 0, last 2a of way, now below ",

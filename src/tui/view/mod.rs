@@ -23,7 +23,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
-use crate::tui::app::{App, Overlay};
+use crate::tui::app::{App, Overlay, PanelKind};
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 
@@ -69,6 +69,8 @@ pub struct Areas {
     pub point: Rect,
     /// Last lines.
     pub status: Rect,
+    /// Left of the map the one that was frozen, where there is room for two.
+    pub frozen: Rect,
 }
 
 impl Areas {
@@ -83,13 +85,19 @@ impl Areas {
             PanelSpacing::Compact
         };
         let (left, right) = side_widths(screen.width, density);
-        let (point_rows, status_rows) = match density {
-            PanelSpacing::Compact => (if screen.height >= 26 { 6 } else { 5 }, 2),
-            PanelSpacing::Full => ((screen.height / 5 + 1).clamp(9, 12), 3),
-        };
         let caption_rows = match banner {
             Banner::None => 0,
-            Banner::Caption(rows) => rows.min(5),
+            Banner::Caption(rows) => rows.min(MOST_WORDS),
+        };
+        let (point_rows, status_rows) = match density {
+            // Six rows for the trace, its title and its ticks, once the life has its own.
+            PanelSpacing::Compact => {
+                let free = screen
+                    .height
+                    .saturating_sub(1 + caption_rows + 2 + LIFE_ROWS);
+                (free.clamp(5, 8), 2)
+            }
+            PanelSpacing::Full => ((screen.height / 5 + 1).clamp(9, 12), 3),
         };
         let body_rows = screen.height - 1 - caption_rows - point_rows - status_rows;
         let gap = u16::from(density == PanelSpacing::Compact);
@@ -108,13 +116,103 @@ impl Areas {
             life: Rect::new(centre + middle + gap, top, right, body_rows),
             point: Rect::new(screen.x, below, screen.width, point_rows),
             status: Rect::new(screen.x, below + point_rows, screen.width, status_rows),
+            frozen: Rect::default(),
         })
     }
 }
 
+impl Areas {
+    /// The same screen with one panel in place of all.
+    #[must_use]
+    pub fn enlarged(self, panel: PanelKind) -> Self {
+        let whole = Rect {
+            x: self.header.x,
+            y: self.knobs.y,
+            width: self.header.width,
+            height: self.status.y - self.knobs.y,
+        };
+        let of = |own: PanelKind| if own == panel { whole } else { Rect::default() };
+        Self {
+            knobs: of(PanelKind::Knobs),
+            map: of(PanelKind::Map),
+            centre_line: of(PanelKind::CentreLine),
+            life: of(PanelKind::Life),
+            point: of(PanelKind::Point),
+            ..self
+        }
+    }
+
+    /// The same with one more of the last lines, taken from the panel above them.
+    #[must_use]
+    fn with_a_line(mut self) -> Self {
+        self.point.height -= 1;
+        self.status.y -= 1;
+        self.status.height += 1;
+        self
+    }
+
+    /// The same with two maps beside each other, where both have room.
+    #[must_use]
+    fn with_two_maps(mut self) -> Self {
+        let half = self.map.width / 2;
+        if half >= LEAST_MAP {
+            self.frozen = Rect {
+                width: half,
+                ..self.map
+            };
+            self.map.x += half;
+            self.map.width -= half;
+        }
+        self
+    }
+
+    /// The panel at a place.
+    fn panel_at(&self, at: Position) -> Option<PanelKind> {
+        PanelKind::ALL
+            .into_iter()
+            .find(|panel| self.of_panel(*panel).contains(at))
+    }
+
+    /// Where a panel is.
+    pub fn of_panel(&self, panel: PanelKind) -> Rect {
+        match panel {
+            PanelKind::Knobs => self.knobs,
+            PanelKind::Map => self.map,
+            PanelKind::CentreLine => self.centre_line,
+            PanelKind::Life => self.life,
+            PanelKind::Point => self.point,
+        }
+    }
+}
+
+/// The panels of the screen as it is now.
+fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
+    let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
+    let areas = if app.why().is_some() {
+        areas.with_a_line()
+    } else {
+        areas
+    };
+    let areas = match app.enlarged {
+        Some(panel) => areas.enlarged(panel),
+        None => areas,
+    };
+    Some(match &app.ghost {
+        Some(_) => areas.with_two_maps(),
+        None => areas,
+    })
+}
+
+/// Columns in which a map can be read.
+const LEAST_MAP: u16 = 26;
+/// Rows of a caption, its title included.
+const MOST_WORDS: u16 = 6;
+/// Rows that the life and its factors take.
+const LIFE_ROWS: u16 = 13;
+
 fn side_widths(width: u16, density: PanelSpacing) -> (u16, u16) {
     match density {
-        PanelSpacing::Compact => ((width / 4).clamp(17, 26), (width * 27 / 100).clamp(19, 28)),
+        PanelSpacing::Compact => ((width / 4).clamp(17, 26), (width * 31 / 100).clamp(19, 28)),
         PanelSpacing::Full => ((width / 5).clamp(28, 38), (width / 4).clamp(32, 46)),
     }
 }
@@ -147,19 +245,29 @@ fn on_page(page: Style, screen: Rect, buffer: &mut Buffer) {
 }
 
 fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
-    let caption = caption::of(app);
-    let Some(areas) = Areas::of(screen, banner(caption.as_ref(), screen)) else {
+    let Some(areas) = areas_of(app, screen) else {
         too_small(app, screen, buffer);
         return;
     };
     header::render(app, areas.header, buffer);
-    knobs::render(app, &areas, buffer);
-    map::render(app, &areas, buffer);
-    centre_line::render(app, &areas, buffer);
-    life::render(app, &areas, buffer);
-    point::render(app, &areas, buffer);
+    for panel in PanelKind::ALL {
+        if areas.of_panel(panel).is_empty() {
+            continue;
+        }
+        match panel {
+            PanelKind::Knobs => knobs::render(app, &areas, buffer),
+            PanelKind::Map => map::render(app, &areas, buffer),
+            PanelKind::CentreLine => centre_line::render(app, &areas, buffer),
+            PanelKind::Life => drop(life::render(app, &areas, buffer)),
+            PanelKind::Point => point::render(app, &areas, buffer),
+        }
+    }
+    if let Some(ghost) = app.ghost.as_ref().filter(|_| !areas.frozen.is_empty()) {
+        let map = areas.frozen;
+        map::render(ghost, &Areas { map, ..areas }, buffer);
+    }
     status::render(app, &areas, buffer);
-    if let Some(caption) = caption {
+    if let Some(caption) = caption::of(app) {
         caption::render(app, &caption, areas.caption, buffer);
     }
     let body = Rect {
@@ -172,6 +280,7 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
         (None, Overlay::Scene) => overlay::scene(app, body, buffer),
+        (None, Overlay::Lessons) => overlay::lessons(app, body, buffer),
         (None, Overlay::None) => {}
     }
     status::message(app, &areas, screen, buffer);
@@ -188,11 +297,11 @@ pub fn picture(app: &App, screen: Rect, cell: (u16, u16)) -> Option<Bitmap> {
 }
 
 fn picture_areas(app: &App, screen: Rect) -> Option<Areas> {
-    let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
-    app.is_in_pixels().then_some(areas)
+    let areas = areas_of(app, screen)?;
+    (app.is_in_pixels() && !areas.map.is_empty()).then_some(areas)
 }
 
-fn banner(caption: Option<&caption::Caption<'_>>, screen: Rect) -> Banner {
+fn banner(caption: Option<&caption::Caption>, screen: Rect) -> Banner {
     caption.map_or(Banner::None, |caption| {
         Banner::Caption(caption.rows(screen.width))
     })
@@ -200,16 +309,19 @@ fn banner(caption: Option<&caption::Caption<'_>>, screen: Rect) -> Banner {
 
 /// What a mouse event asks for on a screen of that size.
 pub fn pointed(app: &App, screen: Rect, event: &MouseEvent) -> Option<Action> {
-    let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
+    let areas = areas_of(app, screen)?;
     let at = Position::new(event.column, event.row);
     if app.overlay != Overlay::None {
         let closes = matches!(event.kind, MouseEventKind::Down(_));
         return closes.then_some(Action::Close);
     }
     match event.kind {
-        MouseEventKind::Down(MouseButton::Left) => knobs::pressed(app, &areas, at)
+        MouseEventKind::Down(MouseButton::Left) => status::pressed(app, &areas, at)
+            .or_else(|| knobs::pressed(app, &areas, at))
+            .or_else(|| life::pressed(app, &areas, screen, at))
             .or_else(|| map::pressed(app, &areas, at))
-            .or_else(|| point::pressed(&areas, at)),
+            .or_else(|| point::pressed(&areas, at))
+            .or_else(|| areas.panel_at(at).map(Action::Focus)),
         MouseEventKind::Drag(MouseButton::Left) => knobs::dragged(app, &areas, at)
             .or_else(|| map::pressed(app, &areas, at))
             .or_else(|| point::dragged(&areas, at)),
@@ -248,21 +360,33 @@ fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
         .render(screen, buffer);
 }
 
-/// Draws a panel's frame and gives the room inside.
-fn panel(theme: Theme, areas: &Areas, area: Rect, title: Line<'_>, buffer: &mut Buffer) -> Rect {
+/// Draws a panel's frame and gives the room inside; the frame of the one that the keys speak of stands out.
+fn panel(app: &App, areas: &Areas, kind: PanelKind, title: Line<'_>, buffer: &mut Buffer) -> Rect {
+    let (theme, area) = (app.theme, areas.of_panel(kind));
+    let (role, key) = match app.enlarged {
+        Some(_) => (Role::Key, " Esc "),
+        None if app.is_frozen => (Role::Formula, ""),
+        None if app.focus == kind => (Role::Key, " ⏎ "),
+        None => (Role::Border, ""),
+    };
+    let has_room = title.width() + key.chars().count() + 2 < usize::from(area.width);
     let borders = match areas.density {
         PanelSpacing::Compact => Borders::TOP,
         PanelSpacing::Full => Borders::ALL,
     };
     let mut block = Block::new()
         .borders(borders)
-        .border_style(theme.style(Role::Border))
+        .border_style(theme.style(role))
         .title_top(title);
     block = if theme.is_ascii() {
         block.border_set(ASCII_BORDER)
     } else {
         block.border_type(BorderType::Rounded)
     };
+    if has_room && !key.is_empty() {
+        let key = Line::styled(ascii_text(theme, key), theme.style(Role::Key));
+        block = block.title_top(key.right_aligned());
+    }
     block.render(area, buffer);
     inside(areas, area)
 }

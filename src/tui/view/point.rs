@@ -7,16 +7,16 @@ use ratatui::text::{Line, Span};
 
 use crate::sim::{Frame, Stage};
 use crate::tui::action::Action;
-use crate::tui::app::{App, PointNow, PointQuantity};
+use crate::tui::app::{App, PanelKind, PointNow, PointQuantity};
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
-use crate::tui::units::{sig_or_dash, tick};
+use crate::tui::units::{nice_ceiling, sig_or_dash, tick};
 use crate::tui::view::chart::{CurvePanel, Pen};
 use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
-    let inner = panel(theme, areas, areas.point, heading(app), buffer);
+    let inner = panel(app, areas, PanelKind::Point, heading(app), buffer);
     let Some(frame) = app.frame() else { return };
     let Some(point) = app.point_now() else {
         let text = match (frame.stage, &app.setup.scene.stress) {
@@ -38,13 +38,35 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         ..inner
     };
     numbers(app, frame, &point, left, buffer);
-    let plot = plot(areas);
-    if plot.is_empty() {
+    let area = plot(areas);
+    if area.is_empty() {
         return;
     }
+    let plot = TracePlot { area, x: X_RANGE };
     trace(app, frame, plot, buffer);
     peaks_ticked(app, frame, plot, buffer);
-    axis(app, plot, point.depth_m, buffer);
+    axis(app, frame, area, point.depth_m, buffer);
+}
+
+/// The trace alone, over the places of the picture above it.
+pub(super) fn under_profile(
+    app: &App,
+    frame: &Frame,
+    (area, x): (Rect, [f64; 2]),
+    buffer: &mut Buffer,
+) {
+    let Some(point) = app.point_now() else { return };
+    let plot = TracePlot { area, x };
+    trace(app, frame, plot, buffer);
+    peaks_ticked(app, frame, plot, buffer);
+    axis(app, frame, area, point.depth_m, buffer);
+}
+
+/// Where a trace is drawn, and which x/a that is.
+#[derive(Debug, Clone, Copy)]
+struct TracePlot {
+    area: Rect,
+    x: [f64; 2],
 }
 
 /// Columns of the numbers.
@@ -92,6 +114,7 @@ fn heading(app: &App) -> Line<'static> {
     let theme = app.theme;
     let name = match app.quantity {
         PointQuantity::Pressure => "material point: pressure on it",
+        PointQuantity::Excess => "material point: pressure on it less Hertz's",
         PointQuantity::Shear => "material point: shear below it",
         PointQuantity::Effective => "material point: effective stress below it",
     };
@@ -160,44 +183,61 @@ fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut 
     }
 }
 
-fn value(quantity: PointQuantity, sample: &TraceSample) -> f64 {
+fn value(quantity: PointQuantity, sample: &TraceSample, frame: &Frame) -> f64 {
     match quantity {
         PointQuantity::Pressure => sample.pressure_pa,
+        PointQuantity::Excess => sample.pressure_pa - hertz_pa(sample.x_m / frame.a_m, frame),
         PointQuantity::Shear => sample.tau_xz_pa,
         PointQuantity::Effective => sample.effective_pa,
     }
 }
 
-fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
+/// Hertz's pressure at x/a on y = 0.
+fn hertz_pa(x: f64, frame: &Frame) -> f64 {
+    frame.p_hertz_pa * (1.0 - x * x).max(0.0).sqrt()
+}
+
+fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) {
     let theme = app.theme;
-    let range = range(app);
-    let mut chart = CurvePanel::new(plot, X_RANGE, range);
+    let range = range(app, frame);
+    let mut chart = CurvePanel::new(plot.area, plot.x, range);
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let quantity = app.quantity;
     let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
         samples
             .iter()
-            .map(|sample| (sample.x_m / frame.a_m, value(quantity, sample)))
+            .map(|sample| (sample.x_m / frame.a_m, value(quantity, sample, frame)))
             .collect()
     };
-    if quantity == PointQuantity::Pressure {
-        let fine = usize::from(plot.width) * 2;
+    if matches!(quantity, PointQuantity::Pressure | PointQuantity::Excess) {
+        let fine = usize::from(plot.area.width) * 2;
         let hertz = (0..=fine).filter_map(|i| {
-            let x = X_RANGE[0] + (X_RANGE[1] - X_RANGE[0]) * i as f64 / fine as f64;
-            (x.abs() < 1.0).then(|| (x, frame.p_hertz_pa * (1.0 - x * x).sqrt()))
+            let x = plot.x[0] + (plot.x[1] - plot.x[0]) * i as f64 / fine as f64;
+            let p = match quantity {
+                PointQuantity::Excess => 0.0,
+                _ => hertz_pa(x, frame),
+            };
+            (x.abs() < 1.0).then_some((x, p))
         });
         chart.scatter(hertz, pen(Role::Hertz, '.'));
     }
+    if let Some((ghost, frozen)) = ghost(app) {
+        let frozen_points = ghost.iter().map(|sample| {
+            let y = value(quantity, sample, frozen);
+            (sample.x_m / frozen.a_m, y)
+        });
+        chart.line(frozen_points, pen(Role::Formula, ','));
+    }
     chart.line(points(app.trace.before()), pen(Role::Border, '.'));
     let role = match quantity {
-        PointQuantity::Pressure => Role::Pressure,
+        PointQuantity::Pressure | PointQuantity::Excess => Role::Pressure,
         PointQuantity::Shear => Role::Shear,
         PointQuantity::Effective => Role::Peaks,
     };
     chart.line(points(app.trace.current()), pen(role, '*'));
     chart.render(theme.is_ascii(), buffer);
     if let Some(last) = app.trace.current().last() {
-        let row = row_of(plot, range, value(quantity, last));
+        let row = row_of(plot.area, range, value(quantity, last, frame));
         mark(
             app,
             plot,
@@ -210,33 +250,49 @@ fn trace(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
     }
 }
 
+/// The crossing that was frozen, and the frame beside it.
+fn ghost(app: &App) -> Option<(&[TraceSample], &Frame)> {
+    let ghost = app.ghost.as_ref()?;
+    let frame = ghost.frame()?;
+    let (before, current) = (ghost.trace.before(), ghost.trace.current());
+    let whole = if before.is_empty() { current } else { before };
+    Some((whole, frame))
+}
+
 /// x/a over which the point is followed.
 const X_RANGE: [f64; 2] = [-1.5, 1.5];
 
-fn range(app: &App) -> [f64; 2] {
+/// The scale of the trace itself: this crossing and the one before, so that small teeth are seen.
+fn range(app: &App, frame: &Frame) -> [f64; 2] {
+    let samples = app.trace.before().iter().chain(app.trace.current());
+    let values = samples.map(|sample| value(app.quantity, sample, frame).abs());
+    let frozen = ghost(app).into_iter().flat_map(|(samples, frame)| {
+        let frozen = samples.iter();
+        frozen.map(|sample| value(app.quantity, sample, frame).abs())
+    });
+    let reached = nice_ceiling(values.chain(frozen).fold(0.0, f64::max));
+    // Nothing yet, or next to nothing: a part of Hertz's pressure.
+    let most = reached.max(0.02 * frame.p_hertz_pa).max(1.0);
     match app.quantity {
-        PointQuantity::Pressure => [0.0, app.reached.pressure_pa.max(1.0)],
-        PointQuantity::Shear => {
-            let most = app.reached.shear_pa.max(1.0);
-            [-most, most]
-        }
-        PointQuantity::Effective => [0.0, app.reached.stress_pa.max(1.0)],
+        PointQuantity::Pressure => [0.0, most.max(frame.p_hertz_pa)],
+        PointQuantity::Effective => [0.0, most],
+        PointQuantity::Shear | PointQuantity::Excess => [-most, most],
     }
 }
 
 /// A tick under the trace for each peak that has passed, and its number on the curve where there is room.
-fn peaks_ticked(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
-    let range = range(app);
+fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) {
+    let (area, range) = (plot.area, range(app, frame));
     let mut free_from = 0;
     for tick in app.trace.ticks() {
         let x = tick.x_m / frame.a_m;
         let Some(column) = column_of(plot, x) else {
             continue;
         };
-        mark(app, plot, x, plot.height, "╿", Role::Cycles, buffer);
+        mark(app, plot, x, area.height, "╿", Role::Cycles, buffer);
         let number = tick.number.to_string();
         let width = number.len() as u16;
-        let first = (column.saturating_sub((width - 1) / 2)).min(plot.right() - width);
+        let first = (column.saturating_sub((width - 1) / 2)).min(area.right() - width);
         let Some(sample) = nearest(app.trace.current(), tick.x_m) else {
             continue;
         };
@@ -244,9 +300,9 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: Rect, buffer: &mut Buffer) {
             continue;
         }
         // Above the curve, or on it where it touches the top.
-        let row = row_of(plot, range, value(app.quantity, sample)).saturating_sub(1);
+        let row = row_of(area, range, value(app.quantity, sample, frame)).saturating_sub(1);
         let line = Line::styled(number, app.theme.style(Role::Cycles));
-        buffer.set_line(first, plot.y + row, &line, width);
+        buffer.set_line(first, area.y + row, &line, width);
         free_from = first + width + 1;
     }
 }
@@ -264,15 +320,15 @@ fn row_of(plot: Rect, range: [f64; 2], value: f64) -> u16 {
 }
 
 /// Column of the screen for x/a; `None` outside the plot.
-fn column_of(plot: Rect, x: f64) -> Option<u16> {
-    let part = (x - X_RANGE[0]) / (X_RANGE[1] - X_RANGE[0]);
-    let column = plot.x + (part * f64::from(plot.width - 1)).round() as u16;
+fn column_of(plot: TracePlot, x: f64) -> Option<u16> {
+    let part = (x - plot.x[0]) / (plot.x[1] - plot.x[0]);
+    let column = plot.area.x + (part * f64::from(plot.area.width - 1)).round() as u16;
     (0.0..=1.0).contains(&part).then_some(column)
 }
 
 fn mark(
     app: &App,
-    plot: Rect,
+    plot: TracePlot,
     x: f64,
     row: u16,
     symbol: &'static str,
@@ -283,13 +339,13 @@ fn mark(
         return;
     };
     let ascii = if symbol == "◆" { "X" } else { "|" };
-    if let Some(cell) = buffer.cell_mut((column, plot.y + row)) {
+    if let Some(cell) = buffer.cell_mut((column, plot.area.y + row)) {
         cell.set_symbol(app.theme.pick(symbol, ascii))
             .set_style(app.theme.style(role));
     }
 }
 
-fn axis(app: &App, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
+fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
     let theme = app.theme;
     let pressure = app.units.pressure();
     let dim = theme.style(Role::Dim);
@@ -298,7 +354,7 @@ fn axis(app: &App, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
         width: 5,
         ..plot
     };
-    let range = range(app);
+    let range = range(app, frame);
     put_right(
         left,
         0,

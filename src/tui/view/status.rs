@@ -1,13 +1,16 @@
 //! Last lines: where the run is, how well it converges, what is left out, what is recorded.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
 use crate::scene::CycleBasis;
 use crate::sim::{CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named};
 use crate::sweep::Along;
-use crate::tui::app::{App, ErrandKind, Trouble, WhyUnconverged};
+use crate::tui::action::Action;
+use crate::tui::app::{
+    App, ErrandKind, Leading, Overlay, PanelKind, RunPace, Trouble, WhyUnconverged,
+};
 use crate::tui::theme::Role;
 use crate::tui::units::{bytes, seconds, sig};
 use crate::tui::view::{Areas, PanelSpacing, ascii_text, knobs, overlay, put, put_right};
@@ -19,6 +22,16 @@ type StatusWords = Vec<(String, Role)>;
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let area = areas.status;
     let mut row = 0;
+    if let Some(why) = app.why() {
+        let text = ascii_text(app.theme, &why.in_columns(usize::from(area.width) - 2));
+        let role = match why.of {
+            Leading::Simulated => Role::Strong,
+            Leading::Scaled | Leading::Formula => Role::Formula,
+        };
+        let line = Line::styled(format!(" {text}"), app.theme.style(role));
+        put(area, row, &line, buffer);
+        row += 1;
+    }
     if let Some(frame) = app.frame() {
         let mut words = progress(app, frame);
         if areas.density == PanelSpacing::Full {
@@ -197,6 +210,14 @@ fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
         ..area
     };
     put_right(area, row, &recorder, buffer);
+    if let Some(typed) = app.typing_line() {
+        let line = Line::styled(
+            format!(" {}", ascii_text(theme, &typed)),
+            theme.style(Role::Chosen),
+        );
+        put(room, row, &line, buffer);
+        return;
+    }
     if let Some(message) = app.message() {
         // A longer one is laid over the panels above.
         if one_line(message, room.width) {
@@ -205,32 +226,73 @@ fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
         }
         return;
     }
-    let mut words: Vec<(&str, String)> = hints(app)
-        .into_iter()
-        .map(|(key, word)| (key, word.to_owned()))
-        .collect();
-    let taken: usize = words.iter().map(hint_width).sum();
-    if !app.setup.left_out.is_empty() {
-        words.push((
-            "i",
-            left_out(app, usize::from(room.width).saturating_sub(taken)),
-        ));
-    }
     let mut spans = vec![Span::raw(" ")];
-    let mut free = usize::from(room.width);
-    for hint in words {
-        // What does not fit whole is not begun, and nothing after it.
-        if hint_width(&hint) > free {
-            break;
-        }
-        free -= hint_width(&hint);
-        spans.push(Span::styled(hint.0, theme.style(Role::Key)));
+    for hint in hints_shown(app, room) {
+        spans.push(Span::styled(hint.key, theme.style(Role::Key)));
         spans.push(Span::styled(
-            format!(" {}  ", hint.1),
+            format!(" {}  ", ascii_text(theme, &hint.word)),
             theme.style(Role::Dim),
         ));
     }
     put(room, row, &Line::from(spans), buffer);
+}
+
+/// A key of the last line: what it is called, and what it asks for.
+struct FooterKey {
+    key: &'static str,
+    word: String,
+    action: Action,
+}
+
+impl FooterKey {
+    fn new(key: &'static str, word: &str, action: Action) -> Self {
+        let word = word.to_owned();
+        Self { key, word, action }
+    }
+
+    /// Columns of the key with its word and the gap after it.
+    fn width(&self) -> usize {
+        self.key.chars().count() + self.word.chars().count() + 3
+    }
+}
+
+/// The keys that fit, whole.
+fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
+    let mut hints = hints(app);
+    let taken: usize = hints.iter().map(FooterKey::width).sum();
+    if !app.setup.left_out.is_empty() && app.typing.is_none() {
+        let free = usize::from(room.width).saturating_sub(taken);
+        hints.push(FooterKey::new("i", &left_out(app, free), Action::Plan));
+    }
+    let mut free = usize::from(room.width);
+    // What does not fit whole is not begun, and nothing after it.
+    let fits = |hint: &FooterKey| {
+        let fits = hint.width() <= free;
+        free = free.saturating_sub(hint.width());
+        fits
+    };
+    hints.into_iter().take_while(fits).collect()
+}
+
+/// A press on a key of the last line is that key.
+pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
+    let recorder = recorder(app).width() as u16 + 1;
+    let room = Rect {
+        y: areas.status.bottom().saturating_sub(1),
+        height: 1,
+        width: areas.status.width.saturating_sub(recorder),
+        ..areas.status
+    };
+    if app.message().is_some() || !room.contains(at) {
+        return None;
+    }
+    let mut end = room.x + 1;
+    let mut hints = hints_shown(app, room).into_iter();
+    let under = hints.find(|hint| {
+        end += hint.width() as u16;
+        at.x < end
+    })?;
+    Some(under.action)
 }
 
 fn one_line(message: &str, columns: u16) -> bool {
@@ -247,11 +309,6 @@ pub(super) fn message(app: &App, areas: &Areas, screen: Rect, buffer: &mut Buffe
     overlay::message(app, message, screen, buffer);
 }
 
-/// Columns of a key with its word and the gap after it.
-fn hint_width((key, word): &(&str, String)) -> usize {
-    key.len() + word.chars().count() + 3
-}
-
 /// What the plan leaves out: all of it where it fits, else how much.
 fn left_out(app: &App, room: usize) -> String {
     let left_out = &app.setup.left_out;
@@ -264,17 +321,68 @@ fn left_out(app: &App, room: usize) -> String {
     }
 }
 
-fn hints(app: &App) -> Vec<(&'static str, &'static str)> {
+/// What can be done now: by what is open, asked, typed or large, and then by the panel that the keys speak of.
+fn hints(app: &App) -> Vec<FooterKey> {
+    let key = FooterKey::new;
+    let enter = app.theme.pick("⏎", "Enter");
+    if app.typing.is_some() {
+        return vec![
+            key(enter, "set", Action::Enter),
+            key("Esc", "leave it", Action::Close),
+        ];
+    }
+    match app.overlay {
+        Overlay::Lessons => {
+            return vec![
+                key(enter, "begin", Action::Enter),
+                key("t", "close", Action::Lessons),
+            ];
+        }
+        Overlay::Scene => {
+            return vec![
+                key(enter, "run it", Action::Enter),
+                key("e", "close", Action::Scene),
+            ];
+        }
+        Overlay::Help | Overlay::Plan => return vec![key("Esc", "close", Action::Close)],
+        Overlay::None => {}
+    }
     let mut hints = vec![
-        ("?", "keys"),
-        ("q", "quit"),
-        ("space", "pause"),
-        ("b", "pin"),
-        ("t", "tour"),
-        ("e", "scene"),
+        key("?", "keys", Action::Help),
+        key("q", "quit", Action::Quit),
     ];
+    if app.tour.is_some() {
+        hints.push(key("n", "go on", Action::NextBeat));
+        hints.push(key("N", "back", Action::PreviousBeat));
+        hints.push(key("T", "end lesson", Action::EndTour));
+    }
+    if app.enlarged.is_some() {
+        hints.push(key("Esc", "all panels", Action::Close));
+    }
+    let pause = match (&app.replay, app.pace) {
+        (Some(_), _) => key("o", "live", Action::Replay),
+        (None, RunPace::Paused) => key("space", "go on", Action::TogglePause),
+        (None, RunPace::Running) => key("space", "pause", Action::TogglePause),
+    };
+    let pin = if app.pinned.is_some() {
+        "release"
+    } else {
+        "freeze"
+    };
+    let own = match app.focus {
+        PanelKind::Knobs => key("=", "type", Action::Type),
+        PanelKind::Map => key("m", "map", Action::NextMap),
+        PanelKind::CentreLine => key("z", "zoom", Action::Zoom),
+        PanelKind::Life => key("y", "curve", Action::Curve),
+        PanelKind::Point => key("p", "trace", Action::PointQuantity),
+    };
+    hints.extend([pause, key("b", pin, Action::Pin), own]);
+    if app.tour.is_none() {
+        hints.push(key("t", "lessons", Action::Lessons));
+        hints.push(key("e", "scene", Action::Scene));
+    }
     if app.offers(ErrandKind::Record) {
-        hints.push(("r", "record"));
+        hints.push(key("r", "record", Action::Record));
     }
     hints
 }

@@ -3,6 +3,7 @@
 use super::{CurveFigure, Place};
 use crate::sim::Knob;
 use crate::sweep::{Along, Found};
+use crate::tui::action::Action;
 use crate::tui::app::{App, CurveKind, Leading};
 use crate::tui::dial::Dial;
 use crate::tui::units::{nice_ceiling, sig};
@@ -17,6 +18,17 @@ pub(super) fn figure(app: &App) -> CurveFigure {
         CurveKind::Life => life(app),
         CurveKind::Friction => friction(app),
         CurveKind::Stribeck => stribeck(app),
+    }
+}
+
+/// What a press at a place of the present curve's axis asks for.
+pub(super) fn goes_to(app: &App, x: f64) -> Action {
+    match app.curve {
+        CurveKind::Life | CurveKind::Friction => Action::GoTo(Knob::SlideRoll, x),
+        CurveKind::Stribeck => {
+            let [least, _] = axis(app, Knob::EntrainmentMS).0;
+            Action::GoTo(Knob::EntrainmentMS, 10_f64.powf(x).copysign(least))
+        }
     }
 }
 

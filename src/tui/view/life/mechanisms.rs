@@ -23,12 +23,22 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
         ("traction", now.map(|now| now.traction), Role::Traction),
         ("load", now.map(|now| now.load / pinned), Role::Strong),
     ];
+    let ghost = app.ghost.as_ref().and_then(|ghost| ghost.leading_factors());
+    let frozen = |n: usize| {
+        let of = ghost?;
+        let row = [of.cycle, Some(of.peak), Some(of.traction), Some(of.load)];
+        let row = row.into_iter().take(n + 1);
+        Some(row.map(|factor| factor.unwrap_or(1.0)).product::<f64>())
+    };
     let mut from = 1.0;
-    for (name, factor, role) in factors {
+    for (n, (name, factor, role)) in factors.into_iter().enumerate() {
         let row = rows.take(1);
         let to = from * factor.unwrap_or(1.0);
         waterfall_value(app, row, (name, factor, role), buffer);
         waterfall_bar(app.theme, row, [from, to], role, buffer);
+        if let Some(end) = frozen(n) {
+            waterfall_mark(app.theme, row, end, buffer);
+        }
         from = to;
     }
     let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
@@ -122,6 +132,17 @@ fn waterfall_bar(theme: Theme, row: Rect, [from, to]: [f64; 2], role: Role, buff
         if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
             cell.set_symbol(symbol).set_style(theme.style(role));
         }
+    }
+}
+
+/// Where the frozen bar ended.
+fn waterfall_mark(theme: Theme, row: Rect, end: f64, buffer: &mut Buffer) {
+    let Some(track) = track(row) else { return };
+    let part = (end.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
+    let offset = (part.clamp(0.0, 1.0) * f64::from(track.width - 1)).round() as u16;
+    if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
+        cell.set_symbol(theme.pick("┃", "|"))
+            .set_style(theme.style(Role::Formula));
     }
 }
 

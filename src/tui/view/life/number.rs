@@ -15,9 +15,7 @@ pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
     let times = app.theme.pick("× smooth rolling", "x smooth rolling");
     match areas.life.width {
         _ if areas.density == PanelSpacing::Full => "relative life",
-        23.. => app
-            .theme
-            .pick("life × smooth rolling", "life x smooth rolling"),
+        24.. => "against smooth rolling",
         _ => times,
     }
 }

@@ -5,9 +5,10 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::sim::{Caution, CautionCode};
-use crate::tui::app::App;
+use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
-use crate::tui::view::{ascii_text, put};
+use crate::tui::units::sig_or_dash;
+use crate::tui::view::{ascii_text, put, put_right};
 
 /// The weightiest caution, and how many more there are behind `i`: in its own words where they fit, else by its name.
 pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
@@ -25,7 +26,8 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
         CautionCode::ElasticOnly => ("", Role::Dim),
         _ => (theme.pick("⚠ ", "! "), Role::Warn),
     };
-    let room = usize::from(row.width).saturating_sub(more.len() + 2);
+    let taken = if row.width < BESIDE { FORMULA } else { 0 };
+    let room = usize::from(row.width).saturating_sub(more.len() + 2 + taken);
     let text = ascii_text(theme, &first.text);
     let text = if text.chars().count() <= room {
         text
@@ -37,7 +39,20 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
         Span::styled(more, theme.style(Role::Key)),
     ]);
     put(row, 0, &line, buffer);
+    // Where there was no room for the formula's number beside the simulation's, it stands here.
+    if row.width < BESIDE && app.leading() == Leading::Simulated {
+        let formula = format!("formula {}", sig_or_dash(app.estimate.formula.life(), 2));
+        let formula = Line::styled(formula, theme.style(Role::Formula));
+        if line.width() + formula.width() < usize::from(row.width) {
+            put_right(row, 0, &formula, buffer);
+        }
+    }
 }
+
+/// Columns of that number.
+const FORMULA: usize = 13;
+/// Columns in which the formula's number stands beside the simulation's band.
+const BESIDE: u16 = 32;
 
 /// A caution in a few letters.
 fn name(caution: &Caution) -> &'static str {
