@@ -6,6 +6,8 @@ use asperity::scene::{Knob, presets};
 use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
+use super::beside::BesideValues;
+
 const ABOUT: &str =
     "Explorer of rolling-sliding contact fatigue: rough lubricated contacts, stress, life";
 
@@ -108,7 +110,8 @@ Examples:
   asperity run --export fields --export-every 32           pressure, film, stress for numpy
   asperity run --export pictures --export-as png           the maps and the centre line as pictures
   asperity run --no-record --spawn                         starts a viewer and shows the run live
-  asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit")]
+  asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit
+  asperity run --beside motion.slide_roll=0,0.5            both, side by side in one recording")]
     Run(HeadlessArgs),
     /// Print the plan: what is computed, what is not and why, memory, estimated time
     Check(SceneArgs),
@@ -132,12 +135,45 @@ Exit codes: 0 all as required; 2 something did not converge or exceeds its bound
     /// Run many cases of a scene: life maps, operating paths; one table, plots
     #[command(long_about = SWEEP_ABOUT, after_long_help = SWEEP_EXAMPLES)]
     Sweep(SweepArgs),
+    /// Put two or three recordings side by side: common ranges and moments, one file
+    #[command(after_long_help = "\
+Examples:
+  asperity compare rolling.rrd sliding.rrd --out both.rrd
+  asperity compare fine.rrd coarse.rrd --by place          the same crest at the same place
+  asperity run demonstration --beside motion.slide_roll=0,0.5    runs both first")]
+    Compare(CompareArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
         /// Recording, as written by run and explore
         #[arg(value_name = "FILE.rrd")]
         file: PathBuf,
     },
+}
+
+/// What to put side by side.
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    /// Recordings, as written by run and explore
+    #[arg(value_name = "FILE.rrd", required = true, num_args = 2..=3)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Recording to write
+    #[arg(long, value_name = "FILE.rrd", default_value = "both.rrd")]
+    pub(crate) out: PathBuf,
+    /// What is equal where runs are shown together
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "time")]
+    pub(crate) by: CompareBy,
+    /// Replace the file if it exists
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// What is equal where runs are shown together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum CompareBy {
+    /// Simulated time
+    Time,
+    /// The place of a crest of body 1
+    Place,
 }
 
 /// What to study.
@@ -241,7 +277,7 @@ pub(crate) enum SweepCommand {
 }
 
 /// Which scene.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct SceneArgs {
     /// Preset (see `asperity scenes`) or TOML file
     #[arg(default_value = presets::DEFAULT)]
@@ -255,7 +291,7 @@ pub(crate) struct SceneArgs {
 }
 
 /// How to run it and what to write.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
@@ -331,6 +367,13 @@ pub(crate) struct HeadlessArgs {
     /// of a killed run as far as it goes
     #[arg(long, value_name = "FILE.rrd", conflicts_with_all = ["scene", "settings", "passages", "from_state"])]
     pub(crate) from: Option<PathBuf>,
+    /// Run at two or three values of a key and record the runs side by side, such as motion.slide_roll=0,0.5
+    #[arg(long, value_name = "KEY=A,B", conflicts_with_all = ["from", "from_state", "save_state", "table", "summary",
+        "export", "connect", "spawn", "serve", "no_record"])]
+    pub(crate) beside: Option<BesideValues>,
+    /// What is equal where these are shown together
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "time", requires = "beside")]
+    pub(crate) by: CompareBy,
 }
 
 impl HeadlessArgs {
@@ -341,7 +384,21 @@ impl HeadlessArgs {
             save_state: None,
             from_state: None,
             from: None,
+            beside: None,
+            by: CompareBy::Time,
         }
+    }
+
+    /// The same run with a key set, recorded to that file.
+    pub(crate) fn with(&self, key: &str, value: &str, out: &std::path::Path) -> Self {
+        let mut run = self.run.clone();
+        run.scene.settings.push(format!("{key}={value}"));
+        run.out = Some(out.to_owned());
+        if self.by == CompareBy::Place {
+            // Crests pass a place between two pictures: with all of them the nearest is within a step.
+            run.scene.settings.push("record.every_steps=1".to_owned());
+        }
+        Self::whole(run)
     }
 }
 

@@ -2,6 +2,7 @@
 //! converge; 3 it stalled; 4 an output failed; 5 it was stopped before its end.
 
 mod args;
+mod beside;
 #[cfg(feature = "tui")]
 mod explore;
 mod failure;
@@ -56,6 +57,7 @@ fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> 
         Some(CliCommand::Scenes { name }) => scenes::scenes(name.as_deref()),
         Some(CliCommand::Study(args)) => study::study(&args),
         Some(CliCommand::Sweep(args)) => sweep::sweep(&args),
+        Some(CliCommand::Compare(args)) => beside::compare(&args),
         Some(CliCommand::View { file }) => view::view(&file),
     }
 }

@@ -78,7 +78,7 @@ impl Contents {
         }
     }
 
-    fn entities(&self) -> BTreeSet<String> {
+    pub(super) fn entities(&self) -> BTreeSet<String> {
         let paths = self
             .data
             .iter()

@@ -7,7 +7,7 @@
 
 use rerun::components::{ImageFormat, MagnificationFilter};
 use rerun::{AnnotationContext, AsComponents, ChannelDatatype, DepthImage, Points2D, Radius};
-use rerun::{Rgba32, SegmentationImage};
+use rerun::{Rgba32, Scalars, SegmentationImage};
 
 use super::colour::{BACKGROUND, GREEN, WHITE, faded};
 use super::depths::Depths;
@@ -131,6 +131,10 @@ impl Block {
             DepthImage::update_fields().with_magnification_filter(MagnificationFilter::Nearest);
         stream.log_static(format!("{entity}/image"), &sharp)?;
         log_cover(stream, &cover(entity), &pixels)?;
+        // For programs: length of the block, its columns, and the depths that are shown.
+        let sides = [damage.length_m, damage.columns as f64];
+        let shown = depths.shown_m().iter().copied();
+        stream.log_static(block(entity), &Scalars::new(sides.into_iter().chain(shown)))?;
         Ok(Some(Self {
             entity,
             raster,
@@ -218,6 +222,11 @@ fn log_cover(stream: &Stream, entity: &str, pixels: &PixelField) -> Result<(), O
     ]);
     let parts: [&dyn AsComponents; 3] = [&image, &pixels.transform(), &context];
     stream.log_static(entity, &parts)
+}
+
+/// Where the lengths of a damage map are, m.
+pub(super) fn block(entity: &str) -> String {
+    format!("{entity}/block")
 }
 
 fn cover(entity: &str) -> String {

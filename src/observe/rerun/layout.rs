@@ -5,7 +5,7 @@
 //! `view/<id>/<Property>`, and the lot is sent to the recording. That path is a convention of the
 //! viewer and not of its interface: `tests/screenshots` shows whether it still holds.
 
-mod views;
+pub(super) mod views;
 
 use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
 use rerun::blueprint::components::{Corner2D, LoopMode, PanelState, PlayState};
@@ -63,13 +63,23 @@ pub(super) struct ShownViews {
 pub(super) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveError> {
     let mut views = Views::default();
     let tabs = tabs(&mut views, shown);
+    send_tabs(stream, tabs, &views.properties, (shown.live, shown.passage_s))
+}
+
+/// Sends tabs: whether the run goes on while they are shown, and how long a passage takes in it.
+pub(super) fn send_tabs(
+    stream: &Stream,
+    tabs: Vec<ContainerLike>,
+    properties: &[Property],
+    (live, passage_s): (bool, Option<f64>),
+) -> Result<(), ObserveError> {
     let time = TimePanel::new()
         .with_state(PanelState::Collapsed)
         .with_play_state(PlayState::Following)
-        .with_loop_mode(loop_mode(shown.live))
+        .with_loop_mode(loop_mode(live))
         .with_fps(15.0);
     // Milliseconds, so slowly that a passage can be followed; where nothing moves there are only steps.
-    let time = match shown.passage_s {
+    let time = match passage_s {
         Some(passage_s) => time
             .with_timeline(SIMULATED_TIME)
             .with_playback_speed(passage_s / PASSAGE_SHOWN_S),
@@ -81,7 +91,7 @@ pub(super) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveErr
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
         .with_time_panel(time);
-    send_with(stream.recording(), &blueprint, &views.properties).map_err(|error| {
+    send_with(stream.recording(), &blueprint, properties).map_err(|error| {
         ObserveError::new(
             stream.output(),
             format!("its layout could not be made: {error}"),

@@ -1,6 +1,6 @@
 //! Puts the parts of a recording together.
 
-mod views;
+pub(super) mod views;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

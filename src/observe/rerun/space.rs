@@ -40,6 +40,8 @@ pub(super) struct Tops {
     pub(super) rough: [bool; 2],
     /// Height of both together that can come, m.
     pub(super) roughness_m: f64,
+    /// Times that heights are drawn too high, where that is decided already.
+    pub(super) exaggeration: Option<f64>,
 }
 
 /// The 3-D view.
@@ -127,7 +129,9 @@ impl Space {
             bodies,
             slice,
             tops,
-            exaggeration: exaggeration(geometry, first, tops.roughness_m),
+            exaggeration: tops
+                .exaggeration
+                .unwrap_or_else(|| exaggeration(geometry, first, tops.roughness_m)),
             levels,
             speeds: None,
             hung: hung::Hung::new(stream),
@@ -161,6 +165,11 @@ impl Space {
             plain(self.exaggeration),
             1e3 * self.levels.film_cap / self.exaggeration
         )
+    }
+
+    /// Times that heights are drawn too high.
+    pub(super) fn exaggeration(&self) -> f64 {
+        self.exaggeration
     }
 
     /// A point to look at and one to look from.

@@ -110,9 +110,9 @@ impl TraceEntity {
             x_title: "where the point is: x, mm".into(),
             titles: vec![
                 (0.02, "GPa".into(), WHITE),
-                (0.22, "pressure above the point".into(), ORANGE),
-                (0.48, "effective stress at it".into(), PURPLE),
-                (0.76, "pressure, crossing before".into(), GREY),
+                (0.16, "pressure".into(), ORANGE),
+                (0.45, "effective stress".into(), PURPLE),
+                (0.8, "crossing before".into(), GREY),
             ],
             ..PlotBox::default()
         };
