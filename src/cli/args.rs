@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use asperity::observe::Format;
 use asperity::scene::{Knob, presets};
 use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
@@ -34,6 +35,8 @@ Examples:
   asperity scenes                                          the scenes that come with the program
   asperity scenes demonstration > mine.toml                a copy to edit, every key explained
   asperity view demonstration.rrd                          the recording in the Rerun viewer
+  asperity compare one.rrd two.rrd                         two recordings side by side
+  asperity export demonstration.rrd                        a moving picture of it (GIF); also PNG, SVG, PDF, npz, CSV
 
 Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not converge (they are named);
 3 the run stalled; 4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP) before its end, or the recording that
@@ -142,6 +145,18 @@ Examples:
   asperity compare fine.rrd coarse.rrd --by place          the same crest at the same place
   asperity run demonstration --beside motion.slide_roll=0,0.5    runs both first")]
     Compare(CompareArgs),
+    /// Make pictures, animations and tables of a recording
+    #[command(after_long_help = "\
+Examples:
+  asperity export passage.rrd                              the pressure as an animation (GIF)
+  asperity export passage.rrd --as png,npz --every 32      pictures and fields of every 32nd step
+  asperity export passage.rrd --as svg,pdf --show pressure,centre_line --width-mm 85
+  asperity export passage.rrd --as csv                     every scalar of every step
+
+Pictures: pressure, film, interferogram, traction, roughness_1, roughness_2, effective_stress, tau_xz, centre_line,
+damage_1, damage_2. Numbers are in SI; fields have the half precision (0.05 %) of the recording, scalars all their
+digits. For Python: assets/asperity.py reads a recording into numpy.")]
+    Export(ExportArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
         /// Recording, as written by run and explore
@@ -174,6 +189,52 @@ pub(crate) enum CompareBy {
     Time,
     /// The place of a crest of body 1
     Place,
+}
+
+/// What to make of a recording.
+#[derive(Debug, Args)]
+pub(crate) struct ExportArgs {
+    /// Recording, as written by run and explore
+    #[arg(value_name = "FILE.rrd")]
+    pub(crate) file: PathBuf,
+    /// What to make
+    #[arg(
+        long = "as",
+        value_name = "FORMATS",
+        value_enum,
+        value_delimiter = ',',
+        default_value = "gif"
+    )]
+    pub(crate) formats: Vec<ExportAs>,
+    /// Folder to write to [default: ./NAME_export]
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Which pictures, by name [default: all; of those that move the pressure]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) show: Vec<String>,
+    /// Stills of every N-th step at most
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) every: u64,
+    /// Width of SVG and PDF, mm
+    #[arg(long, value_name = "MM", default_value_t = 85.0, value_parser = within::<30, 1000>)]
+    pub(crate) width_mm: f64,
+    /// Pixels per inch of the fields in them
+    #[arg(long, value_name = "DPI", default_value_t = 300.0, value_parser = within::<36, 1200>)]
+    pub(crate) dpi: f64,
+    /// Size of their type, points
+    #[arg(long, value_name = "PT", default_value_t = 7.0, value_parser = within::<3, 24>)]
+    pub(crate) font_pt: f64,
+    /// Replace files that exist
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// A number between two.
+fn within<const LEAST: u32, const MOST: u32>(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    let fits = (f64::from(LEAST)..=f64::from(MOST)).contains(&value);
+    fits.then_some(value)
+        .ok_or_else(|| format!("allowed: {LEAST} to {MOST}"))
 }
 
 /// What to study.
@@ -335,6 +396,9 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true,
         default_missing_value = "9876")]
     pub(crate) serve: Option<u16>,
+    /// With --serve: wait for a viewer before the run begins, and go on serving until the last one is closed
+    #[arg(long, requires = "serve")]
+    pub(crate) hold: bool,
     /// Write no recording
     #[arg(long)]
     pub(crate) no_record: bool,
@@ -350,6 +414,31 @@ pub(crate) enum ExportAs {
     Npz,
     /// Maps and centre line as pictures
     Png,
+    /// The same as papers print them: sized in mm, axes and text as vectors, no title
+    Svg,
+    /// The same as PDF
+    Pdf,
+    /// All steps one after another
+    Gif,
+    /// The same as animated PNG, in all colours
+    Apng,
+    /// Every scalar of every step (of a recording; a run has --table)
+    Csv,
+}
+
+impl ExportAs {
+    /// What a step is written as; `None`: steps share a table.
+    pub(crate) fn of_steps(self) -> Option<Format> {
+        match self {
+            Self::Npz => Some(Format::Npz),
+            Self::Png => Some(Format::Png),
+            Self::Svg => Some(Format::Svg),
+            Self::Pdf => Some(Format::Pdf),
+            Self::Gif => Some(Format::Gif),
+            Self::Apng => Some(Format::Apng),
+            Self::Csv => None,
+        }
+    }
 }
 
 /// A run without a screen, which may be saved and taken up again.
@@ -372,7 +461,13 @@ pub(crate) struct HeadlessArgs {
         "export", "connect", "spawn", "serve", "no_record"])]
     pub(crate) beside: Option<BesideValues>,
     /// What is equal where these are shown together
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "time", requires = "beside")]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "WHAT",
+        default_value = "time",
+        requires = "beside"
+    )]
     pub(crate) by: CompareBy,
 }
 
@@ -421,6 +516,7 @@ impl RunArgs {
             connect: None,
             spawn: false,
             serve: None,
+            hold: false,
             no_record: false,
             force: false,
         }

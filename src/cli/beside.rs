@@ -21,7 +21,10 @@ impl std::str::FromStr for BesideValues {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = "such as motion.slide_roll=0,0.5: a key and two or three values";
         let (key, values) = text.split_once('=').ok_or(wrong)?;
-        let values: Vec<String> = values.split(',').map(|value| value.trim().to_owned()).collect();
+        let values: Vec<String> = values
+            .split(',')
+            .map(|value| value.trim().to_owned())
+            .collect();
         let is_whole = !key.trim().is_empty() && values.iter().all(|value| !value.is_empty());
         if !is_whole || !(2..=3).contains(&values.len()) {
             return Err(wrong.to_owned());
@@ -78,7 +81,10 @@ fn parts_of(out: &Path, count: usize) -> Vec<PathBuf> {
 
 /// Puts recordings side by side.
 pub(crate) fn compare(args: &CompareArgs) -> Result<u8, Failure> {
-    let stem = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let stem = |path: &PathBuf| {
+        path.file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned())
+    };
     let names = args.files.iter().map(|path| stem(path).unwrap_or_default());
     let mut named: Vec<(String, PathBuf)> = names.zip(args.files.iter().cloned()).collect();
     // Files of one name in several folders.
@@ -87,9 +93,10 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<u8, Failure> {
             named[k].0 = format!("{} ({})", named[k].0, k + 1);
         }
     }
-    let clash = args.files.iter().any(|file| {
-        asperity::files::identity(file) == asperity::files::identity(&args.out)
-    });
+    let clash = args
+        .files
+        .iter()
+        .any(|file| asperity::files::identity(file) == asperity::files::identity(&args.out));
     if clash {
         return Err(Failure::input(miette::miette!(
             "--out {} is one of the recordings that are read",
@@ -158,7 +165,10 @@ mod tests {
     fn values_are_read_or_refused() {
         let read = |text: &str| text.parse::<BesideValues>();
         let values = read("motion.slide_roll=0, 0.5").expect("two values");
-        assert_eq!((values.key.as_str(), values.values.len()), ("motion.slide_roll", 2));
+        assert_eq!(
+            (values.key.as_str(), values.values.len()),
+            ("motion.slide_roll", 2)
+        );
         for wrong in ["motion.slide_roll", "a=1", "a=1,,2", "=1,2", "a=1,2,3,4"] {
             assert!(read(wrong).is_err(), "{wrong}");
         }

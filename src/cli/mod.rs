@@ -5,6 +5,7 @@ mod args;
 mod beside;
 #[cfg(feature = "tui")]
 mod explore;
+mod export;
 mod failure;
 mod live;
 mod names;
@@ -58,6 +59,7 @@ fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> 
         Some(CliCommand::Study(args)) => study::study(&args),
         Some(CliCommand::Sweep(args)) => sweep::sweep(&args),
         Some(CliCommand::Compare(args)) => beside::compare(&args),
+        Some(CliCommand::Export(args)) => export::export(&args),
         Some(CliCommand::View { file }) => view::view(&file),
     }
 }

@@ -1,8 +1,8 @@
 //! `asperity run`: a scene without a screen.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use asperity::observe::{ObserveError, Overwrite};

@@ -77,7 +77,11 @@ fn frames_come_back_with_scalars_to_the_bit_and_fields_in_half_precision() {
     assert_eq!(read.n_steps(), frames.len());
     assert_eq!(read.shown(), (1..=STEPS).collect::<Vec<_>>());
     assert_eq!(read.whole().len() as u64, STEPS / 2);
-    for (step, frame) in read.whole().iter().map(|&step| (step, &frames[step as usize - 1])) {
+    for (step, frame) in read
+        .whole()
+        .iter()
+        .map(|&step| (step, &frames[step as usize - 1]))
+    {
         let back = read.frame(step).unwrap();
         let scalars = |frame: &Frame| {
             let mut metrics = frame.metrics.clone();
@@ -91,7 +95,13 @@ fn frames_come_back_with_scalars_to_the_bit_and_fields_in_half_precision() {
                     ..asperity::sim::LifeDetail::default()
                 };
             }
-            (metrics, frame.material_point, frame.time_s, frame.p_hertz_pa, [frame.x_min_m, frame.dx_m])
+            (
+                metrics,
+                frame.material_point,
+                frame.time_s,
+                frame.p_hertz_pa,
+                [frame.x_min_m, frame.dx_m],
+            )
         };
         assert_eq!(scalars(&back), scalars(frame));
         same(&back.pressure_pa, &frame.pressure_pa, 40.0);
@@ -113,7 +123,10 @@ fn a_run_less_itself_is_zero_to_the_bit_and_stands_there_twice_alike() {
     record(&path, STEPS, |_| {});
     for by in [ComparedBy::Time, ComparedBy::Place] {
         let told = beside(&[&path, &path], &out, by).unwrap();
-        assert_eq!((told.difference_pa, told.apart_steps, told.pictures), (0.0, 0.0, STEPS));
+        assert_eq!(
+            (told.difference_pa, told.apart_steps, told.pictures),
+            (0.0, 0.0, STEPS)
+        );
         let contents = Contents::read(&out);
         let difference = contents.pictures("b/difference/pressure_GPa/image");
         assert_eq!(difference.len() as u64, STEPS);
@@ -121,7 +134,10 @@ fn a_run_less_itself_is_zero_to_the_bit_and_stands_there_twice_alike() {
         let original = Contents::read(&path).pictures("maps/pressure_GPa/image");
         for run in ["a", "b"] {
             // Written again half precision is the same bits.
-            assert_eq!(contents.pictures(&format!("{run}/maps/pressure_GPa/image")), original);
+            assert_eq!(
+                contents.pictures(&format!("{run}/maps/pressure_GPa/image")),
+                original
+            );
         }
         std::fs::remove_file(&out).unwrap();
     }
@@ -151,7 +167,10 @@ fn ranges_are_common_and_hold_both() {
     ] {
         let tops = ["a", "b", "c"].map(|run| contents.top(&format!("{run}/{entity}")));
         assert!(tops.iter().all(|&top| top == tops[0]), "{entity}: {tops:?}");
-        let own = alone.iter().map(|alone| alone.top(entity)).fold(0.0, f64::max);
+        let own = alone
+            .iter()
+            .map(|alone| alone.top(entity))
+            .fold(0.0, f64::max);
         assert!(tops[0] >= own, "{entity}: {tops:?} below {own}");
     }
     // What a run shows alone is less: the ranges had to grow.
@@ -178,8 +197,11 @@ fn moments_are_common_and_at_most_a_step_apart() {
         assert!(told.apart_steps <= 1.0, "{by:?}: {}", told.apart_steps);
         assert!(told.pictures > 10, "{by:?}: {}", told.pictures);
         let contents = Contents::read(&out);
-        let pictures = ["a", "b"].map(|run| contents.pictures(&format!("{run}/maps/film_um/image")));
-        let steps = pictures.each_ref().map(|all| all.keys().copied().collect::<Vec<i64>>());
+        let pictures =
+            ["a", "b"].map(|run| contents.pictures(&format!("{run}/maps/film_um/image")));
+        let steps = pictures
+            .each_ref()
+            .map(|all| all.keys().copied().collect::<Vec<i64>>());
         assert_eq!(steps[0], steps[1]);
         let originals = Contents::read(&two).pictures("maps/film_um/image");
         for (step, picture) in &pictures[1] {
@@ -187,10 +209,17 @@ fn moments_are_common_and_at_most_a_step_apart() {
             let own = &second[*own.unwrap().0 as usize - 1];
             let moment = &first[*step as usize - 1];
             let (key, of_moment, pace) = match by {
-                ComparedBy::Time => (own.time_s, moment.time_s, second[1].time_s - second[0].time_s),
+                ComparedBy::Time => (
+                    own.time_s,
+                    moment.time_s,
+                    second[1].time_s - second[0].time_s,
+                ),
                 ComparedBy::Place => (way(own), way(moment), way(&second[1]) - way(&second[0])),
             };
-            assert!((key - of_moment).abs() <= pace, "{by:?}, {step}: {key} {of_moment}");
+            assert!(
+                (key - of_moment).abs() <= pace,
+                "{by:?}, {step}: {key} {of_moment}"
+            );
         }
         std::fs::remove_file(&out).unwrap();
     }
@@ -224,7 +253,10 @@ fn the_program_runs_both_and_leaves_one_file() {
             .current_dir(folder.path())
             .output()
             .unwrap();
-        (output.status.code(), String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned())
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned(),
+        )
     };
     let small = [
         "run",
@@ -242,7 +274,10 @@ fn the_program_runs_both_and_leaves_one_file() {
     let files = std::fs::read_dir(folder.path()).unwrap();
     assert_eq!(files.count(), 1);
     let names = Contents::read(&folder.path().join("both.rrd")).entities();
-    assert!(names.iter().any(|name| name.starts_with("/b/contact_3d")), "{names:?}");
+    assert!(
+        names.iter().any(|name| name.starts_with("/b/contact_3d")),
+        "{names:?}"
+    );
     let (code, text) = run(&small);
     assert_eq!(code, Some(4), "{text}");
     let (code, text) = run(&["compare", "both.rrd", "both.rrd", "--out", "again.rrd"]);

@@ -132,9 +132,18 @@ impl<'a> KeyedRun<'a> {
         let at = after.clamp(1, self.keys.len().saturating_sub(1).max(1)) - 1;
         let one = &self.steps[at];
         let two = self.steps.get(at + 1).unwrap_or(one);
-        let span = self.keys.get(at + 1).map_or(1.0, |next| next - self.keys[at]);
+        let span = self
+            .keys
+            .get(at + 1)
+            .map_or(1.0, |next| next - self.keys[at]);
         let share = ((key - self.keys[at]) / span).clamp(0.0, 1.0);
-        let between = |from: f64, to: f64| if share == 1.0 { to } else { from + share * (to - from) };
+        let between = |from: f64, to: f64| {
+            if share == 1.0 {
+                to
+            } else {
+                from + share * (to - from)
+            }
+        };
         (
             between(one.step as f64, two.step as f64),
             between(one.time_s, two.time_s),
@@ -148,7 +157,8 @@ fn keys(steps: &[Frame], by: ComparedBy) -> Vec<f64> {
     if by == ComparedBy::Time {
         return steps.iter().map(|frame| frame.time_s).collect();
     }
-    let speed = |frame: &Frame| frame.metrics.entrainment_m_s * (1.0 - 0.5 * frame.metrics.slide_roll);
+    let speed =
+        |frame: &Frame| frame.metrics.entrainment_m_s * (1.0 - 0.5 * frame.metrics.slide_roll);
     let (mut place, mut before) = (0.0, None);
     let mut key = |frame: &Frame| {
         let (time_s, now) = (frame.time_s, speed(frame));
@@ -176,14 +186,27 @@ pub fn compare(
         return Err(failed("there is no run to show".to_owned()));
     };
     if others.is_empty() || keyed.len() > RUNS.len() {
-        return Err(failed(format!("two or three runs fit side by side, not {}", keyed.len())));
+        return Err(failed(format!(
+            "two or three runs fit side by side, not {}",
+            keyed.len()
+        )));
     }
     let kinds = keyed.iter().map(|run| run.steps[0].kind);
     if kinds.into_iter().any(|kind| kind != first.steps[0].kind) {
-        return Err(failed("a point contact and a line contact have no picture in common".to_owned()));
+        return Err(failed(
+            "a point contact and a line contact have no picture in common".to_owned(),
+        ));
     }
-    let end = keyed.iter().map(KeyedRun::last_key).fold(f64::INFINITY, f64::min);
-    let moments: Vec<usize> = first.shown.iter().copied().filter(|&at| first.keys[at] <= end).collect();
+    let end = keyed
+        .iter()
+        .map(KeyedRun::last_key)
+        .fold(f64::INFINITY, f64::min);
+    let moments: Vec<usize> = first
+        .shown
+        .iter()
+        .copied()
+        .filter(|&at| first.keys[at] <= end)
+        .collect();
     let scope = common_scope(&keyed).ok_or_else(|| failed("a run holds no picture".to_owned()))?;
     let mut stream = Stream::create(path, overwrite)?;
     let mut written = Written {
@@ -338,10 +361,18 @@ impl Written<'_> {
         let life = SeriesLines::new()
             .with_colors([colour; 3])
             .with_widths([0.8, 2.4, 0.8])
-            .with_names([format!("{what}, low"), what.clone(), format!("{what}, high")]);
+            .with_names([
+                format!("{what}, low"),
+                what.clone(),
+                format!("{what}, high"),
+            ]);
         self.stream.log_static("life/log10_relative", &life)?;
-        let peaks = SeriesLines::new().with_colors([colour]).with_widths([1.8]).with_names([what.as_str()]);
-        self.stream.log_static("material_point/cycles/counted", &peaks)
+        let peaks = SeriesLines::new()
+            .with_colors([colour])
+            .with_widths([1.8])
+            .with_names([what.as_str()]);
+        self.stream
+            .log_static("material_point/cycles/counted", &peaks)
     }
 
     /// The pressure of a run less the first one's.
@@ -353,14 +384,23 @@ impl Written<'_> {
     ) -> Result<(), ObserveError> {
         let first = self.picture(self.first, moment)?;
         let values = less(frame, &first);
-        let greatest = values.iter().fold(0.0_f32, |top, value| top.max(value.abs()));
+        let greatest = values
+            .iter()
+            .fold(0.0_f32, |top, value| top.max(value.abs()));
         self.told.difference_pa = self.told.difference_pa.max(greatest.into());
         if raster.is_none() {
             let geometry = super::geometry::Geometry::of(&first, 1.0);
             let (pixels, plot) = (maps::pixels(geometry), maps::plot_box(geometry));
             let top = 0.5 * self.scope.ranges.pressure_pa;
             let look = Look::up_to("Δp", GPA, top, Ramp::Diverging);
-            let new = RasterEntity::new(self.stream, layout::DIFFERENCE, look, pixels, &plot, Height::Fixed);
+            let new = RasterEntity::new(
+                self.stream,
+                layout::DIFFERENCE,
+                look,
+                pixels,
+                &plot,
+                Height::Fixed,
+            );
             *raster = Some(new?);
         }
         match raster {
@@ -375,7 +415,11 @@ impl Written<'_> {
             ComparedBy::Time => "simulated time",
             ComparedBy::Place => "the place of a crest of body 1 (the way that body 1 has gone)",
         };
-        let list: String = RUNS.iter().zip(names).map(|(run, name)| format!("- **{run}**: {name}\n")).collect();
+        let list: String = RUNS
+            .iter()
+            .zip(names)
+            .map(|(run, name)| format!("- **{run}**: {name}\n"))
+            .collect();
         let told = format!(
             "# Side by side\n\n{list}\nCompared by {by}. Timelines are those of {first}. All runs are shown at {moments} of \
              it, each by its nearest picture, at most {apart} of its own steps away. Colours, ranges and heights are \
@@ -386,7 +430,8 @@ impl Written<'_> {
             difference = sig(GPA.of(self.told.difference_pa), 3),
             caution = text::CAUTION,
         );
-        self.stream.log_static(COMPARISON, &TextDocument::from_markdown(told))
+        self.stream
+            .log_static(COMPARISON, &TextDocument::from_markdown(told))
     }
 }
 
@@ -409,8 +454,18 @@ fn less(frame: &Frame, other: &Frame) -> Vec<f32> {
     let mut values = Vec::with_capacity(other.pressure_pa.len());
     for (k, own) in other.pressure_pa.iter().enumerate() {
         let (i, j) = (k % other.nx, k / other.nx);
-        let x = place(other.x_min_m + other.dx_m * i as f64, frame.x_min_m, frame.dx_m, frame.nx);
-        let y = place(other.y_min_m + other.dy_m * j as f64, frame.y_min_m, frame.dy_m, frame.ny);
+        let x = place(
+            other.x_min_m + other.dx_m * i as f64,
+            frame.x_min_m,
+            frame.dx_m,
+            frame.nx,
+        );
+        let y = place(
+            other.y_min_m + other.dy_m * j as f64,
+            frame.y_min_m,
+            frame.dy_m,
+            frame.ny,
+        );
         // Beyond its edge there is no pressure.
         let value = x.zip(y).map_or(0.0, |((i, u), (j, v))| {
             let at = |i: usize, j: usize| {

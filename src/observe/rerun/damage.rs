@@ -112,12 +112,7 @@ impl Block {
         };
         let look = Look {
             range: [-DECADES, DECADES],
-            ..Look::up_to(
-                "log10 D",
-                Unit::new("powers of ten", 1.0),
-                DECADES,
-                Ramp::Magma,
-            )
+            ..Look::up_to("D", Unit::new("log10", 1.0), DECADES, Ramp::Magma)
         };
         let style = Points2D::update_fields()
             .with_radii([Radius::new_ui_points(0.0), Radius::new_ui_points(5.0)])
@@ -181,7 +176,7 @@ impl Block {
             String::new()
         };
         let label = format!(
-            "worst: D = {}, {} µm deep{not_yet}",
+            "the pit starts here: D = {}, {} µm deep{not_yet}",
             sig(damage.pit_damage, 3),
             sig(UM.of(damage.pit_depth_m), 3),
         );

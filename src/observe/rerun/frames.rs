@@ -12,7 +12,9 @@ use std::sync::Arc;
 use re_log_types::LogMsg;
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::log::Chunk;
-use rerun::{ComponentIdentifier, DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument};
+use rerun::{
+    ComponentIdentifier, DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument,
+};
 
 use super::message::{self, Ends};
 use super::moment::STEP;
@@ -122,7 +124,10 @@ impl RecordedFrames {
     }
 
     fn row(&self, step: i64) -> Option<&[f64]> {
-        let at = self.rows.binary_search_by_key(&step, |(own, _)| *own).ok()?;
+        let at = self
+            .rows
+            .binary_search_by_key(&step, |(own, _)| *own)
+            .ok()?;
         Some(&self.rows[at].1)
     }
 
@@ -147,10 +152,15 @@ impl RecordedFrames {
         frame.traction_pa = map(maps::TRACTION, MPA).unwrap_or_else(flat);
         frame.roughness_1_m = map(maps::ROUGHNESS_1, UM).unwrap_or_else(flat);
         frame.roughness_2_m = map(maps::ROUGHNESS_2, UM).unwrap_or_else(flat);
-        let touches = self.bytes(maps::CONTACT, step).filter(|all| all.len() == nodes);
+        let touches = self
+            .bytes(maps::CONTACT, step)
+            .filter(|all| all.len() == nodes);
         let touches = touches.map(|all| turned_over(all, nx));
         frame.contact = touches.unwrap_or_else(|| vec![0; nodes]);
-        frame.contact.iter_mut().for_each(|class| *class = u8::from(*class == classes::TOUCHES));
+        frame
+            .contact
+            .iter_mut()
+            .for_each(|class| *class = u8::from(*class == classes::TOUCHES));
         frame.slice = self.slice(step, nx);
         frame.damage = [0, 1].map(|body| self.damage(body, step));
         Some(frame)
@@ -161,7 +171,9 @@ impl RecordedFrames {
         Some(StressSlice {
             depths_m: Arc::clone(&self.depths_m),
             effective_pa: self.values(slice::EFFECTIVE, step, GPA, values)?,
-            tau_xz_pa: self.values(slice::TAU_XZ, step, GPA, values).unwrap_or_else(|| vec![0.0; values]),
+            tau_xz_pa: self
+                .values(slice::TAU_XZ, step, GPA, values)
+                .unwrap_or_else(|| vec![0.0; values]),
         })
     }
 
@@ -171,7 +183,12 @@ impl RecordedFrames {
             return None;
         };
         let (columns, rows) = (*columns as usize, depths.len());
-        let powers = self.values(damage::DAMAGE[body], step, Unit::new("", 1.0), columns * rows)?;
+        let powers = self.values(
+            damage::DAMAGE[body],
+            step,
+            Unit::new("", 1.0),
+            columns * rows,
+        )?;
         let mut block = DamageBlock {
             length_m: *length_m,
             columns,
@@ -216,7 +233,9 @@ impl RecordedFrames {
     /// Its values in SI, as many as are asked for.
     fn values(&self, entity: &str, step: i64, unit: Unit, count: usize) -> Option<Vec<f32>> {
         let bytes = self.bytes(entity, step)?;
-        let halves = bytes.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
+        let halves = bytes
+            .chunks_exact(2)
+            .map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
         let values = halves.map(|half| (f64::from(value_of(half)) / unit.per_si) as f32);
         (bytes.len() == 2 * count).then(|| values.collect())
     }
@@ -224,7 +243,12 @@ impl RecordedFrames {
 
 /// Rows from the last to the first.
 fn turned_over<T: Copy>(values: &[T], columns: usize) -> Vec<T> {
-    values.chunks_exact(columns.max(1)).rev().flatten().copied().collect()
+    values
+        .chunks_exact(columns.max(1))
+        .rev()
+        .flatten()
+        .copied()
+        .collect()
 }
 
 /// IEEE 754 binary16.
@@ -258,9 +282,12 @@ fn origin(path: &Path) -> Result<(String, String), String> {
     })?;
     match ends {
         Ends::Early { at, reason } => Err(format!("damaged at byte {at} of {bytes} ({reason})")),
-        _ if unreadable > 0 => Err(format!("damaged: {unreadable} of its messages cannot be read")),
+        _ if unreadable > 0 => Err(format!(
+            "damaged: {unreadable} of its messages cannot be read"
+        )),
         _ => origin.ok_or_else(|| {
-            "holds no run: not recorded by this version of asperity, or several side by side".to_owned()
+            "holds no run: not recorded by this version of asperity, or several side by side"
+                .to_owned()
         }),
     }
 }
@@ -294,11 +321,22 @@ impl Found {
         let steps = chunk.timelines().get(&STEP.into());
         let steps = steps.map_or(&[][..], |column| column.times_raw());
         if let Some(image) = entity.strip_suffix("/image") {
-            self.take_pictures(chunk, image, steps, DepthImage::descriptor_buffer().component);
+            self.take_pictures(
+                chunk,
+                image,
+                steps,
+                DepthImage::descriptor_buffer().component,
+            );
         } else if entity == maps::CONTACT {
-            self.take_pictures(chunk, entity, steps, SegmentationImage::descriptor_buffer().component);
+            self.take_pictures(
+                chunk,
+                entity,
+                steps,
+                SegmentationImage::descriptor_buffer().component,
+            );
         } else if entity == scalars::SCALARS {
-            self.names.extend(strings(chunk, SeriesLines::descriptor_names().component));
+            self.names
+                .extend(strings(chunk, SeriesLines::descriptor_names().component));
             self.rows.extend(steps.iter().copied().zip(numbers(chunk)));
         } else if entity == text::NOW {
             let texts = strings(chunk, TextDocument::descriptor_text().component);
@@ -344,19 +382,26 @@ impl Found {
         let pictures = steps.iter().copied().zip(rows);
         let pictures =
             pictures.filter_map(|(step, row)| Some((step, Arc::from(row.first()?.as_slice()))));
-        self.pictures.entry(entity.to_owned()).or_default().extend(pictures);
+        self.pictures
+            .entry(entity.to_owned())
+            .or_default()
+            .extend(pictures);
     }
 }
 
 /// Numbers of every row.
 fn numbers(chunk: &Chunk) -> impl DoubleEndedIterator<Item = Vec<f64>> {
     let component = Scalars::descriptor_scalars().component;
-    let rows: Vec<_> = chunk.iter_slices::<f64>(component).map(<[f64]>::to_vec).collect();
+    let rows: Vec<_> = chunk
+        .iter_slices::<f64>(component)
+        .map(<[f64]>::to_vec)
+        .collect();
     rows.into_iter()
 }
 
 /// Texts of every row, one after another.
 fn strings(chunk: &Chunk, component: ComponentIdentifier) -> Vec<String> {
     let rows = chunk.iter_slices::<String>(component);
-    rows.flat_map(|row| row.iter().map(ToString::to_string).collect::<Vec<_>>()).collect()
+    rows.flat_map(|row| row.iter().map(ToString::to_string).collect::<Vec<_>>())
+        .collect()
 }

@@ -20,6 +20,7 @@ mod depths;
 mod destination;
 mod file;
 mod frames;
+mod gate;
 mod gathered;
 mod geometry;
 mod interferogram;
@@ -50,6 +51,7 @@ mod weight;
 
 pub use beside::{Beside, ComparedBy, RunBeside, compare};
 pub use frames::RecordedFrames;
+pub use gate::Gate;
 pub use live::Live;
 pub use properties::note_summary;
 pub use recorder::Recorder;

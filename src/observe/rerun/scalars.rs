@@ -18,9 +18,7 @@ pub(super) const SCALARS: &str = "scalars_si";
 /// Nodes and lengths, once.
 pub(super) const GRID: &str = "grid_si";
 /// Names of its numbers.
-const GRID_NAMES: [&str; 7] = [
-    "line", "nx", "ny", "x_min_m", "dx_m", "y_min_m", "dy_m",
-];
+const GRID_NAMES: [&str; 7] = ["line", "nx", "ny", "x_min_m", "dx_m", "y_min_m", "dy_m"];
 /// Depths of the slice, once, m.
 pub(super) const DEPTHS: &str = "slice_y0/depths_m";
 
@@ -36,8 +34,12 @@ const MORE: [(&str, fn(&Frame) -> Option<f64>); 10] = [
     ("point_peak_pa", |f| {
         Some(f.material_point?.last_peak?.pressure_pa)
     }),
-    ("life_global", |f| f.metrics.life.as_ref()?.detail.life_global),
-    ("life_damage", |f| f.metrics.life.as_ref()?.detail.life_damage),
+    ("life_global", |f| {
+        f.metrics.life.as_ref()?.detail.life_global
+    }),
+    ("life_damage", |f| {
+        f.metrics.life.as_ref()?.detail.life_damage
+    }),
 ];
 
 /// From the regime in which oil does nothing to that in which it does all.
@@ -68,7 +70,11 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 /// Adds a step's row.
 pub(super) fn add(frame: &Frame, row: &mut Vec<f64>) {
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    row.extend(CATALOGUE.iter().map(|quantity| number(quantity.number(frame))));
+    row.extend(
+        CATALOGUE
+            .iter()
+            .map(|quantity| number(quantity.number(frame))),
+    );
     row.extend(MORE.iter().map(|(_, of)| number(of(frame))));
 }
 

@@ -125,7 +125,9 @@ impl CurveGroup {
             Linear(of) => named(of, ""),
             Errors(of) | Logarithms(of) => named(of, "log10 "),
             Self::ByItself(quantity) => vec![(quantity.label(kind), SKY)],
-            Self::All => scalars::names().map(|name| (name.to_owned(), SKY)).collect(),
+            Self::All => scalars::names()
+                .map(|name| (name.to_owned(), SKY))
+                .collect(),
             Made(lines, _) => lines
                 .iter()
                 .map(|(name, colour)| ((*name).to_owned(), *colour))
@@ -196,7 +198,10 @@ fn groups(kind: ContactKind) -> impl Iterator<Item = (String, CurveGroup)> {
     let groups = groups.map(|(entity, curves)| ((*entity).to_owned(), *curves));
     let all = (scalars::SCALARS.to_owned(), CurveGroup::All);
     groups
-        .chain(by_itself().map(move |quantity| (entity(quantity, kind), CurveGroup::ByItself(quantity))))
+        .chain(
+            by_itself()
+                .map(move |quantity| (entity(quantity, kind), CurveGroup::ByItself(quantity))),
+        )
         .chain(std::iter::once(all))
 }
 

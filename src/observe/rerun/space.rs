@@ -23,7 +23,10 @@ use crate::sim::{Frame, Metrics};
 pub(super) const SPACE: &str = "contact_3d";
 /// The sheets below it.
 const FILM: &str = "film_coloured_by_pressure";
-const BODIES: [&str; 2] = ["body_1_surface", "body_2_surface"];
+const BODIES: [&str; 2] = ["body_1_surface", UPPER_BODY];
+/// The sheet of the body above, and what is written beside it.
+pub(super) const UPPER_BODY: &str = "body_2_surface";
+pub(super) const UPPER_LABELS: &str = "labels";
 const SLICE: &str = "effective_stress_slice";
 /// What stands in it.
 const SPOTS: &str = "contact_3d/contact_spots";
@@ -177,6 +180,13 @@ impl Space {
         let a = self.geometry.a;
         let target = [0.16 * a, 0.2 * a, -0.5 * a];
         [target, [-1.15 * a, -3.3 * a, 1.55 * a]]
+    }
+
+    /// Same for an audience: from above, so that the pressure on the film is seen and the stress below it, too.
+    pub(super) fn lecture_camera(&self) -> [[f64; 3]; 2] {
+        let a = self.geometry.a;
+        let target = [0.3 * a, 0.25 * a, -0.6 * a];
+        [target, [-0.15 * a, -2.6 * a, 2.25 * a]]
     }
 
     /// Logs one frame.

@@ -33,7 +33,13 @@ pub(super) fn send(stream: &Stream, runs: &[ShownRun], names: &[&str]) -> Result
         runs,
         names,
     };
-    let tabs = vec![layout.first(), layout.traces(), layout.films(), layout.stresses(), layout.about()];
+    let tabs = vec![
+        layout.first(),
+        layout.traces(),
+        layout.films(),
+        layout.stresses(),
+        layout.about(),
+    ];
     let passage_s = runs.first().and_then(|run| run.views.passage_s);
     send_tabs(stream, tabs, &layout.views.properties, (false, passage_s))
 }
@@ -86,12 +92,19 @@ impl Layout<'_> {
     }
 
     fn life(&mut self) -> ContainerLike {
-        self.together("Relative life, log10 (thin: its band)", "life/log10_relative")
+        self.together(
+            "Relative life, log10 (thin: its band)",
+            "life/log10_relative",
+        )
     }
 
     /// Curves of all runs in one view.
     fn together(&mut self, title: &str, entity: &str) -> ContainerLike {
-        let entities: Vec<String> = self.runs.iter().map(|run| format!("{}/{entity}", run.name)).collect();
+        let entities: Vec<String> = self
+            .runs
+            .iter()
+            .map(|run| format!("{}/{entity}", run.name))
+            .collect();
         let entities: Vec<&str> = entities.iter().map(String::as_str).collect();
         let view = self.views.series(title, &entities);
         // The titles of the first views tell the colours, and the curves need the room.
@@ -165,7 +178,12 @@ fn rows(rows: impl IntoIterator<Item = Vec<ContainerLike>>, name: &str) -> Conta
 /// The pressure: of a point contact its map, of a line contact the centre line, which tells all of it.
 fn pressure(views: &mut Views, shown: &ShownViews, name: &str) -> ContainerLike {
     match shown.kind {
-        ContactKind::Point => views.map(&format!("Pressure: {name}"), maps::PRESSURE, &[], &shown.map),
+        ContactKind::Point => views.map(
+            &format!("Pressure: {name}"),
+            maps::PRESSURE,
+            &[],
+            &shown.map,
+        ),
         ContactKind::Line => centre_line(views, shown, name),
     }
 }
@@ -177,5 +195,10 @@ fn centre_line(views: &mut Views, shown: &ShownViews, name: &str) -> ContainerLi
 
 fn over_time(views: &mut Views, shown: &ShownViews, name: &str) -> ContainerLike {
     let title = format!("Pressure against time: {name}");
-    views.plot(&title, &[kymograph::PRESSURE], &shown.kymograph, Margin::Legend)
+    views.plot(
+        &title,
+        &[kymograph::PRESSURE],
+        &shown.kymograph,
+        Margin::Legend,
+    )
 }

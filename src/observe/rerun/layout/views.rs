@@ -13,7 +13,7 @@ use rerun::{AsComponents, Color};
 use super::super::colour::BACKGROUND;
 use super::super::maps;
 use super::super::plot::{Margin, PlotBox};
-use super::super::space::SPACE;
+use super::super::space::{SPACE, UPPER_BODY, UPPER_LABELS};
 
 /// A property of a view and the path it goes to.
 pub(in super::super) struct Property {
@@ -58,7 +58,9 @@ impl Views {
         plot: &PlotBox,
         right: Margin,
     ) -> ContainerLike {
-        let contents = contents.iter().map(|entity| format!("/{}{entity}/**", self.under));
+        let contents = contents
+            .iter()
+            .map(|entity| format!("/{}{entity}/**", self.under));
         let view = Spatial2DView::new(name)
             .with_origin("/")
             .with_contents(contents)
@@ -85,22 +87,53 @@ impl Views {
         self.plot(name, &contents, plot, Margin::Legend)
     }
 
-    pub(in super::super) fn space(&mut self, name: &str, [target, eye]: [[f64; 3]; 2]) -> ContainerLike {
+    pub(in super::super) fn space(&mut self, name: &str, camera: [[f64; 3]; 2]) -> ContainerLike {
         let view = Spatial3DView::new(name)
             .with_origin(format!("/{}{SPACE}", self.under))
             .into();
+        self.look(&view, camera);
+        view
+    }
+
+    /// The same without the body above, which would hide the pressure.
+    pub(in super::super) fn lecture_space(
+        &mut self,
+        name: &str,
+        camera: [[f64; 3]; 2],
+    ) -> ContainerLike {
+        let view = Spatial3DView::new(name)
+            .with_origin(format!("/{}{SPACE}", self.under))
+            .with_contents([
+                format!("+ /{}{SPACE}/**", self.under),
+                format!("- /{}{SPACE}/{UPPER_BODY}/**", self.under),
+                format!("- /{}{SPACE}/{UPPER_LABELS}/**", self.under),
+            ])
+            .into();
+        self.look(&view, camera);
+        view
+    }
+
+    fn look(&mut self, view: &ContainerLike, [target, eye]: [[f64; 3]; 2]) {
         let controls = EyeControls3D::new()
             .with_position(eye.map(|v| v as f32))
             .with_look_target(target.map(|v| v as f32))
             .with_eye_up([0.0_f32, 0.0, 1.0]);
-        self.set(&view, "EyeControls3D", controls);
-        self.set(&view, "Background", background());
-        self.set(&view, "LineGrid3D", LineGrid3D::new().with_visible(false));
+        self.set(view, "EyeControls3D", controls);
+        self.set(view, "Background", background());
+        self.set(view, "LineGrid3D", LineGrid3D::new().with_visible(false));
+    }
+
+    /// Curves whose title says all that a legend would, and hides none.
+    pub(in super::super) fn single(&mut self, name: &str, entity: &str) -> ContainerLike {
+        let view = self.series(name, &[entity]);
+        self.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
         view
     }
 
     pub(in super::super) fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
-        let contents = entities.iter().map(|entity| format!("/{}{entity}/**", self.under));
+        let contents = entities
+            .iter()
+            .map(|entity| format!("/{}{entity}/**", self.under));
         let view = TimeSeriesView::new(name)
             .with_origin("/")
             .with_contents(contents)

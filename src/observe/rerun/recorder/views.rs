@@ -202,6 +202,7 @@ impl ViewState {
             trace: self.trace.as_ref().map(|trace| trace.plot().clone()),
             kymograph: self.kymographs[0].plot().clone(),
             camera: self.space.as_ref().map(Space::camera),
+            lecture: self.space.as_ref().map(Space::lecture_camera),
             rough: self.scope.ranges.rough,
             damaged: self.damaged,
             life: first.metrics.life.is_some(),
@@ -291,6 +292,7 @@ impl ViewState {
         self.pictures += 1;
         for kymograph in &mut self.kymographs {
             kymograph.log_if_due(stream)?;
+            kymograph.log_now(stream, frame.step)?;
         }
         Ok(())
     }
