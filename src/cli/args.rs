@@ -2,9 +2,12 @@
 
 use std::path::PathBuf;
 
+use asperity::observe::Format;
 use asperity::scene::{Knob, presets};
 use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
+
+use super::beside::BesideValues;
 
 const ABOUT: &str =
     "Explorer of rolling-sliding contact fatigue: rough lubricated contacts, stress, life";
@@ -32,6 +35,8 @@ Examples:
   asperity scenes                                          the scenes that come with the program
   asperity scenes demonstration > mine.toml                a copy to edit, every key explained
   asperity view demonstration.rrd                          the recording in the Rerun viewer
+  asperity compare one.rrd two.rrd                         two recordings side by side
+  asperity export demonstration.rrd                        a moving picture of it (GIF); also PNG, SVG, PDF, npz, CSV
 
 Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not converge (they are named);
 3 the run stalled; 4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP) before its end, or the recording that
@@ -108,7 +113,8 @@ Examples:
   asperity run --export fields --export-every 32           pressure, film, stress for numpy
   asperity run --export pictures --export-as png           the maps and the centre line as pictures
   asperity run --no-record --spawn                         starts a viewer and shows the run live
-  asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit")]
+  asperity run --from lecture.rrd --out again.rrd          repeats what a recording shows, bit for bit
+  asperity run --beside motion.slide_roll=0,0.5            both, side by side in one recording")]
     Run(HeadlessArgs),
     /// Print the plan: what is computed, what is not and why, memory, estimated time
     Check(SceneArgs),
@@ -133,12 +139,103 @@ Exit codes: 0 all as required; 2 something did not converge or exceeds its bound
     /// Run many cases of a scene: life maps, operating paths; one table, plots
     #[command(long_about = SWEEP_ABOUT, after_long_help = SWEEP_EXAMPLES)]
     Sweep(SweepArgs),
+    /// Put two or three recordings side by side: common ranges and moments, one file
+    #[command(after_long_help = "\
+Examples:
+  asperity compare rolling.rrd sliding.rrd --out both.rrd
+  asperity compare fine.rrd coarse.rrd --by place          the same crest at the same place
+  asperity run demonstration --beside motion.slide_roll=0,0.5    runs both first")]
+    Compare(CompareArgs),
+    /// Make pictures, animations and tables of a recording
+    #[command(after_long_help = "\
+Examples:
+  asperity export passage.rrd                              the pressure as an animation (GIF)
+  asperity export passage.rrd --as png,npz --every 32      pictures and fields of every 32nd step
+  asperity export passage.rrd --as svg,pdf --show pressure,centre_line --width-mm 85
+  asperity export passage.rrd --as csv                     every scalar of every step
+
+Pictures: pressure, film, interferogram, traction, roughness_1, roughness_2, effective_stress, tau_xz, centre_line,
+damage_1, damage_2. Numbers are in SI; fields have the half precision (0.05 %) of the recording, scalars all their
+digits. For Python: assets/asperity.py reads a recording into numpy.")]
+    Export(ExportArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
         /// Recording, as written by run and explore
         #[arg(value_name = "FILE.rrd")]
         file: PathBuf,
     },
+}
+
+/// What to put side by side.
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    /// Recordings, as written by run and explore
+    #[arg(value_name = "FILE.rrd", required = true, num_args = 2..=3)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Recording to write
+    #[arg(long, value_name = "FILE.rrd", default_value = "both.rrd")]
+    pub(crate) out: PathBuf,
+    /// What is equal where runs are shown together
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "time")]
+    pub(crate) by: CompareBy,
+    /// Replace the file if it exists
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// What is equal where runs are shown together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum CompareBy {
+    /// Simulated time
+    Time,
+    /// The place of a crest of body 1
+    Place,
+}
+
+/// What to make of a recording.
+#[derive(Debug, Args)]
+pub(crate) struct ExportArgs {
+    /// Recording, as written by run and explore
+    #[arg(value_name = "FILE.rrd")]
+    pub(crate) file: PathBuf,
+    /// What to make
+    #[arg(
+        long = "as",
+        value_name = "FORMATS",
+        value_enum,
+        value_delimiter = ',',
+        default_value = "gif"
+    )]
+    pub(crate) formats: Vec<ExportAs>,
+    /// Folder to write to [default: ./NAME_export]
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Which pictures, by name [default: all; of those that move the pressure]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) show: Vec<String>,
+    /// Stills of every N-th step at most
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) every: u64,
+    /// Width of SVG and PDF, mm
+    #[arg(long, value_name = "MM", default_value_t = 85.0, value_parser = within::<30, 1000>)]
+    pub(crate) width_mm: f64,
+    /// Pixels per inch of the fields in them
+    #[arg(long, value_name = "DPI", default_value_t = 300.0, value_parser = within::<36, 1200>)]
+    pub(crate) dpi: f64,
+    /// Size of their type, points
+    #[arg(long, value_name = "PT", default_value_t = 7.0, value_parser = within::<3, 24>)]
+    pub(crate) font_pt: f64,
+    /// Replace files that exist
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// A number between two.
+fn within<const LEAST: u32, const MOST: u32>(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    let fits = (f64::from(LEAST)..=f64::from(MOST)).contains(&value);
+    fits.then_some(value)
+        .ok_or_else(|| format!("allowed: {LEAST} to {MOST}"))
 }
 
 /// What to study.
@@ -242,7 +339,7 @@ pub(crate) enum SweepCommand {
 }
 
 /// Which scene.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct SceneArgs {
     /// Preset (see `asperity scenes`) or TOML file
     #[arg(default_value = presets::DEFAULT)]
@@ -276,7 +373,7 @@ impl ExploreArgs {
 }
 
 /// How to run it and what to write.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
@@ -320,6 +417,9 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true,
         default_missing_value = "9876")]
     pub(crate) serve: Option<u16>,
+    /// With --serve: wait for a viewer before the run begins, and go on serving until the last one is closed
+    #[arg(long, requires = "serve")]
+    pub(crate) hold: bool,
     /// Write no recording
     #[arg(long)]
     pub(crate) no_record: bool,
@@ -335,6 +435,31 @@ pub(crate) enum ExportAs {
     Npz,
     /// Maps and centre line as pictures
     Png,
+    /// The same as papers print them: sized in mm, axes and text as vectors, no title
+    Svg,
+    /// The same as PDF
+    Pdf,
+    /// All steps one after another
+    Gif,
+    /// The same as animated PNG, in all colours
+    Apng,
+    /// Every scalar of every step (of a recording; a run has --table)
+    Csv,
+}
+
+impl ExportAs {
+    /// What a step is written as; `None`: steps share a table.
+    pub(crate) fn of_steps(self) -> Option<Format> {
+        match self {
+            Self::Npz => Some(Format::Npz),
+            Self::Png => Some(Format::Png),
+            Self::Svg => Some(Format::Svg),
+            Self::Pdf => Some(Format::Pdf),
+            Self::Gif => Some(Format::Gif),
+            Self::Apng => Some(Format::Apng),
+            Self::Csv => None,
+        }
+    }
 }
 
 /// A run without a screen, which may be saved and taken up again.
@@ -352,6 +477,19 @@ pub(crate) struct HeadlessArgs {
     /// of a killed run as far as it goes
     #[arg(long, value_name = "FILE.rrd", conflicts_with_all = ["scene", "settings", "passages", "from_state"])]
     pub(crate) from: Option<PathBuf>,
+    /// Run at two or three values of a key and record the runs side by side, such as motion.slide_roll=0,0.5
+    #[arg(long, value_name = "KEY=A,B", conflicts_with_all = ["from", "from_state", "save_state", "table", "summary",
+        "export", "connect", "spawn", "serve", "no_record"])]
+    pub(crate) beside: Option<BesideValues>,
+    /// What is equal where these are shown together
+    #[arg(
+        long,
+        value_enum,
+        value_name = "WHAT",
+        default_value = "time",
+        requires = "beside"
+    )]
+    pub(crate) by: CompareBy,
 }
 
 impl HeadlessArgs {
@@ -362,7 +500,21 @@ impl HeadlessArgs {
             save_state: None,
             from_state: None,
             from: None,
+            beside: None,
+            by: CompareBy::Time,
         }
+    }
+
+    /// The same run with a key set, recorded to that file.
+    pub(crate) fn with(&self, key: &str, value: &str, out: &std::path::Path) -> Self {
+        let mut run = self.run.clone();
+        run.scene.settings.push(format!("{key}={value}"));
+        run.out = Some(out.to_owned());
+        if self.by == CompareBy::Place {
+            // Crests pass a place between two pictures: with all of them the nearest is within a step.
+            run.scene.settings.push("record.every_steps=1".to_owned());
+        }
+        Self::whole(run)
     }
 }
 
@@ -385,6 +537,7 @@ impl RunArgs {
             connect: None,
             spawn: false,
             serve: None,
+            hold: false,
             no_record: false,
             force: false,
         }

@@ -2,8 +2,10 @@
 //! converge; 3 it stalled; 4 an output failed; 5 it was stopped before its end.
 
 mod args;
+mod beside;
 #[cfg(feature = "tui")]
 mod explore;
+mod export;
 mod failure;
 mod live;
 mod names;
@@ -56,6 +58,8 @@ fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> 
         Some(CliCommand::Scenes { name }) => scenes::scenes(name.as_deref()),
         Some(CliCommand::Study(args)) => study::study(&args),
         Some(CliCommand::Sweep(args)) => sweep::sweep(&args),
+        Some(CliCommand::Compare(args)) => beside::compare(&args),
+        Some(CliCommand::Export(args)) => export::export(&args),
         Some(CliCommand::View { file }) => view::view(&file),
     }
 }

@@ -8,7 +8,7 @@ use asperity::run::{Switch, Watcher};
 use asperity::scene::Scene;
 use asperity::sim::Summary;
 
-use super::args::{ExportAs, RunArgs};
+use super::args::RunArgs;
 use super::failure::Failure;
 #[cfg(feature = "rerun")]
 use super::live;
@@ -89,11 +89,14 @@ impl Outputs {
                 .push(Watcher::new(name, Box::new(table), 1));
         }
         if let Some(folder) = &args.export {
-            let formats = args.export_as.iter().map(|format| match format {
-                ExportAs::Npz => Format::Npz,
-                ExportAs::Png => Format::Png,
-            });
+            let formats = args.export_as.iter().filter_map(|format| format.of_steps());
             let formats: Vec<Format> = formats.collect();
+            if formats.len() < args.export_as.len() {
+                return Err(Failure::input(miette::miette!(
+                    help = "--table FILE.csv writes every scalar of every step",
+                    "--export-as csv: a run has its own table"
+                )));
+            }
             let export = Export::create(folder, overwrite, &formats)?;
             let name = folder.display().to_string();
             let queue = Queue::spawn("export", FILES_WAITING, pace.when_full(), Box::new(export))?;
@@ -150,7 +153,11 @@ impl Outputs {
         if args.spawn {
             viewers.push(Live::Connect(live::spawn()?));
         }
-        if let Some(port) = args.serve {
+        if let Some(port) = args.serve
+            && args.hold
+        {
+            self.open_held(port, &scene.record.clone().unwrap_or_default())?;
+        } else if let Some(port) = args.serve {
             // Port 0 asks for any that is free; viewers must be told which.
             let port = if port == 0 { live::free_port()? } else { port };
             viewers.push(Live::Serve(port));
@@ -165,6 +172,26 @@ impl Outputs {
             let queue = Queue::spawn_live(&name, WAITING, Box::new(recorder))?;
             self.watchers.push(Watcher::new(name, Box::new(queue), 1));
         }
+        Ok(())
+    }
+
+    /// Serves viewers from the first one that comes until the last one has left.
+    #[cfg(feature = "rerun")]
+    fn open_held(&mut self, port: u16, record: &asperity::scene::Record) -> Result<(), Failure> {
+        use asperity::observe::rerun::{Gate, Live, Recorder};
+        /// Frames that may wait: a viewer that is waited for should miss none.
+        const WAITING: usize = 256;
+        let gate = Gate::open(port, super::run::stop_on_signals()?)?;
+        let recorder = Recorder::live(Live::Serve(gate.behind()), record)?;
+        live::announce(gate.port());
+        super::failure::tell(
+            "the run waits for a viewer, and serves until the last one is closed (Ctrl-C ends it)",
+        );
+        gate.wait_for_one();
+        let name = format!("viewers served at 127.0.0.1:{}", gate.port());
+        let recorder = Box::new(recorder.holding(gate));
+        let queue = Queue::spawn(&name, WAITING, RecorderPace::Live.when_full(), recorder)?;
+        self.watchers.push(Watcher::new(name, Box::new(queue), 1));
         Ok(())
     }
 

@@ -1,8 +1,8 @@
 //! `asperity run`: a scene without a screen.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use asperity::observe::{ObserveError, Overwrite};
@@ -16,7 +16,7 @@ use super::failure::{Failure, tell};
 use super::names::Names;
 use super::outputs::{Outputs, RecorderPace};
 use super::repeat::{self, Repetition};
-use super::{report, scenes};
+use super::{beside, report, scenes};
 
 /// Estimated time from which a progress bar is worth its line, s.
 const WORTH_A_BAR_S: f64 = 2.0;
@@ -25,6 +25,9 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// Runs a scene and writes what was asked for.
 pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
+    if let Some(values) = &headless.beside {
+        return beside::run(headless, values, run);
+    }
     let args = &headless.run;
     refuse_recording_without_recorder(args)?;
     let repetition = headless
@@ -208,15 +211,20 @@ fn refuse_recording_without_recorder(args: &RunArgs) -> Result<(), Failure> {
 
 /// Ctrl-C or a request to end stops the run after its step; a second one ends the program at once.
 pub(crate) fn stop_on_signals() -> Result<Arc<AtomicBool>, Failure> {
-    let asked = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&asked);
+    static ASKED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    // Of several runs one after another the first has them watched.
+    if let Some(asked) = ASKED.get() {
+        return Ok(Arc::clone(asked));
+    }
+    let asked = ASKED.get_or_init(Arc::default);
+    let raised = Arc::clone(asked);
     ctrlc::set_handler(move || {
         if raised.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
     })
     .map_err(|error| Failure::stalled(miette::miette!("signals cannot be watched: {error}")))?;
-    Ok(asked)
+    Ok(Arc::clone(asked))
 }
 
 fn wait(session: &Session, estimate_s: f64, interrupt: &AtomicBool, what: &str) {

@@ -24,7 +24,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use export::{Export, Format, is_exported};
+pub use export::{Export, Format, PrintSize, is_exported, picture_names};
 pub use latest::Latest;
 pub use placed::{Overwrite, is_free};
 pub use pool::FramePool;

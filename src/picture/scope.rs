@@ -101,6 +101,18 @@ impl Scope {
     }
 }
 
+impl Scope {
+    /// One that holds for both runs: every range is the wider of theirs.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        Self {
+            to_come: self.to_come.with(other.to_come),
+            ranges: self.ranges.with(other.ranges),
+            ..self.clone()
+        }
+    }
+}
+
 /// The greatest that a run's own script, and what was turned by hand, can bring of what its pictures scale with, and what
 /// bounds its friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,6 +133,18 @@ pub struct ToCome {
 }
 
 impl ToCome {
+    fn with(self, other: Self) -> Self {
+        let both = |k: usize| self.amplitude_m[k].max(other.amplitude_m[k]);
+        Self {
+            size: self.size.max(other.size),
+            film: self.film.max(other.film),
+            amplitude_m: [both(0), both(1)],
+            crest_pa: self.crest_pa.max(other.crest_pa),
+            friction: self.friction.max(other.friction),
+            rough: [0, 1].map(|k| self.rough[k] || other.rough[k]),
+        }
+    }
+
     /// From the scene's script, where the scene is known, the first frame and what was turned since.
     fn of(scene: Option<&Scene>, first: &First, turned: TurnedKnobs) -> Self {
         let m = &first.metrics;
@@ -214,6 +238,19 @@ pub struct Ranges {
 }
 
 impl Ranges {
+    fn with(self, other: Self) -> Self {
+        Self {
+            pressure_pa: self.pressure_pa.max(other.pressure_pa),
+            film_m: self.film_m.max(other.film_m),
+            traction_pa: self.traction_pa.max(other.traction_pa),
+            roughness_m: self.roughness_m.max(other.roughness_m),
+            roughness_of_both_m: self.roughness_of_both_m.max(other.roughness_of_both_m),
+            effective_pa: self.effective_pa.max(other.effective_pa),
+            shear_pa: self.shear_pa.max(other.shear_pa),
+            rough: [0, 1].map(|k| self.rough[k] || other.rough[k]),
+        }
+    }
+
     /// The ranges of a run with that first frame, in which that can come.
     fn of(first: &First, to_come: &ToCome) -> Self {
         let metrics = &first.metrics;

@@ -88,3 +88,282 @@ fn pictures_are_drawn_of_every_map_and_of_the_centre_line() {
     assert_eq!((report.frames, report.bytes), (1, bytes));
     assert!(!folder.path().join("step_000016.npz").exists());
 }
+
+/// What comes back from a recording goes through the same painter.
+#[cfg(feature = "rerun")]
+mod from_a_recording {
+    use std::io::{Read as _, Write as _};
+    use std::net::{Ipv4Addr, TcpListener, TcpStream};
+    use std::path::Path;
+    use std::process::Command;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::Duration;
+
+    use asperity::observe::rerun::{Gate, RecordedFrames, Recorder};
+    use asperity::observe::{Export, Format, Observer, Overwrite, PrintSize, RunContext, Table};
+    use asperity::scene::{Record, Scene};
+    use asperity::sim::Frame;
+
+    use crate::common::synthetic;
+    use crate::recording::Contents;
+
+    const NODES: usize = 33;
+
+    fn context() -> RunContext {
+        let text = Scene::load("demonstration").unwrap().to_toml();
+        RunContext {
+            scene_toml: text.clone(),
+            ..synthetic::context(Scene::from_toml(&text).unwrap())
+        }
+    }
+
+    /// Frames, and the same from a recording of them.
+    fn both(folder: &Path, steps: u64) -> (Vec<Arc<Frame>>, RecordedFrames) {
+        let frames: Vec<Arc<Frame>> = (1..=steps)
+            .map(|step| synthetic::frame(NODES, step))
+            .collect();
+        let path = folder.join("run.rrd");
+        let record = Record {
+            every_steps: 1,
+            budget_mb: 200.0,
+        };
+        let mut recorder = Recorder::create(&path, Overwrite::Refuse, &record).unwrap();
+        recorder.begin(&context()).unwrap();
+        for frame in &frames {
+            recorder.frame(frame).unwrap();
+        }
+        recorder.finish().unwrap();
+        (frames, RecordedFrames::read(&path).unwrap())
+    }
+
+    fn export(folder: &Path, formats: &[Format], frames: &[Frame], chosen: &[&str]) -> u64 {
+        let chosen: Vec<String> = chosen.iter().map(ToString::to_string).collect();
+        let export = Export::create(folder, Overwrite::Refuse, formats).unwrap();
+        let mut export = export.of(&chosen, PrintSize::default());
+        export.begin(&context()).unwrap();
+        for frame in frames {
+            export.take(frame, true).unwrap();
+        }
+        export.finish().unwrap().bytes
+    }
+
+    fn pixels(path: &Path) -> Vec<u8> {
+        let decoder =
+            png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).unwrap()));
+        let mut reader = decoder.read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size()];
+        reader.next_frame(&mut bytes).unwrap();
+        bytes
+    }
+
+    #[test]
+    fn pictures_and_numbers_are_those_of_the_run_within_half_precision() {
+        let folder = tempfile::tempdir().unwrap();
+        let (frames, read) = both(folder.path(), 8);
+        let whole = read.whole();
+        let back: Vec<Frame> = whole
+            .iter()
+            .map(|&step| read.frame(step).unwrap())
+            .collect();
+        let own: Vec<Frame> = whole
+            .iter()
+            .map(|&step| Frame::clone(&frames[step as usize - 1]))
+            .collect();
+        let [one, two] = ["run", "recording"].map(|name| folder.path().join(name));
+        // Both painters see the first frame first: it sets the ranges.
+        export(&one, &[Format::Png, Format::Npz], &own, &[]);
+        export(&two, &[Format::Png, Format::Npz], &back, &[]);
+        let mut compared = 0;
+        for entry in std::fs::read_dir(&one).unwrap() {
+            let name = entry.unwrap().file_name();
+            let [one, two] = [one.join(&name), two.join(&name)];
+            let name = name.to_string_lossy().into_owned();
+            if name.ends_with(".npz") {
+                let sizes = [&one, &two].map(|path| std::fs::metadata(path).unwrap().len());
+                assert_eq!(sizes[0], sizes[1], "{name}: the same arrays");
+            }
+            // Fringes repeat ten times in the film that is 0.05 % uncertain in the bath.
+            if !name.ends_with(".png") || name.contains("interferogram") {
+                continue;
+            }
+            let [one, two] = [pixels(&one), pixels(&two)];
+            assert_eq!(one.len(), two.len(), "{name}");
+            let far = one
+                .iter()
+                .zip(&two)
+                .filter(|(one, two)| one.abs_diff(**two) > 4)
+                .count();
+            assert!(
+                far as f64 <= 1e-3 * one.len() as f64,
+                "{name}: {far} of {}",
+                one.len()
+            );
+            compared += 1;
+        }
+        assert!(compared >= 4 * 8, "{compared}");
+    }
+
+    #[test]
+    fn the_table_of_a_recording_is_that_of_the_run() {
+        let folder = tempfile::tempdir().unwrap();
+        let (frames, read) = both(folder.path(), 6);
+        let table = |name: &str, frames: &[Arc<Frame>]| {
+            let path = folder.path().join(name);
+            let mut table = Table::create(&path, Overwrite::Refuse).unwrap();
+            table.begin(&context()).unwrap();
+            for frame in frames {
+                table.frame(frame).unwrap();
+            }
+            table.finish().unwrap();
+            std::fs::read_to_string(path).unwrap()
+        };
+        let back: Vec<Arc<Frame>> = read.steps().map(Arc::new).collect();
+        assert_eq!(table("one.csv", &frames), table("two.csv", &back));
+    }
+
+    #[test]
+    fn papers_have_their_size_and_no_title_and_animations_move() {
+        let folder = tempfile::tempdir().unwrap();
+        let (_, read) = both(folder.path(), 12);
+        let back: Vec<Frame> = read
+            .shown()
+            .iter()
+            .map(|&step| read.frame(step).unwrap())
+            .collect();
+        let target = folder.path().join("out");
+        let formats = [Format::Svg, Format::Pdf, Format::Gif, Format::Apng];
+        let bytes = export(
+            &target,
+            &formats,
+            &back,
+            &["pressure", "centre_line", "effective_stress"],
+        );
+        assert!(bytes > 0);
+        let svg = std::fs::read_to_string(target.join("step_000001_pressure.svg")).unwrap();
+        assert!(
+            svg.contains("width=\"85.00mm\"") && svg.contains("<image"),
+            "{}",
+            &svg[..200]
+        );
+        assert!(!svg.contains("step 1"), "no title, no state");
+        assert!(svg.contains("x, mm") && svg.contains("p, GPa"));
+        let pdf = std::fs::read(target.join("step_000001_centre_line.pdf")).unwrap();
+        assert!(pdf.starts_with(b"%PDF-1.4") && pdf.ends_with(b"%%EOF\n"));
+        // The table of objects is where the end says, and each object where the table says.
+        let text = String::from_utf8_lossy(&pdf).into_owned();
+        let start: usize = text
+            .rsplit("startxref\n")
+            .next()
+            .unwrap()
+            .lines()
+            .next()
+            .unwrap()
+            .parse()
+            .unwrap();
+        assert!(pdf[start..].starts_with(b"xref"));
+        let table = String::from_utf8_lossy(&pdf[start..]).into_owned();
+        for (k, line) in table.lines().skip(3).take(4).enumerate() {
+            let at: usize = line[..10].parse().unwrap();
+            assert!(
+                pdf[at..].starts_with(format!("{} 0 obj", k + 1).as_bytes()),
+                "{line}"
+            );
+        }
+        let gif = std::fs::read(target.join("pressure.gif")).unwrap();
+        assert!(gif.starts_with(b"GIF89a") && gif.ends_with(b";"));
+        let pictures = gif
+            .windows(4)
+            .filter(|four| *four == [0x21, 0xf9, 4, 5])
+            .count();
+        assert_eq!(pictures, back.len());
+        let moving = png::Decoder::new(std::io::BufReader::new(
+            std::fs::File::open(target.join("pressure.apng")).unwrap(),
+        ));
+        let frames = moving
+            .read_info()
+            .unwrap()
+            .info()
+            .animation_control()
+            .unwrap()
+            .num_frames;
+        assert_eq!(frames as usize, back.len());
+    }
+
+    #[test]
+    fn a_held_recording_waits_for_a_viewer_and_for_the_last_to_leave() {
+        let stop = Arc::new(AtomicBool::new(false));
+        let gate = Gate::open(0, Arc::clone(&stop)).unwrap();
+        let server = TcpListener::bind((Ipv4Addr::LOCALHOST, gate.behind())).unwrap();
+        let echo = std::thread::spawn(move || {
+            let (mut viewer, _) = server.accept().unwrap();
+            let mut bytes = [0; 5];
+            viewer.read_exact(&mut bytes).unwrap();
+            viewer.write_all(&bytes).unwrap();
+            // Until the viewer is closed.
+            let _ = viewer.read(&mut bytes);
+        });
+        let mut viewer = TcpStream::connect((Ipv4Addr::LOCALHOST, gate.port())).unwrap();
+        viewer.write_all(b"hello").unwrap();
+        gate.wait_for_one();
+        let mut answer = [0; 5];
+        viewer.read_exact(&mut answer).unwrap();
+        assert_eq!(&answer, b"hello");
+        let left = Arc::new(AtomicBool::new(false));
+        let told = Arc::clone(&left);
+        let waiting = std::thread::spawn(move || {
+            gate.wait_until_left();
+            told.store(true, Ordering::Relaxed);
+        });
+        std::thread::sleep(Duration::from_secs(3));
+        assert!(!left.load(Ordering::Relaxed), "a viewer is there");
+        drop(viewer);
+        waiting.join().unwrap();
+        echo.join().unwrap();
+        // Ctrl-C ends the waiting.
+        let gate = Gate::open(0, Arc::clone(&stop)).unwrap();
+        stop.store(true, Ordering::Relaxed);
+        gate.wait_for_one();
+        gate.wait_until_left();
+    }
+
+    #[test]
+    fn the_band_in_a_recording_is_that_of_the_report() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .args([
+                "run",
+                "--set=grid.nodes=65",
+                "--passages=1",
+                "--threads=1",
+                "--out=run.rrd",
+            ])
+            .args(["--summary=run.json"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        let summary = std::fs::read_to_string(folder.path().join("run.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        let ends =
+            ["life_relative_low", "life_relative_high"].map(|key| summary[key].as_f64().unwrap());
+        let contents = Contents::read(&folder.path().join("run.rrd"));
+        let band = contents.scalars("life/log10_relative/with_the_meshs_error");
+        assert_eq!(band.len(), 2, "at the first and at the last step");
+        for values in band.values() {
+            for (value, end) in values.iter().zip(ends) {
+                assert!((value - end.log10()).abs() < 1e-12, "{value} {end}");
+            }
+        }
+        let last = RecordedFrames::read(&folder.path().join("run.rrd")).unwrap();
+        let step = *last.shown().last().unwrap();
+        assert!(!last.text(step).is_empty());
+        let text = last.text(u64::try_from(i64::MAX).unwrap());
+        assert!(text.contains("with what the mesh costs"), "{text}");
+    }
+}

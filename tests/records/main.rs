@@ -1,5 +1,6 @@
 //! What a run leaves behind: recordings, exports, saved states, and the runs that go on from them.
 
+mod beside;
 #[path = "../common/mod.rs"]
 mod common;
 mod damaged;

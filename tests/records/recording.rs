@@ -78,7 +78,7 @@ impl Contents {
         }
     }
 
-    fn entities(&self) -> BTreeSet<String> {
+    pub(super) fn entities(&self) -> BTreeSet<String> {
         let paths = self
             .data
             .iter()
@@ -87,7 +87,7 @@ impl Contents {
     }
 
     /// Values of an entity that holds scalars, by step.
-    fn scalars(&self, entity: &str) -> BTreeMap<i64, Vec<f64>> {
+    pub(super) fn scalars(&self, entity: &str) -> BTreeMap<i64, Vec<f64>> {
         let mut values = BTreeMap::new();
         for chunk in &self.data {
             if chunk.entity_path().to_string() != format!("/{entity}") || chunk.is_static() {

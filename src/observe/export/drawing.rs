@@ -23,11 +23,42 @@ const EDGE: u32 = 18;
 type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
 /// A picture to draw.
-pub(super) struct Drawing<'a> {
-    pub(super) file: &'a Path,
+pub(super) struct Drawing {
     pub(super) title: String,
     /// Below the title.
     pub(super) state: String,
+    /// Below the map.
+    pub(super) x_title: &'static str,
+}
+
+/// Where it is drawn.
+pub(super) enum Canvas<'a> {
+    /// Into a file.
+    File(&'a Path),
+    /// As pixels of three bytes, of axes so many pixels wide.
+    Pixels(&'a mut Vec<u8>, u32),
+}
+
+impl<'a> Canvas<'a> {
+    /// Width of the axes.
+    fn wide(&self) -> u32 {
+        match self {
+            Self::File(_) => WIDE,
+            Self::Pixels(_, wide) => *wide,
+        }
+    }
+
+    fn area(self, size: (u32, u32)) -> Area<'a> {
+        match self {
+            Self::File(path) => BitMapBackend::new(path, size),
+            Self::Pixels(buffer, _) => {
+                buffer.clear();
+                buffer.resize(3 * (size.0 * size.1) as usize, 0);
+                BitMapBackend::with_buffer(buffer, size)
+            }
+        }
+        .into_drawing_area()
+    }
 }
 
 /// Curves over x with an axis at each side.
@@ -53,39 +84,49 @@ pub(super) struct DrawnCurve {
     pub(super) points: Vec<(f64, f64)>,
 }
 
-impl Drawing<'_> {
-    /// Draws a map to scale.
+impl Drawing {
+    /// Draws a map to scale; its size.
     ///
     /// # Errors
     /// What went wrong, in words.
-    pub(super) fn map(&self, picture: &Picture) -> Result<(), String> {
-        let [wide, high] = [picture.x, picture.y].map(|axis| {
+    pub(super) fn map(&self, picture: &Picture, canvas: Canvas) -> Result<(u32, u32), String> {
+        let [across, high] = [picture.x, picture.y].map(|axis| {
             let [from, to] = axis.ends();
             to - from
         });
-        let tall = (f64::from(WIDE) * high / wide).round() as u32;
-        let tall = tall.clamp(120, 4 * WIDE);
-        let root = self.begin(WIDE + LEFT + RIGHT, tall + ABOVE + BELOW)?;
-        let (left, right) = root.split_horizontally(WIDE + LEFT);
-        draw_map(&left, picture).map_err(|error| error.to_string())?;
+        let wide = canvas.wide();
+        let tall = (f64::from(wide) * high / across).round() as u32;
+        let tall = tall.clamp(120, 4 * wide);
+        let size = (wide + LEFT + RIGHT, tall + ABOVE + BELOW);
+        let root = self.begin(canvas, size)?;
+        let (left, right) = root.split_horizontally(wide + LEFT);
+        draw_map(&left, picture, self.x_title).map_err(|error| error.to_string())?;
         draw_bar(&right, picture, tall).map_err(|error| error.to_string())?;
-        root.present().map_err(|error| error.to_string())
+        root.present().map_err(|error| error.to_string())?;
+        Ok(size)
     }
 
-    /// Draws a figure.
+    /// Draws a figure; its size.
     ///
     /// # Errors
     /// What went wrong, in words.
-    pub(super) fn figure(&self, figure: &ExportedFigure) -> Result<(), String> {
-        let root = self.begin(WIDE + 2 * LEFT, 420 + ABOVE + BELOW)?;
+    pub(super) fn figure(
+        &self,
+        figure: &ExportedFigure,
+        canvas: Canvas,
+    ) -> Result<(u32, u32), String> {
+        let wide = canvas.wide();
+        let size = (wide + 2 * LEFT, wide * 7 / 12 + ABOVE + BELOW);
+        let root = self.begin(canvas, size)?;
         draw_figure(&root, figure).map_err(|error| error.to_string())?;
-        root.present().map_err(|error| error.to_string())
+        root.present().map_err(|error| error.to_string())?;
+        Ok(size)
     }
 
     /// An empty picture with title and state.
-    fn begin(&self, width: u32, height: u32) -> Result<Area<'_>, String> {
+    fn begin<'a>(&self, canvas: Canvas<'a>, size: (u32, u32)) -> Result<Area<'a>, String> {
         font()?;
-        let root = BitMapBackend::new(self.file, (width, height)).into_drawing_area();
+        let root = canvas.area(size);
         let text = |text: &str, y: i32, size: i32, colour: RGBColor| {
             let style = TextStyle::from((FONT, size)).color(&colour);
             root.draw(&Text::new(text.to_owned(), (16, y), style))
@@ -101,7 +142,7 @@ impl Drawing<'_> {
 type DrawingResult<'a> =
     Result<(), DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>>;
 
-fn draw_map<'a>(area: &Area<'a>, picture: &Picture) -> DrawingResult<'a> {
+fn draw_map<'a>(area: &Area<'a>, picture: &Picture, x_title: &str) -> DrawingResult<'a> {
     let [x, y] = [picture.x, picture.y].map(|axis| axis.ends().map(|end| end * MM));
     // Depths are drawn downwards.
     let y = if picture.is_below { [-y[1], -y[0]] } else { y };
@@ -112,7 +153,7 @@ fn draw_map<'a>(area: &Area<'a>, picture: &Picture) -> DrawingResult<'a> {
         .y_label_area_size(LEFT - EDGE)
         .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
     let size = chart.plotting_area().dim_in_pixel();
-    let bytes = paint(picture, size);
+    let bytes = field_pixels(picture, size);
     if let Some(image) = BitMapElement::with_owned_buffer((x[0], y[1]), size, bytes) {
         chart.plotting_area().draw(&image)?;
     }
@@ -137,7 +178,7 @@ fn draw_map<'a>(area: &Area<'a>, picture: &Picture) -> DrawingResult<'a> {
         .disable_mesh()
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 16))
-        .x_desc("x, mm (rolling direction to the right)")
+        .x_desc(x_title)
         .y_desc(y_title)
         .x_labels(8)
         .y_labels(8)
@@ -148,7 +189,7 @@ fn draw_map<'a>(area: &Area<'a>, picture: &Picture) -> DrawingResult<'a> {
 
 /// Pixels, three bytes each: values interpolated between their nodes; the first and the last pixel of both sides lie on
 /// nodes.
-fn paint(picture: &Picture, (wide, tall): (u32, u32)) -> Vec<u8> {
+pub(super) fn field_pixels(picture: &Picture, (wide, tall): (u32, u32)) -> Vec<u8> {
     let places = |axis: NodeAxis, [from, to]: [f64; 2], pixels: u32, off: f64| -> Vec<f64> {
         let last = f64::from(pixels.max(2) - 1);
         let at = |pixel: u32| from + (to - from) * (f64::from(pixel) + off) / last;
@@ -291,7 +332,7 @@ fn legend(series: &mut SeriesAnno<'_, BitMapBackend<'_>>, curve: &DrawnCurve) {
 }
 
 /// The parts of a curve below the top; what is above is left out, not bent.
-fn inside(points: &[(f64, f64)], top: f64) -> Vec<Vec<(f64, f64)>> {
+pub(super) fn inside(points: &[(f64, f64)], top: f64) -> Vec<Vec<(f64, f64)>> {
     points
         .split(|(_, value)| *value > top)
         .filter(|part| part.len() > 1)
@@ -321,7 +362,7 @@ mod tests {
             ..Ranges::default()
         };
         let picture = Picture::of(&frame, Subject::Film, &ranges).expect("a film");
-        let bytes = paint(&picture, (2, 2));
+        let bytes = field_pixels(&picture, (2, 2));
         let pixel = |at: usize| [bytes[3 * at], bytes[3 * at + 1], bytes[3 * at + 2]];
         // y upwards: the frame's last row comes first.
         assert_eq!(pixel(0), Ramp::Viridis.colour(0.0, 1.0));

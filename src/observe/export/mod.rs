@@ -4,17 +4,23 @@
 //! with x the rolling direction, the slice `[depth, x]`; every scalar that is known, named as in the table. Pictures are `step_000128_pressure.png` and so on. Beside them `scene.toml`, which
 //! repeats the run.
 
+mod animation;
 mod drawing;
 mod npz;
-mod png;
+mod pages;
+mod paper;
 
+use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use self::animation::Animation;
+use self::drawing::Canvas;
 use self::npz::Npz;
-use self::png::Pictures;
+use self::pages::{Page, Pictures};
+pub use self::paper::PrintSize;
 use super::{
     NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
 };
@@ -27,7 +33,40 @@ pub enum Format {
     Npz,
     /// Maps and centre line as pictures.
     Png,
+    /// The same as papers print them, axes and text as vectors.
+    Svg,
+    /// The same as PDF.
+    Pdf,
+    /// All steps one after another.
+    Gif,
+    /// The same in all colours, as animated PNG.
+    Apng,
 }
+
+impl Format {
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Npz => "npz",
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+            Self::Gif => "gif",
+            Self::Apng => "apng",
+        }
+    }
+
+    fn moves(self) -> bool {
+        matches!(self, Self::Gif | Self::Apng)
+    }
+}
+
+/// Names of the pictures that there are.
+pub fn picture_names() -> Vec<&'static str> {
+    Pictures::names().collect()
+}
+
+/// Width of the axes of moving pictures, pixels.
+const MOVING_WIDE: u32 = 400;
 
 /// Writes fields and pictures.
 #[derive(Debug)]
@@ -41,6 +80,10 @@ pub struct Export {
     formats: Vec<Format>,
     scene_toml: String,
     pictures: Pictures,
+    /// Pictures that are drawn; empty: all, or of those that move the one that tells most.
+    chosen: Vec<String>,
+    print: PrintSize,
+    moving: BTreeMap<&'static str, Animation>,
     frames: u64,
     bytes: u64,
 }
@@ -85,6 +128,9 @@ impl Export {
             formats: formats.to_vec(),
             scene_toml: String::new(),
             pictures: Pictures::default(),
+            chosen: Vec::new(),
+            print: PrintSize::default(),
+            moving: BTreeMap::new(),
             frames: 0,
             bytes: 0,
         })
@@ -97,16 +143,92 @@ impl Export {
         )
     }
 
-    fn draw(&mut self, frame: &Frame) -> Result<u64, ObserveError> {
+    /// Draws the pictures of these names alone, and prints those for papers in that size.
+    #[must_use]
+    pub fn of(mut self, chosen: &[String], print: PrintSize) -> Self {
+        (self.chosen, self.print) = (chosen.to_vec(), print);
+        self
+    }
+
+    /// Takes a step up: as a still where that is wanted, and for the pictures that move.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn take(&mut self, frame: &Frame, as_still: bool) -> Result<(), ObserveError> {
+        if self.frames == 0 {
+            self.move_in()?;
+        }
+        for format in self.formats.clone().into_iter().filter(|_| as_still) {
+            self.bytes += match format {
+                Format::Npz => self.write(frame)?,
+                Format::Png | Format::Svg | Format::Pdf => self.draw(frame, format)?,
+                Format::Gif | Format::Apng => 0,
+            };
+        }
+        if self.formats.iter().any(|format| format.moves()) {
+            self.follow(frame)?;
+        }
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// A step's pictures in one format; the bytes written.
+    fn draw(&mut self, frame: &Frame, format: Format) -> Result<u64, ObserveError> {
         let mut bytes = 0;
-        for (page, path) in Pictures::files(frame, &self.folder) {
+        for (name, page) in Pictures::pages(frame, &self.chosen) {
+            let file = format!("step_{:06}_{name}.{}", frame.step, format.ending());
+            let path = self.folder.join(file);
+            let (pictures, print) = (&mut self.pictures, self.print);
             self.overwrite.write_by(&path, |at| {
-                let drawn = self.pictures.draw(frame, page, at);
+                let drawn = match format {
+                    Format::Png => pictures.draw(frame, page, Canvas::File(at)).map(drop),
+                    _ => {
+                        let printed = pictures.print(frame, page, (&print, format == Format::Pdf));
+                        printed.and_then(|bytes| {
+                            std::fs::write(at, bytes).map_err(|error| error.to_string())
+                        })
+                    }
+                };
                 drawn.map_err(std::io::Error::other)
             })?;
             bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
         }
         Ok(bytes)
+    }
+
+    /// Takes a step up for the pictures that move.
+    fn follow(&mut self, frame: &Frame) -> Result<(), ObserveError> {
+        let one = [Pictures::moving(frame).to_owned()];
+        let chosen = if self.chosen.is_empty() {
+            &one[..]
+        } else {
+            &self.chosen
+        };
+        let pages: Vec<(&'static str, Page)> = Pictures::pages(frame, chosen);
+        for (name, page) in pages {
+            let animation = self.moving.entry(name).or_default();
+            if animation.wants(frame.passages) {
+                let mut pixels = Vec::new();
+                let drawn =
+                    self.pictures
+                        .draw(frame, page, Canvas::Pixels(&mut pixels, MOVING_WIDE));
+                let size = drawn.map_err(|reason| self.failed(&std::io::Error::other(reason)))?;
+                self.moving.entry(name).or_default().push(size, pixels);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the pictures that move.
+    fn write_moving(&mut self) -> Result<(), ObserveError> {
+        for (name, animation) in std::mem::take(&mut self.moving) {
+            for format in self.formats.iter().filter(|format| format.moves()) {
+                let path = self.folder.join(format!("{name}.{}", format.ending()));
+                self.overwrite.write_by(&path, |at| animation.write(at))?;
+                self.bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
+            }
+        }
+        Ok(())
     }
 
     fn write(&self, frame: &Frame) -> Result<u64, ObserveError> {
@@ -120,7 +242,8 @@ impl Export {
     fn move_in(&mut self) -> Result<(), ObserveError> {
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten();
         let names = entries.flatten().map(|entry| entry.file_name());
-        for name in names.filter(|name| is_a_step(&name.to_string_lossy())) {
+        let ours = |name: &str| is_a_step(name) || Pictures::is_moving(name);
+        for name in names.filter(|name| ours(&name.to_string_lossy())) {
             let removed = std::fs::remove_file(self.folder.join(name));
             removed.map_err(|error| self.failed(&error))?;
         }
@@ -141,7 +264,7 @@ fn is_ours(path: &Path) -> bool {
 /// Whether a file of that name is one that an export writes: `step_000128.npz`, `step_000128_pressure.png`, the
 /// scene.
 pub fn is_exported(name: &str) -> bool {
-    name == SCENE || is_a_step(name)
+    name == SCENE || is_a_step(name) || Pictures::is_moving(name)
 }
 
 fn is_a_step(name: &str) -> bool {
@@ -202,16 +325,7 @@ impl Observer for Export {
 
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
         if frame.stage == Stage::Passage {
-            if self.frames == 0 {
-                self.move_in()?;
-            }
-            if self.formats.contains(&Format::Npz) {
-                self.bytes += self.write(frame)?;
-            }
-            if self.formats.contains(&Format::Png) {
-                self.bytes += self.draw(frame)?;
-            }
-            self.frames += 1;
+            self.take(frame, true)?;
         }
         Ok(())
     }
@@ -222,6 +336,7 @@ impl Observer for Export {
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
         let is_empty = self.frames == 0;
+        self.write_moving()?;
         Ok(ObserverReport {
             output: self.folder.display().to_string(),
             frames: self.frames,

@@ -12,20 +12,34 @@ use std::path::{Path, PathBuf};
 use re_log_types::{LogMsg, StoreId};
 use rerun::external::re_log_encoding::{CrateVersion, DecoderApp, Encoder, EncodingOptions};
 use rerun::log::Chunk;
-use rerun::{ComponentIdentifier, EntityPath, SizeBytes as _};
+use rerun::{ComponentIdentifier, EntityPath, SizeBytes as _, TextDocument};
 
-use super::text::REACH;
+use super::moment::Moment;
+use super::scalars::SCALARS;
+use super::text::{LECTURE, NOW, REACH};
 
 /// A chunk has so many bytes, by its entity's first row ...
 const CHUNK_BYTES: u64 = 1024 * 1024;
 /// ... and so many rows at most: the library's own bound.
 const MOST_ROWS: usize = 4096;
 
-/// Binds the recording at `path` with `more` of what holds for all of it; its length then.
+/// What a recording ends with.
+#[derive(Default)]
+pub(super) struct Ending {
+    /// First and last moment of its curves.
+    pub(super) moments: Option<[Moment; 2]>,
+    /// The last texts of these entities.
+    pub(super) texts: Vec<(&'static str, String)>,
+}
+
+/// Binds the recording at `path` with more that is made of its ending; its length then.
 ///
 /// # Errors
 /// In words, when there is no room for a second file or it is no recording; the first is as it was.
-pub(super) fn bind(path: &Path, more: Vec<Chunk>) -> Result<u64, String> {
+pub(super) fn bind(
+    path: &Path,
+    more: impl FnOnce(&Ending) -> Result<Vec<Chunk>, String>,
+) -> Result<u64, String> {
     // Behind a link lies the file itself, which alone may be replaced; and only a file.
     let path = path.canonicalize().map_err(|error| error.to_string())?;
     if !path.is_file() {
@@ -51,7 +65,11 @@ fn beside(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-fn write(from: &Path, to: &Path, more: Vec<Chunk>) -> Result<(), String> {
+fn write(
+    from: &Path,
+    to: &Path,
+    more: impl FnOnce(&Ending) -> Result<Vec<Chunk>, String>,
+) -> Result<(), String> {
     let words = |error: &dyn std::fmt::Display| error.to_string();
     let reader = BufReader::new(File::open(from).map_err(|error| words(&error))?);
     let messages = DecoderApp::decode_eager(reader).map_err(|error| words(&error))?;
@@ -65,12 +83,13 @@ fn write(from: &Path, to: &Path, more: Vec<Chunk>) -> Result<(), String> {
         strands: Vec::new(),
         places: HashMap::new(),
         reach: None,
+        ending: Ending::default(),
     };
     for message in messages {
         binder.take(&message.map_err(|error| words(&error))?)?;
     }
     binder.end()?;
-    for chunk in more {
+    for chunk in more(&binder.ending)? {
         binder.append_chunk(&chunk, None)?;
     }
     let mut encoder = binder.encoder;
@@ -99,6 +118,32 @@ struct Binder {
     places: HashMap<RowKind, usize>,
     /// How far the recording goes, as it was told last.
     reach: Option<LogMsg>,
+    ending: Ending,
+}
+
+impl Ending {
+    /// Takes up rows that come in the order of time.
+    fn see(&mut self, chunk: &Chunk) {
+        let path = chunk.entity_path().to_string();
+        let entity = path.trim_start_matches('/');
+        if entity == SCALARS {
+            let ends = [0, chunk.num_rows() - 1].map(|row| Moment::of(chunk, row));
+            if let [Some(first), Some(last)] = ends {
+                self.moments = Some([self.moments.map_or(first, |[first, _]| first), last]);
+            }
+        }
+        for own in [NOW, LECTURE] {
+            let component = TextDocument::descriptor_text().component;
+            let last = (entity == own).then(|| chunk.iter_slices::<String>(component).last());
+            if let Some(text) = last
+                .flatten()
+                .and_then(|row| row.first().map(ToString::to_string))
+            {
+                self.texts.retain(|(entity, _)| *entity != own);
+                self.texts.push((own, text));
+            }
+        }
+    }
 }
 
 impl Binder {
@@ -133,6 +178,7 @@ impl Binder {
         if chunk.is_static() || chunk.num_rows() == 0 {
             return self.append(message);
         }
+        self.ending.see(&chunk);
         self.take_rows(store.clone(), &chunk)
     }
 

@@ -5,7 +5,7 @@ use rerun::{AnnotationContext, Rgba32, SegmentationImage};
 use crate::picture::{ABOVE, CONTACT, Look};
 
 const FILM: u8 = 0;
-const TOUCHES: u8 = 1;
+pub(super) const TOUCHES: u8 = 1;
 const THICK: u8 = 2;
 
 /// How an image of classes looks.

@@ -7,7 +7,7 @@
 
 use rerun::components::{ImageFormat, MagnificationFilter};
 use rerun::{AnnotationContext, AsComponents, ChannelDatatype, DepthImage, Points2D, Radius};
-use rerun::{Rgba32, SegmentationImage};
+use rerun::{Rgba32, Scalars, SegmentationImage};
 
 use super::colour::{BACKGROUND, GREEN, WHITE, faded};
 use super::depths::Depths;
@@ -112,12 +112,7 @@ impl Block {
         };
         let look = Look {
             range: [-DECADES, DECADES],
-            ..Look::up_to(
-                "log10 D",
-                Unit::new("powers of ten", 1.0),
-                DECADES,
-                Ramp::Magma,
-            )
+            ..Look::up_to("D", Unit::new("log10", 1.0), DECADES, Ramp::Magma)
         };
         let style = Points2D::update_fields()
             .with_radii([Radius::new_ui_points(0.0), Radius::new_ui_points(5.0)])
@@ -131,6 +126,10 @@ impl Block {
             DepthImage::update_fields().with_magnification_filter(MagnificationFilter::Nearest);
         stream.log_static(format!("{entity}/image"), &sharp)?;
         log_cover(stream, &cover(entity), &pixels)?;
+        // For programs: length of the block, its columns, and the depths that are shown.
+        let sides = [damage.length_m, damage.columns as f64];
+        let shown = depths.shown_m().iter().copied();
+        stream.log_static(block(entity), &Scalars::new(sides.into_iter().chain(shown)))?;
         Ok(Some(Self {
             entity,
             raster,
@@ -177,7 +176,7 @@ impl Block {
             String::new()
         };
         let label = format!(
-            "worst: D = {}, {} µm deep{not_yet}",
+            "the pit starts here: D = {}, {} µm deep{not_yet}",
             sig(damage.pit_damage, 3),
             sig(UM.of(damage.pit_depth_m), 3),
         );
@@ -218,6 +217,11 @@ fn log_cover(stream: &Stream, entity: &str, pixels: &PixelField) -> Result<(), O
     ]);
     let parts: [&dyn AsComponents; 3] = [&image, &pixels.transform(), &context];
     stream.log_static(entity, &parts)
+}
+
+/// Where the lengths of a damage map are, m.
+pub(super) fn block(entity: &str) -> String {
+    format!("{entity}/block")
 }
 
 fn cover(entity: &str) -> String {

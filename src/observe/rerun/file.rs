@@ -69,7 +69,7 @@ impl FileState {
     /// all the same: viewers then read it from its beginning.
     fn bind(&mut self) {
         self.bytes = self.length();
-        match bound::bind(self.placed.at(), Vec::new()) {
+        match bound::bind(self.placed.at(), |_| Ok(Vec::new())) {
             Ok(bytes) => self.bytes = bytes,
             Err(reason) => self.unbound = Some(reason),
         }

@@ -9,13 +9,15 @@
 use rerun::components::{ImageBuffer, ImageFormat};
 use rerun::{ChannelDatatype, SegmentationImage};
 
+use super::centre_line::line;
 use super::classes;
-use super::colour::WHITE;
+use super::colour::{GREEN, WHITE};
 use super::geometry::Geometry;
 use super::picture::{PixelField, log_styled};
 use super::plot::{PlotBox, ticks_at};
 use super::raster::{Height, RasterEntity};
 use super::stream::{Holds, Stream};
+use super::waiting::Curves;
 use crate::math::number::ticks;
 use crate::observe::ObserveError;
 use crate::picture::{Look, Ranges, Subject};
@@ -27,6 +29,9 @@ pub(super) const FILM: &str = "kymograph/film_y0_um";
 const ROWS: usize = 512;
 /// Part of the recording's budget for the picture as it grows; its last state comes at the end.
 const ON_THE_WAY: f64 = 0.05;
+
+/// Height of the picture over its width.
+const HEIGHT: f64 = 0.6;
 
 /// One kymograph.
 pub(super) struct KymographEntity {
@@ -50,6 +55,8 @@ pub(super) struct KymographEntity {
     first_step: Option<u64>,
     /// Rows that may still be written before the end.
     spare_rows: usize,
+    /// A line at now.
+    now: Curves,
 }
 
 impl KymographEntity {
@@ -67,7 +74,7 @@ impl KymographEntity {
         let every = steps.div_ceil(ROWS).max(1);
         let rows = steps.div_ceil(every).max(2);
         let x = [geometry.x_min, geometry.x_max()];
-        let height = 0.9 * (x[1] - x[0]);
+        let height = HEIGHT * (x[1] - x[0]);
         let row_height = height / rows as f64;
         let plot = PlotBox {
             x,
@@ -112,6 +119,11 @@ impl KymographEntity {
             step_s,
             first_step: None,
             spare_rows: (ON_THE_WAY * budget_bytes / row_bytes as f64) as usize,
+            now: {
+                let now = format!("{entity}/now");
+                stream.log_static(now.as_str(), &line(GREEN, 1.5).with_draw_order(28.0))?;
+                stream.curves(now)
+            },
         })
     }
 
@@ -188,6 +200,18 @@ impl KymographEntity {
         } else {
             Ok(())
         }
+    }
+
+    /// Logs the line at a step, on the axis that was drawn last.
+    pub(super) fn log_now(&self, stream: &Stream, step: u64) -> Result<(), ObserveError> {
+        let steps = step.saturating_sub(self.first_step.unwrap_or(step)) + 1;
+        let all = self.most_rows as f64 * self.axes_for.max(1) as f64;
+        let [x, y] = [self.plot.x, self.plot.y].map(|ends| ends.map(|end| end as f32));
+        let at = y[1] * (steps as f64 / all).min(1.0) as f32;
+        stream.log_curves(self.now, |pen| {
+            pen.to([x[0], at]);
+            pen.to([x[1], at]);
+        })
     }
 
     /// Logs the picture as it is now.

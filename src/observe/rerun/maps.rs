@@ -161,7 +161,8 @@ impl Maps {
     }
 }
 
-fn pixels(g: Geometry) -> PixelField {
+/// A pixel for each node.
+pub(super) fn pixels(g: Geometry) -> PixelField {
     PixelField {
         columns: g.nx,
         rows: g.ny,

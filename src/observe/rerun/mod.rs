@@ -9,6 +9,7 @@
 //! Logging may block on the disk: run the recorder behind a [`Queue`](crate::observe::Queue), which
 //! also keeps all its calls on one thread, as the library's timelines want it.
 
+mod beside;
 mod bound;
 mod cadence;
 mod centre_line;
@@ -18,6 +19,8 @@ mod damage;
 mod depths;
 mod destination;
 mod file;
+mod frames;
+mod gate;
 mod gathered;
 mod geometry;
 mod interferogram;
@@ -36,6 +39,7 @@ mod properties;
 mod raster;
 mod recorder;
 mod reread;
+mod scalars;
 mod series;
 mod slice;
 mod space;
@@ -45,6 +49,9 @@ mod trace;
 mod waiting;
 mod weight;
 
+pub use beside::{Beside, ComparedBy, RunBeside, compare};
+pub use frames::RecordedFrames;
+pub use gate::Gate;
 pub use live::Live;
 pub use properties::note_summary;
 pub use recorder::Recorder;

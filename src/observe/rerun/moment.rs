@@ -2,6 +2,7 @@
 
 use std::time::SystemTime;
 
+use rerun::log::Chunk;
 use rerun::time::TimePoint;
 use rerun::{TimeCell, TimeColumn};
 
@@ -36,6 +37,19 @@ impl Moment {
             nanos: (time_s * 1e9).round() as i64,
             passage: (passages * 1000.0).round() as i64,
         }
+    }
+
+    /// Of a row of a chunk; `None`: it has another time.
+    pub(super) fn of(chunk: &Chunk, row: usize) -> Option<Self> {
+        let at = |timeline: &'static str| {
+            let column = chunk.timelines().get(&timeline.into())?;
+            column.times_raw().get(row).copied()
+        };
+        Some(Self {
+            step: at(STEP)?,
+            nanos: at(SIMULATED_TIME)?,
+            passage: at(PASSAGE)?,
+        })
     }
 
     /// As the library has it.

@@ -58,7 +58,11 @@ impl PlotBox {
         };
         [
             [self.x[0] - 0.14 * w, self.x[1] + right * w],
-            [self.y[0] - (TITLES + 0.025) * h, self.y[1] + 0.22 * h],
+            // Text keeps its size, so that a flat plot needs a larger share of its height for it.
+            [
+                self.y[0] - (TITLES + 0.025) * h,
+                self.y[1] + if h < 0.65 * w { 0.32 } else { 0.22 } * h,
+            ],
         ]
     }
 
@@ -119,7 +123,10 @@ impl PlotBox {
             labels.add([right + 0.07 * w, y - HALF_LABEL * h], text, right_colour);
         }
         labels.add(
-            [0.5 * (left + right), bottom + 0.125 * h],
+            [
+                0.5 * (left + right),
+                bottom + if h < 0.65 * w { 0.17 } else { 0.125 } * h,
+            ],
             &self.x_title,
             WHITE,
         );

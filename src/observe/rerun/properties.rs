@@ -7,10 +7,16 @@ use std::sync::Arc;
 use rerun::external::arrow::array::{ArrayRef, Float64Array, StringArray};
 use rerun::log::{Chunk, PendingRow};
 use rerun::time::TimePoint;
-use rerun::{AnyValues, AsComponents as _, EntityPath, RecordingInfo};
+use rerun::{
+    AnyValues, AsComponents as _, Color, EntityPath, RecordingInfo, Scalars, SeriesLines,
+    TextDocument,
+};
 
-use super::bound;
+use super::bound::{self, Ending};
+use super::colour::curve;
+use super::gathered::chunk_of;
 use super::stream::Stream;
+use super::text;
 use crate::math::number::sig;
 use crate::observe::{ObserveError, RunContext};
 use crate::scene::ContactKind;
@@ -143,5 +149,49 @@ pub fn note_summary(path: &Path, summary: &Summary) -> Result<(), ObserveError> 
     let chunk: Chunk = row
         .into_chunk(entity(RESULT))
         .map_err(|error| failed(error.to_string()))?;
-    bound::bind(path, vec![chunk]).map(drop).map_err(failed)
+    let more = |ending: &Ending| {
+        let mut chunks = vec![chunk];
+        chunks.extend(band(summary, ending)?);
+        Ok(chunks)
+    };
+    bound::bind(path, more).map(drop).map_err(failed)
+}
+
+/// Lines of the band that holds with what the mesh costs, which nobody knew while the run went on.
+const BAND: &str = "life/log10_relative/with_the_meshs_error";
+
+/// The life's band with the mesh's error: as lines over the whole run, and in the last texts.
+fn band(summary: &Summary, ending: &Ending) -> Result<Vec<Chunk>, String> {
+    let ends = summary.life_relative_low.zip(summary.life_relative_high);
+    let ends = ends.filter(|(low, high)| *low > 0.0 && high.is_finite());
+    let (Some((low, high)), Some(moments)) = (ends, ending.moments) else {
+        return Ok(Vec::new());
+    };
+    let words = |error: &dyn std::fmt::Display| error.to_string();
+    let style = SeriesLines::new()
+        .with_colors([curve::GREEN; 2].map(Color::from))
+        .with_widths([1.2; 2])
+        .with_names(["low, with the mesh's error", "high, with the mesh's error"]);
+    let style = PendingRow::from_iter(TimePoint::default(), style.as_serialized_batches());
+    let mut chunks = vec![
+        style
+            .into_chunk(BAND.into())
+            .map_err(|error| words(&error))?,
+    ];
+    let values = [low, high, low, high].map(f64::log10);
+    let columns = Scalars::new(values)
+        .columns([2, 2])
+        .map_err(|error| words(&error))?;
+    chunks.push(chunk_of(BAND.into(), &moments, columns).map_err(|error| words(&error))?);
+    let [low, high] = [low, high].map(|end| sig(end, 3));
+    for (entity, text) in &ending.texts {
+        let text = text::with_band(text, &format!("{low} to {high}"));
+        let text = TextDocument::update_fields().with_text(text);
+        let columns = text
+            .columns_of_unit_batches()
+            .map_err(|error| words(&error))?;
+        let chunk = chunk_of((*entity).into(), &moments[1..], columns);
+        chunks.push(chunk.map_err(|error| words(&error))?);
+    }
+    Ok(chunks)
 }

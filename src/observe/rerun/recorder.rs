@@ -1,6 +1,6 @@
 //! Puts the parts of a recording together.
 
-mod views;
+pub(super) mod views;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,6 +9,7 @@ use rerun::TextLogLevel;
 
 use self::views::ViewState;
 use super::file::RecordingFile;
+use super::gate::Gate;
 use super::live::Live;
 use super::moment::Moment;
 use super::stream::Stream;
@@ -44,6 +45,8 @@ pub struct Recorder {
     passages: f64,
     /// Frames that came after the viewer was closed.
     unsent: u64,
+    /// The door that viewers came by, who are served until they have left.
+    gate: Option<Gate>,
 }
 
 impl Recorder {
@@ -68,6 +71,13 @@ impl Recorder {
         Ok(Self::on(Stream::live(live)?, record))
     }
 
+    /// Goes on serving those who came by this door until the last one has left.
+    #[must_use]
+    pub fn holding(mut self, gate: Gate) -> Self {
+        self.gate = Some(gate);
+        self
+    }
+
     /// The file that is written now: the recording's own, or beside it where it will replace another; `None`: a
     /// viewer's.
     pub fn path(&self) -> Option<PathBuf> {
@@ -90,6 +100,7 @@ impl Recorder {
             frames: 0,
             passages: 0.0,
             unsent: 0,
+            gate: None,
         }
     }
 
@@ -290,6 +301,9 @@ impl Observer for Recorder {
             self.log_reach(true)?;
         }
         self.stream.close()?;
+        if let Some(gate) = &self.gate {
+            gate.wait_until_left();
+        }
         let (stream, frames) = (&self.stream, self.frames);
         let mut report = stream.to().report(stream.output(), frames, self.unsent);
         for note in [

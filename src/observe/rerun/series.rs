@@ -7,10 +7,11 @@ use rerun::{Color, EntityPath, SeriesLines};
 
 use super::colour::curve::{BLUE, GREEN, GREY, OLIVE, ORANGE, PURPLE, SKY, VERMILION};
 use super::moment::Moment;
+use super::scalars;
 use super::stream::Stream;
 use crate::observe::ObserveError;
 use crate::scene::ContactKind;
-use crate::sim::{CATALOGUE, CautionCode, Frame, LubricationRegime, Quantity, named};
+use crate::sim::{CATALOGUE, CautionCode, Frame, Quantity, named};
 
 /// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
 const LEAST_ERROR: f64 = 1e-12;
@@ -32,6 +33,8 @@ enum CurveGroup {
     Logarithms(Coloured),
     /// One that the catalogue shows by itself.
     ByItself(&'static Quantity),
+    /// Every scalar in SI, for programs.
+    All,
     /// What is made for the recording: names and colours, and what adds a value for each, or none.
     Made(
         &'static [(&'static str, [u8; 3])],
@@ -51,7 +54,7 @@ static GROUPS: [(&str, CurveGroup); 27] = [
     ("series/load_N", Linear(&[(named("load_n"), SKY), (named("load_target_n"), GREY)])),
     ("series/load_N_per_m", Linear(&[(named("load_n"), SKY), (named("load_target_n"), GREY)])),
     ("series/half_width_um", Linear(&[(named("a_m"), GREEN), (named("b_m"), GREY)])),
-    ("series/regime", Made(&[("0 dry, 1 boundary, 2 mixed, 3 full film", SKY)], |frame, out| out.push(regime(frame.metrics.regime)))),
+    ("series/regime", Made(&[("0 dry, 1 boundary, 2 mixed, 3 full film", SKY)], |frame, out| out.push(scalars::code(frame.metrics.regime)))),
     ("series/cautions", Made(&CAUTIONS, cautions)),
     (YIELDED, Made(&[("body 1 has yielded, µm³", SKY), ("body 2 has yielded, µm³", ORANGE)], yielded)),
     ("convergence/log10_errors", Errors(&[(named("residual"), GREEN), (named("load_error"), SKY), (named("film_error"), PURPLE), (named("mass_error"), ORANGE)])),
@@ -122,6 +125,9 @@ impl CurveGroup {
             Linear(of) => named(of, ""),
             Errors(of) | Logarithms(of) => named(of, "log10 "),
             Self::ByItself(quantity) => vec![(quantity.label(kind), SKY)],
+            Self::All => scalars::names()
+                .map(|name| (name.to_owned(), SKY))
+                .collect(),
             Made(lines, _) => lines
                 .iter()
                 .map(|(name, colour)| ((*name).to_owned(), *colour))
@@ -148,6 +154,7 @@ impl CurveGroup {
             Errors(of) => add_all(of, error, out),
             Logarithms(of) => add_all(of, logarithm, out),
             Self::ByItself(quantity) => out.extend(shown(quantity)),
+            Self::All => scalars::add(frame, out),
             Made(_, add) => add(frame, out),
         }
     }
@@ -158,16 +165,6 @@ fn add_all(of: Coloured, value: impl Fn(&Quantity) -> Option<f64>, out: &mut Vec
     out.extend(of.iter().map_while(|(quantity, _)| value(quantity)));
     if out.len() < before + of.len() {
         out.truncate(before);
-    }
-}
-
-/// From the regime in which oil does nothing to that in which it does all.
-fn regime(regime: LubricationRegime) -> f64 {
-    match regime {
-        LubricationRegime::Dry => 0.0,
-        LubricationRegime::Boundary => 1.0,
-        LubricationRegime::Mixed => 2.0,
-        LubricationRegime::FullFilm => 3.0,
     }
 }
 
@@ -199,9 +196,13 @@ fn groups(kind: ContactKind) -> impl Iterator<Item = (String, CurveGroup)> {
     };
     let groups = GROUPS.iter().filter(move |(entity, _)| *entity != other);
     let groups = groups.map(|(entity, curves)| ((*entity).to_owned(), *curves));
-    groups.chain(
-        by_itself().map(move |quantity| (entity(quantity, kind), CurveGroup::ByItself(quantity))),
-    )
+    let all = (scalars::SCALARS.to_owned(), CurveGroup::All);
+    groups
+        .chain(
+            by_itself()
+                .map(move |quantity| (entity(quantity, kind), CurveGroup::ByItself(quantity))),
+        )
+        .chain(std::iter::once(all))
 }
 
 /// What has a view of its own.
@@ -251,8 +252,17 @@ struct SeriesColumn {
 impl Series {
     /// Logs names and colours, once for the whole recording, and collects from there on.
     pub(super) fn new(stream: &Stream, kind: ContactKind) -> Result<Self, ObserveError> {
+        Self::chosen(stream, kind, |_| true)
+    }
+
+    /// Same for the entities that `keep` says.
+    pub(super) fn chosen(
+        stream: &Stream,
+        kind: ContactKind,
+        keep: impl Fn(&str) -> bool,
+    ) -> Result<Self, ObserveError> {
         let mut columns = Vec::new();
-        for (entity, curves) in groups(kind) {
+        for (entity, curves) in groups(kind).filter(|(entity, _)| keep(entity)) {
             let lines = curves.lines(kind);
             columns.push(SeriesColumn {
                 entity: EntityPath::from(entity.as_str()),

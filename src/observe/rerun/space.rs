@@ -23,7 +23,10 @@ use crate::sim::{Frame, Metrics};
 pub(super) const SPACE: &str = "contact_3d";
 /// The sheets below it.
 const FILM: &str = "film_coloured_by_pressure";
-const BODIES: [&str; 2] = ["body_1_surface", "body_2_surface"];
+const BODIES: [&str; 2] = ["body_1_surface", UPPER_BODY];
+/// The sheet of the body above, and what is written beside it.
+pub(super) const UPPER_BODY: &str = "body_2_surface";
+pub(super) const UPPER_LABELS: &str = "labels";
 const SLICE: &str = "effective_stress_slice";
 /// What stands in it.
 const SPOTS: &str = "contact_3d/contact_spots";
@@ -40,6 +43,8 @@ pub(super) struct Tops {
     pub(super) rough: [bool; 2],
     /// Height of both together that can come, m.
     pub(super) roughness_m: f64,
+    /// Times that heights are drawn too high, where that is decided already.
+    pub(super) exaggeration: Option<f64>,
 }
 
 /// The 3-D view.
@@ -127,7 +132,9 @@ impl Space {
             bodies,
             slice,
             tops,
-            exaggeration: exaggeration(geometry, first, tops.roughness_m),
+            exaggeration: tops
+                .exaggeration
+                .unwrap_or_else(|| exaggeration(geometry, first, tops.roughness_m)),
             levels,
             speeds: None,
             hung: hung::Hung::new(stream),
@@ -163,11 +170,23 @@ impl Space {
         )
     }
 
+    /// Times that heights are drawn too high.
+    pub(super) fn exaggeration(&self) -> f64 {
+        self.exaggeration
+    }
+
     /// A point to look at and one to look from.
     pub(super) fn camera(&self) -> [[f64; 3]; 2] {
         let a = self.geometry.a;
         let target = [0.16 * a, 0.2 * a, -0.5 * a];
         [target, [-1.15 * a, -3.3 * a, 1.55 * a]]
+    }
+
+    /// Same for an audience: from above, so that the pressure on the film is seen and the stress below it, too.
+    pub(super) fn lecture_camera(&self) -> [[f64; 3]; 2] {
+        let a = self.geometry.a;
+        let target = [0.3 * a, 0.25 * a, -0.6 * a];
+        [target, [-0.15 * a, -2.6 * a, 2.25 * a]]
     }
 
     /// Logs one frame.

@@ -65,6 +65,8 @@ pub(super) struct Stream {
     waiting: RefCell<Waiting>,
     /// What holds always, in the finished file, bytes.
     always: Cell<f64>,
+    /// Before the name of all that is logged: the run of several that it is of; empty: there is one.
+    under: RefCell<String>,
 }
 
 impl Stream {
@@ -123,7 +125,22 @@ impl Stream {
             timepoint: RefCell::default(),
             waiting: RefCell::default(),
             always: Cell::default(),
+            under: RefCell::default(),
         }
+    }
+
+    /// What is set up or logged next is of that run.
+    pub(super) fn go_under(&self, run: &str) {
+        run.clone_into(&mut self.under.borrow_mut());
+    }
+
+    /// The whole path of an entity.
+    fn path(&self, entity: impl Into<EntityPath>) -> EntityPath {
+        let (under, entity) = (self.under.borrow(), entity.into());
+        if under.is_empty() {
+            return entity;
+        }
+        EntityPath::from(under.as_str()).join(&entity)
     }
 
     /// The path, or which viewer.
@@ -158,28 +175,39 @@ impl Stream {
         data: &(impl AsComponents + ?Sized),
     ) -> Result<(), ObserveError> {
         let now = self.timepoint.borrow().clone();
-        self.waiting.borrow_mut().push(entity, now, data);
+        let under = self.under.borrow();
+        let mut waiting = self.waiting.borrow_mut();
+        if under.is_empty() {
+            waiting.push(entity, now, data);
+        } else {
+            waiting.push(&format!("{under}/{entity}"), now, data);
+        }
+        drop(waiting);
         self.send_if_full()
     }
 
     /// An image of classes that will be logged.
     pub(super) fn class_image(&self, entity: impl Into<EntityPath>) -> ClassImage {
-        self.waiting.borrow_mut().class_image(entity.into())
+        let entity = self.path(entity);
+        self.waiting.borrow_mut().class_image(entity)
     }
 
     /// An image of levels that will be logged.
     pub(super) fn level_image(&self, entity: impl Into<EntityPath>) -> LevelImage {
-        self.waiting.borrow_mut().level_image(entity.into())
+        let entity = self.path(entity);
+        self.waiting.borrow_mut().level_image(entity)
     }
 
     /// A mesh whose colours will be logged and, in all updates or in none, its positions.
     pub(super) fn sheet(&self, entity: impl Into<EntityPath>) -> Sheet {
-        self.waiting.borrow_mut().sheet(entity.into())
+        let entity = self.path(entity);
+        self.waiting.borrow_mut().sheet(entity)
     }
 
     /// Curves that will be logged.
     pub(super) fn curves(&self, entity: impl Into<EntityPath>) -> Curves {
-        self.waiting.borrow_mut().curves(entity.into())
+        let entity = self.path(entity);
+        self.waiting.borrow_mut().curves(entity)
     }
 
     /// Logs curves: `fill` draws them.
@@ -296,7 +324,7 @@ impl Stream {
         batches: Vec<SerializedComponentBatch>,
     ) -> Result<(), ObserveError> {
         let row = PendingRow::from_iter(TimePoint::default(), batches);
-        let chunk = row.into_chunk(entity.into());
+        let chunk = row.into_chunk(self.path(entity));
         self.send(chunk.map_err(|error| self.failed(&error.to_string()))?)
     }
 
@@ -318,7 +346,7 @@ impl Stream {
         let columns = Scalars::new(values.iter().copied())
             .columns(lengths)
             .map_err(|error| self.failed(&error.to_string()))?;
-        let chunk = chunk_of(entity, moments, columns);
+        let chunk = chunk_of(self.path(entity), moments, columns);
         self.send(chunk.map_err(|error| self.failed(&error.to_string()))?)
     }
 

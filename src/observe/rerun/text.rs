@@ -20,6 +20,8 @@ pub(super) const SCENE_TOML: &str = "text/scene_toml";
 pub(super) const PLAN: &str = "text/plan";
 pub(super) const NOTES: &str = "text/notes_on_the_data";
 pub(super) const NOW: &str = "text/now";
+/// Same for an audience, in large type.
+pub(super) const LECTURE: &str = "text/lecture";
 pub(super) const LOG: &str = "log";
 /// What the run began with, for programs.
 pub(super) const ORIGIN: &str = "text/origin";
@@ -94,7 +96,8 @@ pub(super) fn log_notes<'a>(
     }
     stream.log_static(NOTES, &TextDocument::from_markdown(notes))?;
     let markdown = TextDocument::update_fields().with_media_type(MediaType::markdown());
-    stream.log_static(NOW, &markdown)
+    stream.log_static(NOW, &markdown)?;
+    stream.log_static(LECTURE, &markdown)
 }
 
 /// A map whose range was widened: entity, its tops before and after, unit.
@@ -123,8 +126,68 @@ pub(super) fn log_now(
     above: &[Above],
 ) -> Result<(), ObserveError> {
     let text = TextDocument::update_fields().with_text(now(frame, caption, above));
-    stream.log(NOW, &text)
+    stream.log(NOW, &text)?;
+    let text = TextDocument::update_fields().with_text(lecture(frame, caption));
+    stream.log(LECTURE, &text)
 }
+
+/// A text with the band that came out of the run's companion, below the life.
+pub(super) fn with_band(text: &str, band: &str) -> String {
+    let Some(life) = text
+        .lines()
+        .find(|line| line.starts_with(HEADING) || line.starts_with(LIFE_NOW))
+    else {
+        return text.to_owned();
+    };
+    let with = match life.split_once(" (") {
+        Some((number, _)) if life.starts_with(HEADING) => format!("{number} ({band})"),
+        _ => format!("{life}\n\n**{band} with what the mesh costs**"),
+    };
+    text.replacen(life, &with, 1)
+}
+
+/// Cautions that an audience reads.
+const READ: usize = 2;
+
+/// Caption and life, each a heading, and what to think of it.
+fn lecture(frame: &Frame, caption: &str) -> String {
+    let m = &frame.metrics;
+    let mut text = String::with_capacity(512);
+    let slide_roll = sig(m.slide_roll, 3);
+    let motion = match m.slide_roll {
+        s if s == 0.0 => "both bodies roll alike".to_owned(),
+        s if s > 0.0 => "body 1 is the slower".to_owned(),
+        _ => "body 2 is the slower".to_owned(),
+    };
+    // Writing to a string cannot fail.
+    let _ = match caption {
+        "" => writeln!(text, "## S = {slide_roll}: {motion}\n"),
+        caption => writeln!(text, "## {caption}\n"),
+    };
+    if let Some(life) = &m.life {
+        let [value, low, high] = [
+            life.life_relative,
+            life.life_relative_low,
+            life.life_relative_high,
+        ]
+        .map(|v| sig(v, 2));
+        let _ = writeln!(text, "{HEADING} {value} ({low} to {high})\n");
+    } else {
+        let _ = writeln!(
+            text,
+            "# {} GPa\n\n### greatest pressure\n",
+            sig(m.p_max_pa * 1e-9, 3)
+        );
+    }
+    for caution in frame.cautions().iter().take(READ) {
+        let _ = writeln!(text, "- {}", caution.text);
+    }
+    text
+}
+
+/// Before the life in the lecture, and among the numbers.
+const HEADING: &str = "# Life";
+const LIFE_NOW: &str = "### Relative life";
 
 fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
     let m = &frame.metrics;
@@ -178,7 +241,7 @@ fn push_life(text: &mut String, life: &LifeEstimate) {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "### Relative life {value}{settled}\n\n{low} to {high}; cycles {cycles} × peaks {peaks} × traction {traction}\n"
+        "{LIFE_NOW} {value}{settled}\n\n{low} to {high}; cycles {cycles} × peaks {peaks} × traction {traction}\n"
     );
     if let (Some(global), Some(damage)) = (life.detail.life_global, life.detail.life_damage) {
         let [global, damage] = [global, damage].map(|life| sig(life, 3));

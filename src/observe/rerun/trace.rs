@@ -9,7 +9,7 @@ use super::geometry::Geometry;
 use super::plot::{PlotBox, ticks_at};
 use super::stream::{Holds, Stream};
 use super::waiting::Curves;
-use crate::math::number::{GPA, MM, counted, divisions, sig, ticks};
+use crate::math::number::{GPA, MM, counted, divisions, plain, sig, ticks};
 use crate::observe::ObserveError;
 use crate::sim::{Frame, MaterialPoint};
 
@@ -110,9 +110,9 @@ impl TraceEntity {
             x_title: "where the point is: x, mm".into(),
             titles: vec![
                 (0.02, "GPa".into(), WHITE),
-                (0.22, "pressure above the point".into(), ORANGE),
-                (0.48, "effective stress at it".into(), PURPLE),
-                (0.76, "pressure, crossing before".into(), GREY),
+                (0.16, "pressure".into(), ORANGE),
+                (0.45, "effective stress".into(), PURPLE),
+                (0.8, "crossing before".into(), GREY),
             ],
             ..PlotBox::default()
         };
@@ -246,11 +246,8 @@ fn counts(point: &MaterialPoint, frame: &Frame) -> String {
     let peaks = counted(point.cycles_counted as u64, "peak");
     let mut parts = vec![format!("body {}: {peaks} so far", point.body)];
     let before = point.cycles_before;
-    parts.extend(before.map(|closed| {
-        let closed = counted(closed as u64, "cycle");
-        format!("{closed} in the crossing before")
-    }));
-    parts.extend(expected.map(|n| format!("{} expected on average", sig(n, 3))));
+    parts.extend(before.map(|closed| format!("{} before", plain(closed))));
+    parts.extend(expected.map(|n| format!("{} expected", sig(n, 3))));
     parts.join(", ")
 }
 
@@ -269,9 +266,6 @@ mod tests {
         };
         assert_eq!(counts(&point(1.0, None), &frame), "body 1: 1 peak so far");
         let text = counts(&point(2.0, Some(1.0)), &frame);
-        assert_eq!(
-            text,
-            "body 1: 2 peaks so far, 1 cycle in the crossing before"
-        );
+        assert_eq!(text, "body 1: 2 peaks so far, 1 before");
     }
 }

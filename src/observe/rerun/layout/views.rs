@@ -13,10 +13,10 @@ use rerun::{AsComponents, Color};
 use super::super::colour::BACKGROUND;
 use super::super::maps;
 use super::super::plot::{Margin, PlotBox};
-use super::super::space::SPACE;
+use super::super::space::{SPACE, UPPER_BODY, UPPER_LABELS};
 
 /// A property of a view and the path it goes to.
-pub(super) struct Property {
+pub(in super::super) struct Property {
     pub(super) path: String,
     pub(super) value: Box<dyn AsComponents>,
 }
@@ -28,13 +28,15 @@ fn background() -> Background {
 
 /// Views under construction, with their properties.
 #[derive(Default)]
-pub(super) struct Views {
-    pub(super) properties: Vec<Property>,
+pub(in super::super) struct Views {
+    pub(in super::super) properties: Vec<Property>,
+    /// The run of several whose entities views show, with a stroke behind it; empty: there is one.
+    pub(in super::super) under: String,
 }
 
 impl Views {
     /// Notes a property of a view that has just been made.
-    pub(super) fn set(
+    pub(in super::super) fn set(
         &mut self,
         view: &ContainerLike,
         name: &str,
@@ -49,14 +51,16 @@ impl Views {
     }
 
     /// A view of a plot: its own entity, what is drawn over it, and bounds with room for the axes.
-    pub(super) fn plot(
+    pub(in super::super) fn plot(
         &mut self,
         name: &str,
         contents: &[&str],
         plot: &PlotBox,
         right: Margin,
     ) -> ContainerLike {
-        let contents = contents.iter().map(|entity| format!("/{entity}/**"));
+        let contents = contents
+            .iter()
+            .map(|entity| format!("/{}{entity}/**", self.under));
         let view = Spatial2DView::new(name)
             .with_origin("/")
             .with_contents(contents)
@@ -71,7 +75,7 @@ impl Views {
         view
     }
 
-    pub(super) fn map(
+    pub(in super::super) fn map(
         &mut self,
         name: &str,
         entity: &str,
@@ -83,22 +87,53 @@ impl Views {
         self.plot(name, &contents, plot, Margin::Legend)
     }
 
-    pub(super) fn space(&mut self, name: &str, [target, eye]: [[f64; 3]; 2]) -> ContainerLike {
+    pub(in super::super) fn space(&mut self, name: &str, camera: [[f64; 3]; 2]) -> ContainerLike {
         let view = Spatial3DView::new(name)
-            .with_origin(format!("/{SPACE}"))
+            .with_origin(format!("/{}{SPACE}", self.under))
             .into();
+        self.look(&view, camera);
+        view
+    }
+
+    /// The same without the body above, which would hide the pressure.
+    pub(in super::super) fn lecture_space(
+        &mut self,
+        name: &str,
+        camera: [[f64; 3]; 2],
+    ) -> ContainerLike {
+        let view = Spatial3DView::new(name)
+            .with_origin(format!("/{}{SPACE}", self.under))
+            .with_contents([
+                format!("+ /{}{SPACE}/**", self.under),
+                format!("- /{}{SPACE}/{UPPER_BODY}/**", self.under),
+                format!("- /{}{SPACE}/{UPPER_LABELS}/**", self.under),
+            ])
+            .into();
+        self.look(&view, camera);
+        view
+    }
+
+    fn look(&mut self, view: &ContainerLike, [target, eye]: [[f64; 3]; 2]) {
         let controls = EyeControls3D::new()
             .with_position(eye.map(|v| v as f32))
             .with_look_target(target.map(|v| v as f32))
             .with_eye_up([0.0_f32, 0.0, 1.0]);
-        self.set(&view, "EyeControls3D", controls);
-        self.set(&view, "Background", background());
-        self.set(&view, "LineGrid3D", LineGrid3D::new().with_visible(false));
+        self.set(view, "EyeControls3D", controls);
+        self.set(view, "Background", background());
+        self.set(view, "LineGrid3D", LineGrid3D::new().with_visible(false));
+    }
+
+    /// Curves whose title says all that a legend would, and hides none.
+    pub(in super::super) fn single(&mut self, name: &str, entity: &str) -> ContainerLike {
+        let view = self.series(name, &[entity]);
+        self.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
         view
     }
 
-    pub(super) fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
-        let contents = entities.iter().map(|entity| format!("/{entity}/**"));
+    pub(in super::super) fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
+        let contents = entities
+            .iter()
+            .map(|entity| format!("/{}{entity}/**", self.under));
         let view = TimeSeriesView::new(name)
             .with_origin("/")
             .with_contents(contents)
@@ -108,9 +143,9 @@ impl Views {
         view
     }
 
-    pub(super) fn document(&mut self, name: &str, entity: &str) -> ContainerLike {
+    pub(in super::super) fn document(&mut self, name: &str, entity: &str) -> ContainerLike {
         let view = TextDocumentView::new(name)
-            .with_origin(format!("/{entity}"))
+            .with_origin(format!("/{}{entity}", self.under))
             .into();
         let format = TextDocumentFormat::new().with_monospace(Enabled::from(true));
         self.set(&view, "TextDocumentFormat", format);

@@ -9,6 +9,7 @@ use super::super::layout::{self, ShownViews};
 use super::super::maps::{self, Maps};
 use super::super::picture::Beyond;
 use super::super::raster::RasterEntity;
+use super::super::scalars;
 use super::super::series::Series;
 use super::super::slice::Slice;
 use super::super::space::{Space, Tops};
@@ -27,17 +28,19 @@ use crate::sim::Frame;
 const BESIDE_EVERY: u64 = 2;
 
 /// What is set up by the first frame.
-pub(super) struct ViewState {
+pub(in super::super) struct ViewState {
     pub(super) geometry: Geometry,
     scope: Scope,
+    /// Whether its ranges are those of several runs, and stay.
+    is_common: bool,
     pub(super) cadence: Cadence,
-    pub(super) series: Series,
+    pub(in super::super) series: Series,
     maps: Maps,
     slice: Option<Slice>,
     space: Option<Space>,
     centre_line: CentreLine,
     trace: Option<TraceEntity>,
-    pub(super) kymographs: [KymographEntity; 2],
+    pub(in super::super) kymographs: [KymographEntity; 2],
     damage: Damage,
     /// Bodies whose damage is mapped.
     damaged: [bool; 2],
@@ -45,14 +48,41 @@ pub(super) struct ViewState {
     pub(super) pictures: u64,
 }
 
+/// What runs that are shown side by side have in common.
+#[derive(Debug, Clone)]
+pub(in super::super) struct Common {
+    /// Ranges that hold for all of them.
+    pub(in super::super) scope: Scope,
+    /// Times that heights are drawn too high.
+    pub(in super::super) exaggeration: Option<f64>,
+}
+
 impl ViewState {
+    /// Sets up what a run is shown by, and how it is laid out.
     pub(super) fn new(
         stream: &Stream,
         record: &Record,
         scene: Option<&Scene>,
         first: &Frame,
     ) -> Result<Self, ObserveError> {
-        let scope = Scope::of(scene, first);
+        let series = Series::new(stream, first.kind)?;
+        let views = Self::of(stream, record, (scene, first), series, None)?;
+        layout::send(stream, &views.shown(first, stream.is_live()))?;
+        Ok(views)
+    }
+
+    /// Same without a layout; with what runs have in `common`.
+    pub(in super::super) fn of(
+        stream: &Stream,
+        record: &Record,
+        (scene, first): (Option<&Scene>, &Frame),
+        series: Series,
+        common: Option<Common>,
+    ) -> Result<Self, ObserveError> {
+        let is_common = common.is_some();
+        let exaggeration = common.as_ref().and_then(|common| common.exaggeration);
+        let scope = common.map_or_else(|| Scope::of(scene, first), |common| common.scope);
+        scalars::log_grid(stream, first)?;
         let geometry = Geometry::of(first, scope.to_come.size);
         if !geometry.holds(first) {
             return Err(ObserveError::new(
@@ -68,6 +98,7 @@ impl ViewState {
             effective_pa: slice.as_ref().map(|_| ranges.effective_pa),
             rough: ranges.rough,
             roughness_m: scope.to_come.amplitude_m.iter().sum(),
+            exaggeration,
         };
         let space = Space::new(stream, geometry, first, tops)?;
         let centre_line = CentreLine::new(stream, geometry, ranges.pressure_pa, ranges.film_m)?;
@@ -93,8 +124,9 @@ impl ViewState {
         let views = Self {
             geometry,
             scope,
+            is_common,
             cadence,
-            series: Series::new(stream, first.kind)?,
+            series,
             maps,
             slice,
             space,
@@ -108,8 +140,12 @@ impl ViewState {
             pictures: 0,
         };
         views.log_notes(stream)?;
-        layout::send(stream, &views.shown(first, stream.is_live()))?;
         Ok(views)
+    }
+
+    /// The factor of heights in the 3-D view; `None`: there is none.
+    pub(in super::super) fn exaggeration(&self) -> Option<f64> {
+        self.space.as_ref().map(Space::exaggeration)
     }
 
     fn log_notes(&self, stream: &Stream) -> Result<(), ObserveError> {
@@ -128,7 +164,7 @@ impl ViewState {
         scene: Option<&Scene>,
         frame: &Frame,
     ) -> Result<(), ObserveError> {
-        if !self.scope.grows(scene, &frame.metrics) {
+        if self.is_common || !self.scope.grows(scene, &frame.metrics) {
             return Ok(());
         }
         let ranges = &self.scope.ranges;
@@ -152,7 +188,8 @@ impl ViewState {
         self.log_notes(stream)
     }
 
-    fn shown(&self, first: &Frame, live: bool) -> ShownViews {
+    /// What the layout has to know.
+    pub(in super::super) fn shown(&self, first: &Frame, live: bool) -> ShownViews {
         let speed = first.metrics.entrainment_m_s.abs();
         ShownViews {
             live,
@@ -165,6 +202,7 @@ impl ViewState {
             trace: self.trace.as_ref().map(|trace| trace.plot().clone()),
             kymograph: self.kymographs[0].plot().clone(),
             camera: self.space.as_ref().map(Space::camera),
+            lecture: self.space.as_ref().map(Space::lecture_camera),
             rough: self.scope.ranges.rough,
             damaged: self.damaged,
             life: first.metrics.life.is_some(),
@@ -208,17 +246,22 @@ impl ViewState {
     }
 
     /// What has to see every step.
-    pub(super) fn follow(&mut self, frame: &Frame) {
-        if let Some(trace) = &mut self.trace {
-            trace.follow(frame);
-        }
+    pub(in super::super) fn follow(&mut self, frame: &Frame) {
+        self.follow_point(frame);
         for kymograph in &mut self.kymographs {
             kymograph.follow(frame);
         }
     }
 
+    /// What has to see every step and needs no fields.
+    pub(in super::super) fn follow_point(&mut self, frame: &Frame) {
+        if let Some(trace) = &mut self.trace {
+            trace.follow(frame);
+        }
+    }
+
     /// The fields of a frame.
-    pub(super) fn log(
+    pub(in super::super) fn log(
         &mut self,
         stream: &Stream,
         scene: Option<&Scene>,
@@ -249,6 +292,7 @@ impl ViewState {
         self.pictures += 1;
         for kymograph in &mut self.kymographs {
             kymograph.log_if_due(stream)?;
+            kymograph.log_now(stream, frame.step)?;
         }
         Ok(())
     }

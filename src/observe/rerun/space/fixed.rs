@@ -5,7 +5,7 @@ use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32}
 use super::super::colour::{GREY, Ramp, WHITE, faded};
 use super::super::mesh::{MeshWindow, triangles};
 use super::super::stream::Stream;
-use super::{BODIES, FILM, POINT, SLICE, SPACE, SPOTS, Space, steel};
+use super::{BODIES, FILM, POINT, SLICE, SPACE, SPOTS, Space, UPPER_LABELS, steel};
 use crate::math::number::{GPA, MM, plain, ticks};
 use crate::observe::ObserveError;
 use crate::picture::CONTACT;
@@ -195,6 +195,6 @@ impl Space {
         .with_colors([Color::from(WHITE)])
         .with_labels(texts.iter().map(|(_, text)| text.as_str()))
         .with_show_labels(true);
-        stream.log_static(format!("{SPACE}/labels"), &labels)
+        stream.log_static(format!("{SPACE}/{UPPER_LABELS}"), &labels)
     }
 }

@@ -1,0 +1,70 @@
+"""Reads a recording of asperity into numpy arrays, in SI.
+
+    pip install rerun-sdk==0.36.3 numpy
+
+    import asperity
+    run = asperity.read("demonstration.rrd")
+    run.scalars["life_relative"]        # every step; run.scalars["time_s"], run.scalars["p_max_pa"], ...
+    run.fields["pressure_pa"].values    # [picture, y, x]; .step says which
+    run.x_m, run.y_m, run.depths_m
+
+Fields have half precision (0.05 %), scalars all their digits. What is not known is NaN.
+"""
+
+import types
+
+import numpy as np
+import rerun.experimental as rx
+
+# Entity, name, SI units of one of its own, whether its rows are depths.
+FIELDS = [
+    ("/maps/pressure_GPa/image", "pressure_pa", 1e9, False),
+    ("/maps/film_um/image", "film_m", 1e-6, False),
+    ("/maps/traction_on_body_1_MPa/image", "traction_on_body_1_pa", 1e6, False),
+    ("/maps/roughness_body_1_um/image", "roughness_1_m", 1e-6, False),
+    ("/maps/roughness_body_2_um/image", "roughness_2_m", 1e-6, False),
+    ("/slice_y0/effective_stress_GPa/image", "slice_effective_pa", 1e9, True),
+    ("/slice_y0/tau_xz_GPa/image", "slice_tau_xz_pa", 1e9, True),
+]
+
+
+def read(path):
+    """Scalars, fields and axes of a recording."""
+    rows = {}
+    reader = rx.RrdReader(path)
+    for chunk in reader.stream(store=reader.recordings()[0]):
+        batch = chunk.to_record_batch()
+        for name in batch.schema.names:
+            component = name.split(":")[-1]
+            if component in ("scalars", "buffer", "names"):
+                steps = batch.column("step").to_pylist() if "step" in batch.schema.names else [None] * batch.num_rows
+                cells = batch.column(name)
+                rows.setdefault((chunk.entity_path, component), []).extend(
+                    (step, cell.values) for step, cell in zip(steps, cells) if cell.is_valid
+                )
+    fixed = lambda entity: rows[(entity, "scalars")][-1][1].to_numpy(zero_copy_only=False)
+    _, nx, ny, x_min, dx, y_min, dy = fixed("/grid_si")
+    nx, ny = int(nx), int(ny)
+    table = sorted(rows[("/scalars_si", "scalars")], key=lambda row: row[0])
+    names = rows[("/scalars_si", "names")][-1][1].to_pylist()
+    values = np.array([cell.to_numpy(zero_copy_only=False) for _, cell in table])
+    fields = {}
+    for entity, name, unit, is_below in FIELDS:
+        pictures = sorted(rows.get((entity, "buffer"), []), key=lambda row: row[0])
+        if not pictures:
+            continue
+        # A list of one blob of bytes: halves, little-endian.
+        blobs = [np.frombuffer(bytes(cell[0].as_py()), dtype="<f2").reshape(-1, nx) for _, cell in pictures]
+        stack = np.stack(blobs).astype(np.float64) * unit
+        fields[name] = types.SimpleNamespace(
+            step=np.array([step for step, _ in pictures]),
+            # Pictures begin with their upper row, which is the last in y.
+            values=stack if is_below else stack[:, ::-1, :],
+        )
+    return types.SimpleNamespace(
+        scalars={name: values[:, k] for k, name in enumerate(names)},
+        fields=fields,
+        x_m=x_min + dx * np.arange(nx),
+        y_m=y_min + dy * np.arange(ny),
+        depths_m=fixed("/slice_y0/depths_m") if ("/slice_y0/depths_m", "scalars") in rows else np.array([]),
+    )

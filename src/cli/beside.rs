@@ -1,0 +1,176 @@
+//! Runs side by side: `asperity compare` of recordings, and `asperity run --beside` of a scene at two or three values of a
+//! key.
+
+use std::path::{Path, PathBuf};
+
+use super::args::{CompareArgs, HeadlessArgs};
+use super::failure::Failure;
+
+/// The values of a key that `--beside` names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct BesideValues {
+    /// Key of a scene.
+    pub(crate) key: String,
+    /// As they were written.
+    pub(crate) values: Vec<String>,
+}
+
+impl std::str::FromStr for BesideValues {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = "such as motion.slide_roll=0,0.5: a key and two or three values";
+        let (key, values) = text.split_once('=').ok_or(wrong)?;
+        let values: Vec<String> = values
+            .split(',')
+            .map(|value| value.trim().to_owned())
+            .collect();
+        let is_whole = !key.trim().is_empty() && values.iter().all(|value| !value.is_empty());
+        if !is_whole || !(2..=3).contains(&values.len()) {
+            return Err(wrong.to_owned());
+        }
+        Ok(Self {
+            key: key.trim().to_owned(),
+            values,
+        })
+    }
+}
+
+/// Runs a scene once for each value and puts the recordings side by side.
+pub(crate) fn run(
+    args: &HeadlessArgs,
+    beside: &BesideValues,
+    run: impl Fn(&HeadlessArgs) -> Result<u8, Failure>,
+) -> Result<u8, Failure> {
+    let stem = Path::new(&args.run.scene.scene).file_stem();
+    let stem = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
+    let usual = || PathBuf::from(format!("{stem}_beside.rrd"));
+    let out = args.run.out.clone().unwrap_or_else(usual);
+    asperity::observe::Overwrite::from_force(args.run.force).check(&out)?;
+    let parts = parts_of(&out, beside.values.len());
+    let mut code = 0;
+    let mut outcome = Ok(());
+    for (value, part) in beside.values.iter().zip(&parts) {
+        super::scenes::print(&format!("{} = {value}\n\n", beside.key))?;
+        match run(&args.with(&beside.key, value, part)) {
+            Ok(own) => code = code.max(own),
+            Err(failure) => outcome = Err(failure),
+        }
+        if outcome.is_err() || code > 2 {
+            break;
+        }
+        super::scenes::print("\n")?;
+    }
+    if outcome.is_ok() && code <= 2 {
+        let name = |value: &String| format!("{} = {value}", beside.key);
+        let named = beside.values.iter().map(name).zip(parts.iter().cloned());
+        outcome = put_together(&named.collect::<Vec<_>>(), &out, args.run.force, args.by);
+    }
+    for part in parts {
+        // What never came need not go.
+        drop(std::fs::remove_file(part));
+    }
+    outcome.map(|()| code)
+}
+
+/// Names of recordings that are there only until they are one.
+fn parts_of(out: &Path, count: usize) -> Vec<PathBuf> {
+    let name = |k| format!(".asperity-beside-{}-{k}.rrd", std::process::id());
+    (0..count).map(|k| out.with_file_name(name(k))).collect()
+}
+
+/// Puts recordings side by side.
+pub(crate) fn compare(args: &CompareArgs) -> Result<u8, Failure> {
+    let stem = |path: &PathBuf| {
+        path.file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned())
+    };
+    let names = args.files.iter().map(|path| stem(path).unwrap_or_default());
+    let mut named: Vec<(String, PathBuf)> = names.zip(args.files.iter().cloned()).collect();
+    // Files of one name in several folders.
+    for k in 1..named.len() {
+        if named[..k].iter().any(|(name, _)| *name == named[k].0) {
+            named[k].0 = format!("{} ({})", named[k].0, k + 1);
+        }
+    }
+    let clash = args
+        .files
+        .iter()
+        .any(|file| asperity::files::identity(file) == asperity::files::identity(&args.out));
+    if clash {
+        return Err(Failure::input(miette::miette!(
+            "--out {} is one of the recordings that are read",
+            args.out.display()
+        )));
+    }
+    put_together(&named, &args.out, args.force, args.by)?;
+    Ok(0)
+}
+
+#[cfg(feature = "rerun")]
+fn put_together(
+    named: &[(String, PathBuf)],
+    out: &Path,
+    force: bool,
+    by: super::args::CompareBy,
+) -> Result<(), Failure> {
+    use asperity::math::number::{GPA, counted, sig};
+    use asperity::observe::Overwrite;
+    use asperity::observe::rerun::{ComparedBy, RecordedFrames, RunBeside, compare};
+
+    let mut runs = Vec::with_capacity(named.len());
+    for (name, path) in named {
+        let frames = RecordedFrames::read(path)
+            .map_err(|error| Failure::input(miette::miette!("{error}")))?;
+        runs.push(RunBeside {
+            name: name.clone(),
+            frames,
+        });
+    }
+    let by = match by {
+        super::args::CompareBy::Time => ComparedBy::Time,
+        super::args::CompareBy::Place => ComparedBy::Place,
+    };
+    let beside = compare(&runs, out, Overwrite::from_force(force), by)?;
+    let text = format!(
+        "{}: {} side by side at {}, pictures at most {} of a step apart; pressures differ by {} GPa at most\n",
+        out.display(),
+        counted(runs.len() as u64, "run"),
+        counted(beside.pictures, "moment"),
+        sig(beside.apart_steps, 2),
+        sig(GPA.of(beside.difference_pa), 3),
+    );
+    super::scenes::print(&text)?;
+    Ok(())
+}
+
+#[cfg(not(feature = "rerun"))]
+fn put_together(
+    _named: &[(String, PathBuf)],
+    _out: &Path,
+    _force: bool,
+    _by: super::args::CompareBy,
+) -> Result<(), Failure> {
+    Err(Failure::input(miette::miette!(
+        help = "use a build with the default features",
+        "this program was built without the feature rerun, so it reads no recordings"
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_read_or_refused() {
+        let read = |text: &str| text.parse::<BesideValues>();
+        let values = read("motion.slide_roll=0, 0.5").expect("two values");
+        assert_eq!(
+            (values.key.as_str(), values.values.len()),
+            ("motion.slide_roll", 2)
+        );
+        for wrong in ["motion.slide_roll", "a=1", "a=1,,2", "=1,2", "a=1,2,3,4"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! `asperity export`: pictures, animations and numbers out of a recording.
+
+use super::args::ExportArgs;
+use super::failure::Failure;
+
+/// Writes what was asked for.
+#[cfg(feature = "rerun")]
+pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
+    use std::path::PathBuf;
+    use std::time::Instant;
+
+    use asperity::math::number::{bytes, counted, seconds};
+    use asperity::observe::rerun::RecordedFrames;
+    use asperity::observe::{
+        Export, Format, Observer as _, Overwrite, PrintSize, RunContext, Table, picture_names,
+    };
+    use miette::miette;
+
+    use super::args::ExportAs;
+
+    let names = picture_names();
+    if let Some(unknown) = args
+        .show
+        .iter()
+        .find(|name| !names.contains(&name.as_str()))
+    {
+        return Err(Failure::input(miette!(
+            help = format!("there are {}", names.join(", ")),
+            "--show {unknown}: no picture of that name"
+        )));
+    }
+    let started = Instant::now();
+    let read = RecordedFrames::read(&args.file);
+    let frames = read.map_err(|error| Failure::input(miette!("{error}")))?;
+    let read_s = started.elapsed().as_secs_f64();
+    let stem = args.file.file_stem().unwrap_or_default().to_string_lossy();
+    let usual = || PathBuf::from(format!("{stem}_export"));
+    let folder = args.out.clone().unwrap_or_else(usual);
+    let overwrite = Overwrite::from_force(args.force);
+    let formats: Vec<Format> = args
+        .formats
+        .iter()
+        .filter_map(|format| format.of_steps())
+        .collect();
+    let print = PrintSize {
+        width_mm: args.width_mm,
+        dpi: args.dpi,
+        font_pt: args.font_pt,
+    };
+    let context = RunContext {
+        scene: std::sync::Arc::clone(&frames.scene),
+        scene_toml: frames.scene_toml.clone(),
+        plan_text: String::new(),
+        program: frames.program.clone(),
+        began: asperity::observe::Began::FromScene,
+    };
+    let mut export = Export::create(&folder, overwrite, &formats)?.of(&args.show, print);
+    export.begin(&context)?;
+    let (whole, shown) = (frames.whole(), frames.shown());
+    let mut next = 0;
+    for step in shown {
+        // A still has all that the run's own export has; the shear and the roughness are in every second picture.
+        let as_still = step >= next && whole.binary_search(&step).is_ok();
+        if as_still {
+            next = step + args.every;
+        }
+        if let Some(frame) = frames.frame(step) {
+            export.take(&frame, as_still)?;
+        }
+    }
+    let mut written = export.finish()?.bytes;
+    if args.formats.contains(&ExportAs::Csv) {
+        let mut table = Table::create(&folder.join("table.csv"), overwrite)?;
+        table.begin(&context)?;
+        for frame in frames.steps() {
+            table.frame(&std::sync::Arc::new(frame))?;
+        }
+        written += table.finish()?.bytes;
+    }
+    let all_s = started.elapsed().as_secs_f64();
+    let text = format!(
+        "{}: {} of {} with pictures read in {}; {} written in {}\n",
+        folder.display(),
+        frames.shown().len(),
+        counted(frames.n_steps() as u64, "step"),
+        seconds(read_s),
+        bytes(written),
+        seconds(all_s - read_s),
+    );
+    super::scenes::print(&text)?;
+    Ok(0)
+}
+
+/// Without the recorder nothing can be read.
+#[cfg(not(feature = "rerun"))]
+pub(crate) fn export(_args: &ExportArgs) -> Result<u8, Failure> {
+    Err(Failure::input(miette::miette!(
+        help = "use a build with the default features",
+        "this program was built without the feature rerun, so it reads no recordings"
+    )))
+}

@@ -1,0 +1,287 @@
+//! The tabs: the first is for an audience, the next for looking closer; what is used rarely comes last.
+
+use rerun::blueprint::components::Corner2D;
+use rerun::blueprint::{ContainerLike, Grid, Horizontal, TextLogView, Vertical};
+use rerun::external::re_sdk_types::blueprint::archetypes::PlotLegend;
+
+use super::super::centre_line::CENTRE_LINE;
+use super::super::damage;
+use super::super::interferogram::INTERFEROGRAM;
+use super::super::kymograph;
+use super::super::maps;
+use super::super::plot::Margin;
+use super::super::series::{YIELDED, by_itself, entity};
+use super::super::slice;
+use super::super::text;
+use super::super::trace::TRACE;
+use super::ShownViews;
+use super::views::Views;
+use crate::picture::Subject;
+use crate::scene::ContactKind;
+
+/// All tabs of a run.
+pub(super) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
+    let mut tabs = vec![lecture(views, shown), contact(views, shown)];
+    // The rows of a line contact are all alike: maps of it would be pictures of curves.
+    if shown.kind == ContactKind::Point {
+        tabs.push(maps_of_a_point(views, shown));
+    }
+    if shown.trace.is_some() {
+        tabs.push(point(views, shown));
+    }
+    if shown.life {
+        tabs.push(life(views));
+    }
+    tabs.extend(damage_of_both(views, shown));
+    tabs.push(scalars(views, shown));
+    tabs.push(convergence(views));
+    tabs.push(scene(views));
+    tabs
+}
+
+/// What an audience sees: the contact large, the life in large type, what a point feels, pressure over time.
+fn lecture(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let large = match shown.lecture {
+        Some(camera) => views.lecture_space("Pressure on the film, stress below", camera),
+        None => views.map(Subject::Pressure.title(), maps::PRESSURE, &[], &shown.map),
+    };
+    let mut right = vec![views.document("What is seen", text::LECTURE)];
+    if let Some(plot) = &shown.trace {
+        right.push(views.plot("A point that passes", &[TRACE], plot, Margin::Plain));
+    }
+    right.push(over_time(views, shown, true));
+    let mut shares = vec![0.9];
+    shares.resize(right.len(), 1.0);
+    Horizontal::new([large, Vertical::new(right).with_row_shares(shares).into()])
+        .with_column_shares(vec![1.6, 1.0])
+        .with_name("Lecture")
+        .into()
+}
+
+fn over_time(views: &mut Views, shown: &ShownViews, pressure: bool) -> ContainerLike {
+    let (title, entity) = if pressure {
+        ("Pressure along y = 0 against time", kymograph::PRESSURE)
+    } else {
+        ("Film along y = 0 against time", kymograph::FILM)
+    };
+    views.plot(title, &[entity], &shown.kymograph, Margin::Legend)
+}
+
+fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let mut upper = Vec::new();
+    let mut shares = Vec::new();
+    if let Some(camera) = shown.camera {
+        upper.push(views.space("Contact cut open at y = 0", camera));
+        shares.push(1.25);
+    }
+    match shown.kind {
+        ContactKind::Point => {
+            let film = Subject::Film.title();
+            upper.push(views.map(Subject::Pressure.title(), maps::PRESSURE, &[], &shown.map));
+            upper.push(views.map(film, maps::FILM, &[maps::CONTACT], &shown.map));
+        }
+        ContactKind::Line => {
+            upper.push(over_time(views, shown, true));
+            upper.push(over_time(views, shown, false));
+        }
+    }
+    shares.extend([1.0, 1.0]);
+    let mut lower = vec![views.document("Now", text::NOW)];
+    let mut lower_shares = vec![0.75];
+    if let Some(plot) = &shown.slice {
+        let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT, slice::HERTZ];
+        lower.push(views.plot(STRESS, &contents, plot, Margin::Legend));
+        lower_shares.push(1.0);
+    }
+    let centre = "Centre line: pressure and film";
+    lower.push(views.plot(centre, &[CENTRE_LINE], &shown.centre_line, Margin::Ticks));
+    lower_shares.push(1.0);
+    let last = if shown.life {
+        life_series(views)
+    } else {
+        views.series("Pressure", &["series/pressure_GPa"])
+    };
+    lower.push(last);
+    lower_shares.push(0.7);
+    Vertical::new([
+        Horizontal::new(upper).with_column_shares(shares).into(),
+        Horizontal::new(lower)
+            .with_column_shares(lower_shares)
+            .into(),
+    ])
+    .with_row_shares(vec![1.1, 1.0])
+    .with_name("Contact")
+    .into()
+}
+
+/// Depths crowd below the surface as on a logarithmic axis.
+const STRESS: &str = "Effective stress, a row per depth";
+
+fn life_series(views: &mut Views) -> ContainerLike {
+    // The title says it.
+    views.single("Life, log10 (grey: band)", "life/log10_relative")
+}
+
+fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let map = &shown.map;
+    let fringes = Subject::Interferogram.title();
+    let mut all = vec![
+        views.map(fringes, INTERFEROGRAM, &[], &shown.interferogram),
+        views.map(Subject::Traction.title(), maps::TRACTION, &[], map),
+    ];
+    for (rough, subject, entity) in [
+        (shown.rough[0], Subject::Roughness1, maps::ROUGHNESS_1),
+        (shown.rough[1], Subject::Roughness2, maps::ROUGHNESS_2),
+    ] {
+        if rough {
+            all.push(views.map(subject.title(), entity, &[], map));
+        }
+    }
+    all.extend(shear(views, shown));
+    all.push(over_time(views, shown, true));
+    all.push(over_time(views, shown, false));
+    if all.len() % 4 == 3 {
+        all.push(views.document("Now", text::NOW));
+    }
+    Grid::new(all).with_grid_columns(4).with_name("Maps").into()
+}
+
+fn shear(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let contents = [slice::TAU_XZ, slice::HERTZ];
+    let plot = shown.slice.as_ref()?;
+    Some(views.plot(
+        "Shear τxz, a row per depth",
+        &contents,
+        plot,
+        Margin::Legend,
+    ))
+}
+
+fn point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let mut upper = Vec::new();
+    if let Some(plot) = &shown.trace {
+        let title = "What the followed point has felt";
+        upper.push(views.plot(title, &[TRACE], plot, Margin::Plain));
+    }
+    if let Some(plot) = &shown.slice {
+        let contents = [slice::EFFECTIVE, slice::POINT];
+        upper.push(views.plot("Where the point is", &contents, plot, Margin::Legend));
+        if shown.kind == ContactKind::Line {
+            upper.extend(shear(views, shown));
+        }
+    }
+    let cycles = views.series("Peaks in this crossing", &["material_point/cycles"]);
+    // The count climbs from the lower left to the formula's line.
+    let lower_right = PlotLegend::new().with_corner(Corner2D::RightBottom);
+    views.set(&cycles, "PlotLegend", lower_right);
+    let stress = "Stress at the point against time, GPa";
+    let lower = vec![
+        views.series(stress, &["material_point/stress_GPa"]),
+        cycles,
+        views.series("Where the point is, mm", &["material_point/position_mm"]),
+    ];
+    let mut shares = vec![1.6];
+    shares.resize(upper.len(), 1.0);
+    Vertical::new([
+        Horizontal::new(upper).with_column_shares(shares).into(),
+        Horizontal::new(lower).into(),
+    ])
+    .with_row_shares(vec![1.3, 1.0])
+    .with_name("Material point")
+    .into()
+}
+
+fn life(views: &mut Views) -> ContainerLike {
+    let left = Vertical::new([
+        life_series(views),
+        views.series("Factors of life, log10", &["life/log10_factors"]),
+    ]);
+    let middle = Vertical::new([
+        views.series(
+            "Contacts per loading cycle, n",
+            &["life/contacts_per_cycle"],
+        ),
+        views.single("Greatest effective stress, GPa", "series/stress_GPa"),
+    ]);
+    let right = Vertical::new([
+        views.document("Now", text::NOW),
+        views.series("S, and U in m/s", &["series/motion"]),
+    ]);
+    Horizontal::new([left, middle, right].map(ContainerLike::from))
+        .with_column_shares(vec![1.0, 0.9, 0.8])
+        .with_name("Life")
+        .into()
+}
+
+/// What collects in both bodies and where the pit starts; `None`: nothing is mapped.
+fn damage_of_both(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let bodies = (0..2).filter(|&body| shown.damaged[body]);
+    let maps = bodies.map(|body| {
+        let title = format!(
+            "Damage of body {}, worst of the smooth contact = 0",
+            body + 1
+        );
+        let contents = [damage::DAMAGE[body]];
+        views.plot(&title, &contents, &damage::plot_box(), Margin::Legend)
+    });
+    let maps: Vec<ContainerLike> = maps.collect();
+    (!maps.is_empty()).then(|| Horizontal::new(maps).with_name("Damage").into())
+}
+
+/// Every scalar against time, where it has no better place.
+fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let kind = shown.kind;
+    let mut all = vec![
+        views.series("Pressure, GPa", &["series/pressure_GPa"]),
+        views.series("Film, µm", &["series/film_um"]),
+        views.series("Contact, %", &["series/contact_percent"]),
+        views.single("Friction coefficient", "series/friction"),
+        match kind {
+            ContactKind::Point => views.series("Load, N", &["series/load_N"]),
+            ContactKind::Line => views.series("Load, N/m", &["series/load_N_per_m"]),
+        },
+        views.series("Hertz half-width, µm", &["series/half_width_um"]),
+        views.single("λ ratio", "series/lambda_ratio"),
+        views.single("Regime: 0 dry to 3 full film", "series/regime"),
+    ];
+    if shown.yields {
+        let title = match kind {
+            ContactKind::Point => "Yielded for good, µm³",
+            ContactKind::Line => "Yielded for good, µm³ per metre",
+        };
+        all.push(views.series(title, &[YIELDED]));
+    }
+    for quantity in by_itself() {
+        all.push(views.single(&quantity.label(kind), &entity(quantity, kind)));
+    }
+    Grid::new(all)
+        .with_grid_columns(3)
+        .with_name("Scalars")
+        .into()
+}
+
+fn convergence(views: &mut Views) -> ContainerLike {
+    Grid::new([
+        views.series("Errors, log10", &["convergence/log10_errors"]),
+        views.series("Iterations", &["convergence/iterations"]),
+        views.series("Cautions (1: holds)", &["series/cautions"]),
+        TextLogView::new("Log").with_origin("/log").into(),
+    ])
+    .with_grid_columns(2)
+    .with_name("Convergence")
+    .into()
+}
+
+fn scene(views: &mut Views) -> ContainerLike {
+    Horizontal::new([
+        views.document("About", text::ABOUT),
+        views.document("Scene (TOML)", text::SCENE_TOML),
+        Vertical::new([
+            views.document("Plan", text::PLAN),
+            views.document("Notes on the data", text::NOTES),
+        ])
+        .into(),
+    ])
+    .with_name("Scene")
+    .into()
+}
