@@ -328,7 +328,7 @@ mod tests {
     use super::*;
 
     fn draft() -> Draft {
-        Draft::new(Scene::load("demonstration").expect("a preset"))
+        Draft::new(Scene::load(crate::scene::presets::QUICK).expect("a preset"))
     }
 
     #[test]
