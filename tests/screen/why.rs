@@ -92,11 +92,17 @@ fn what_a_knob_changes_is_what_two_cold_runs_differ_by() {
         let cold = |scene: &Scene| {
             let mut bench = Bench::new(scene);
             bench.settle_and_go_on();
-            bench.app.account().unwrap()
+            (bench.app.account().unwrap(), bench.mesh_error())
         };
         let mut turned = scene.clone();
         knob.put(&mut turned, value);
-        let (cold_then, cold_now) = (cold(scene), cold(&turned));
+        let ((cold_then, mesh_then), (cold_now, mesh_now)) = (cold(scene), cold(&turned));
+        // Another load is another mesh for a run that begins with it, whose film is wrong by what it says.
+        let mesh = if knob.is_load() {
+            mesh_then + mesh_now
+        } else {
+            0.0
+        };
         println!(
             "{name}, {knob:?} to {value}: {}",
             live.app.why().unwrap().in_columns(120)
@@ -130,7 +136,7 @@ fn what_a_knob_changes_is_what_two_cold_runs_differ_by() {
                 "film",
                 then.film_m / now.film_m,
                 cold_then.film_m / cold_now.film_m,
-                0.03,
+                0.03 + mesh,
             ),
         ];
         for (what, live, cold, within) in pairs {

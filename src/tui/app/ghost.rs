@@ -32,6 +32,7 @@ impl App {
         let own = Arc::make_mut(&mut ghost);
         (own.map, own.zoom, own.quantity) = (self.map, self.zoom, self.quantity);
         (own.theme, own.units) = (self.theme, self.units);
+        own.reached = self.reached;
         own.scope.clone_from(&self.scope);
         self.ghost = Some(ghost);
     }

@@ -60,19 +60,14 @@ impl App {
         let number = text.trim().replace(',', ".").replace('−', "-");
         let value = number.parse::<f64>().ok().map(|shown| shown / unit.per_si);
         let range = dial.min..=dial.max;
-        match value.filter(|value| range.contains(value)) {
-            Some(value) => self.set(self.chosen, value),
-            None => {
-                let [from, to] = [dial.min, dial.max].map(|end| sig(unit.of(end), 3));
-                let said = format!(
-                    "{} = {text} is refused: {from} to {to} {}",
-                    dial.name(),
-                    unit.name
-                );
-                self.say(said.trim_end().to_owned());
-                Vec::new()
-            }
+        if let Some(value) = value.filter(|value| range.contains(value)) {
+            return self.set(self.chosen, value);
         }
+        let [from, to] = [dial.min, dial.max].map(|end| sig(unit.of(end), 3));
+        let name = dial.name();
+        let said = format!("{name} = {text} is refused: {from} to {to} {}", unit.name);
+        self.say(said.trim_end().to_owned());
+        Vec::new()
     }
 
     /// The last line while a value is typed.

@@ -1,6 +1,7 @@
 //! A lesson from its file, which may be anybody's: every refusal names key, value and what is allowed.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -81,8 +82,8 @@ fn default_scene() -> String {
 
 type Read<T> = Result<T, SceneError>;
 
-fn refused<T>(key: impl Into<String>, value: impl ToString, allowed: impl Into<String>) -> Read<T> {
-    Err(SceneError::value(key, value.to_string(), allowed))
+fn refused<T>(key: impl Into<String>, value: impl Display, allowed: impl Into<String>) -> Read<T> {
+    Err(SceneError::value(key, value, allowed))
 }
 
 impl Lesson {
