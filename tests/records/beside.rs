@@ -260,10 +260,10 @@ fn the_program_runs_both_and_leaves_one_file() {
     };
     let small = [
         "run",
-        "--set=grid.nodes=49",
+        "--set=grid.nodes=65",
         "--set=stress=none",
         "--set=life=none",
-        "--passages=0.5",
+        "--passages=0.25",
         "--threads=1",
         "--out=both.rrd",
         "--beside=motion.slide_roll=0,0.5",

@@ -475,7 +475,7 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
     assert!(contents.text("text/now").contains("Look at the ridges."));
     // The first line, three events, the last line.
     assert_eq!(contents.rows("log", false), 5);
-    // Nothing outside of the folders that the layout shows.
+    // Nothing outside of the folders that the layout shows, but for what programs read.
     let folders: BTreeSet<String> = contents
         .entities()
         .iter()
@@ -487,11 +487,13 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
         "commands",
         "contact_3d",
         "convergence",
+        "grid_si",
         "kymograph",
         "life",
         "log",
         "maps",
         "material_point",
+        "scalars_si",
         "series",
         "slice_y0",
         "text",
@@ -510,7 +512,8 @@ fn the_layout_is_in_the_file_with_the_properties_of_its_views() {
         .collect();
     assert!(paths.iter().any(|path| path == "/viewport"));
     let of = |property: &str| paths.iter().filter(|path| path.ends_with(property)).count();
-    assert_eq!(of("/EyeControls3D"), 1);
+    // For an audience and for looking closer.
+    assert_eq!(of("/EyeControls3D"), 2);
     assert!(of("/VisualBounds2D") >= 10, "{paths:?}");
     // Every property belongs to a view that exists.
     for path in paths

@@ -111,7 +111,11 @@ impl Pictures {
         let name = self.scene.as_ref().map_or("", |scene| scene.title.as_str());
         let drawing = Drawing {
             title: format!("{name}: {}", page.title()),
-            state: state(frame),
+            state: match canvas {
+                Canvas::File(_) => state(frame),
+                // Half as wide.
+                Canvas::Pixels(..) => moving_state(frame),
+            },
             x_title: page.x_title(),
         };
         match page {
@@ -246,6 +250,15 @@ fn state(frame: &Frame) -> String {
         plain(m.entrainment_m_s),
         plain(m.load_n),
         GPA.of(frame.p_hertz_pa),
+    )
+}
+
+/// The same where there is less room.
+fn moving_state(frame: &Frame) -> String {
+    format!(
+        "t = {:.3} ms, S = {}",
+        frame.time_s * 1e3,
+        plain(frame.metrics.slide_roll),
     )
 }
 

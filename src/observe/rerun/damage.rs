@@ -176,7 +176,7 @@ impl Block {
             String::new()
         };
         let label = format!(
-            "the pit starts here: D = {}, {} µm deep{not_yet}",
+            "the pit starts here (dot): D = {}, {} µm deep{not_yet}",
             sig(damage.pit_damage, 3),
             sig(UM.of(damage.pit_depth_m), 3),
         );

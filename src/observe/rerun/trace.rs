@@ -109,7 +109,7 @@ impl TraceEntity {
             x_ticks: ticks_at(&ticks(x[0], x[1], 8), |x| x),
             x_title: "where the point is: x, mm".into(),
             titles: vec![
-                (0.02, "GPa".into(), WHITE),
+                (-0.05, "GPa".into(), WHITE),
                 (0.16, "pressure".into(), ORANGE),
                 (0.45, "effective stress".into(), PURPLE),
                 (0.8, "crossing before".into(), GREY),
