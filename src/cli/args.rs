@@ -131,7 +131,7 @@ Examples:
   asperity study accuracy --out report      error against run time, part by part: CSV, Markdown, SVG
   asperity study stability --quick          some of the stiff and extreme cases, within a minute
   asperity study stability --only jump      only the cases with jump in their name or group
-  asperity study accuracy --full --only "default scene"    the default scene against 513 nodes, its frames a second
+  asperity study accuracy --full --only default        the default scene against 513 nodes, its frames a second
   asperity study scaling                    cost of a step by grid, symmetry, threads and regime
 
 Exit codes: 0 all as required; 2 something did not converge or exceeds its bound (the table says what).")]
@@ -253,7 +253,7 @@ pub(crate) struct StudyArgs {
     /// Folder for the report's files; created if missing
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Only cases whose name or group contains this text (stability, scaling, evidence; of accuracy only "default scene")
+    /// Only cases whose name or group contains this text (stability, scaling, evidence; of accuracy only: default)
     #[arg(long, value_name = "TEXT")]
     pub(crate) only: Option<String>,
     /// Cores to use [default: all]
