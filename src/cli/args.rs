@@ -1,13 +1,14 @@
 //! The command line's words.
 
+mod recordings;
+
 use std::path::PathBuf;
 
-use asperity::observe::Format;
 use asperity::scene::{Knob, presets};
 use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
-use super::beside::BesideValues;
+pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs, ExportAs};
 
 const ABOUT: &str =
     "Explorer of rolling-sliding contact fatigue: rough lubricated contacts, stress, life";
@@ -165,78 +166,6 @@ digits. For Python: assets/asperity.py reads a recording into numpy.")]
     },
 }
 
-/// What to put side by side.
-#[derive(Debug, Args)]
-pub(crate) struct CompareArgs {
-    /// Recordings, as written by run and explore
-    #[arg(value_name = "FILE.rrd", required = true, num_args = 2..=3)]
-    pub(crate) files: Vec<PathBuf>,
-    /// Recording to write
-    #[arg(long, value_name = "FILE.rrd", default_value = "both.rrd")]
-    pub(crate) out: PathBuf,
-    /// What is equal where runs are shown together
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "time")]
-    pub(crate) by: CompareBy,
-    /// Replace the file if it exists
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-/// What is equal where runs are shown together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum CompareBy {
-    /// Simulated time
-    Time,
-    /// The place of a crest of body 1
-    Place,
-}
-
-/// What to make of a recording.
-#[derive(Debug, Args)]
-pub(crate) struct ExportArgs {
-    /// Recording, as written by run and explore
-    #[arg(value_name = "FILE.rrd")]
-    pub(crate) file: PathBuf,
-    /// What to make
-    #[arg(
-        long = "as",
-        value_name = "FORMATS",
-        value_enum,
-        value_delimiter = ',',
-        default_value = "gif"
-    )]
-    pub(crate) formats: Vec<ExportAs>,
-    /// Folder to write to [default: ./NAME_export]
-    #[arg(long, value_name = "FOLDER")]
-    pub(crate) out: Option<PathBuf>,
-    /// Which pictures, by name [default: all; of those that move the pressure]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub(crate) show: Vec<String>,
-    /// Stills of every N-th step at most
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(1..))]
-    pub(crate) every: u64,
-    /// Width of SVG and PDF, mm
-    #[arg(long, value_name = "MM", default_value_t = 85.0, value_parser = within::<30, 1000>)]
-    pub(crate) width_mm: f64,
-    /// Pixels per inch of the fields in them
-    #[arg(long, value_name = "DPI", default_value_t = 300.0, value_parser = within::<36, 1200>)]
-    pub(crate) dpi: f64,
-    /// Size of their type, points
-    #[arg(long, value_name = "PT", default_value_t = 7.0, value_parser = within::<3, 24>)]
-    pub(crate) font_pt: f64,
-    /// Replace files that exist
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-/// A number between two.
-fn within<const LEAST: u32, const MOST: u32>(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
-    let fits = (f64::from(LEAST)..=f64::from(MOST)).contains(&value);
-    fits.then_some(value)
-        .ok_or_else(|| format!("allowed: {LEAST} to {MOST}"))
-}
-
 /// What to study.
 #[derive(Debug, Args)]
 pub(crate) struct StudyArgs {
@@ -353,6 +282,10 @@ pub(crate) struct SceneArgs {
 
 /// How to run it and what to write.
 #[derive(Debug, Clone, Args)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "flags of a command line, each of its own"
+)]
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
@@ -405,40 +338,6 @@ pub(crate) struct RunArgs {
     /// Replace output files that exist
     #[arg(long)]
     pub(crate) force: bool,
-}
-
-/// What is exported of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum ExportAs {
-    /// Fields as numpy archives
-    Npz,
-    /// Maps and centre line as pictures
-    Png,
-    /// The same as papers print them: sized in mm, axes and text as vectors, no title
-    Svg,
-    /// The same as PDF
-    Pdf,
-    /// All steps one after another
-    Gif,
-    /// The same as animated PNG, in all colours
-    Apng,
-    /// Every scalar of every step (of a recording; a run has --table)
-    Csv,
-}
-
-impl ExportAs {
-    /// What a step is written as; `None`: steps share a table.
-    pub(crate) fn of_steps(self) -> Option<Format> {
-        match self {
-            Self::Npz => Some(Format::Npz),
-            Self::Png => Some(Format::Png),
-            Self::Svg => Some(Format::Svg),
-            Self::Pdf => Some(Format::Pdf),
-            Self::Gif => Some(Format::Gif),
-            Self::Apng => Some(Format::Apng),
-            Self::Csv => None,
-        }
-    }
 }
 
 /// A run without a screen, which may be saved and taken up again.

@@ -76,6 +76,11 @@ impl Sitting {
 
 /// Opens the explorer and runs until the user quits.
 pub(crate) fn explore(args: &RunArgs, engine: Engine) -> Result<u8, Failure> {
+    if args.hold {
+        return Err(Failure::input(miette::miette!(
+            "--hold is for asperity run: the explorer does not wait for viewers"
+        )));
+    }
     let prepared = scenes::prepare(args)?;
     let path = match &args.out {
         Some(path) => path.clone(),

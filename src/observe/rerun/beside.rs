@@ -64,7 +64,7 @@ pub struct RunBeside {
 
 /// What was written.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beside {
+pub struct RunsCompared {
     /// Moments at which all runs are shown.
     pub pictures: u64,
     /// How far a run's picture is from its moment at most, in its own steps.
@@ -178,7 +178,7 @@ pub fn compare(
     path: &Path,
     overwrite: Overwrite,
     by: ComparedBy,
-) -> Result<Beside, ObserveError> {
+) -> Result<RunsCompared, ObserveError> {
     let failed = |reason: String| ObserveError::new(path.display().to_string(), reason);
     let keyed = runs.iter().map(|run| KeyedRun::new(run, by));
     let keyed: Vec<KeyedRun> = keyed.collect::<Result<_, _>>().map_err(failed)?;
@@ -217,7 +217,7 @@ pub fn compare(
         scope,
         exaggeration: None,
         shown: Vec::new(),
-        told: Beside {
+        told: RunsCompared {
             pictures: moments.len() as u64,
             apart_steps: 0.0,
             difference_pa: 0.0,
@@ -263,7 +263,7 @@ struct Written<'a> {
     scope: Scope,
     exaggeration: Option<f64>,
     shown: Vec<layout::ShownRun>,
-    told: Beside,
+    told: RunsCompared,
 }
 
 impl Written<'_> {
@@ -415,13 +415,13 @@ impl Written<'_> {
             ComparedBy::Time => "simulated time",
             ComparedBy::Place => "the place of a crest of body 1 (the way that body 1 has gone)",
         };
-        let list: String = RUNS
-            .iter()
-            .zip(names)
-            .map(|(run, name)| format!("- **{run}**: {name}\n"))
+        let list = RUNS.iter().zip(names);
+        let list: Vec<String> = list
+            .map(|(run, name)| format!("- **{run}**: {name}"))
             .collect();
+        let list = list.join("\n");
         let told = format!(
-            "# Side by side\n\n{list}\nCompared by {by}. Timelines are those of {first}. All runs are shown at {moments} of \
+            "# Side by side\n\n{list}\n\nCompared by {by}. Timelines are those of {first}. All runs are shown at {moments} of \
              it, each by its nearest picture, at most {apart} of its own steps away. Colours, ranges and heights are \
              common to all. The difference is pressure less that of {first}, at most {difference} GPa.\n\n{caution}.\n",
             first = names.first().unwrap_or(&"a"),

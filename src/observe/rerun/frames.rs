@@ -25,8 +25,8 @@ use crate::math::number::{GPA, MPA, UM, Unit};
 use crate::scene::Scene;
 use crate::sim::{DamageBlock, Frame, StressSlice};
 
-/// Pictures of an entity by their steps.
-type Pictures = Vec<(i64, Arc<[u8]>)>;
+/// SteppedImages of an entity by their steps.
+type SteppedImages = Vec<(i64, Arc<[u8]>)>;
 
 /// What a recording holds of its run.
 pub struct RecordedFrames {
@@ -43,20 +43,20 @@ pub struct RecordedFrames {
     blocks: [Vec<f64>; 2],
     reader: RowReader,
     rows: Vec<(i64, Vec<f64>)>,
-    pictures: HashMap<String, Pictures>,
+    pictures: HashMap<String, SteppedImages>,
     /// What stood under *Now*.
     texts: Vec<(i64, String)>,
 }
 
 /// What is collected from the chunks.
 #[derive(Default)]
-struct Found {
+struct FoundRows {
     grid: Vec<f64>,
     depths_m: Vec<f64>,
     blocks: [Vec<f64>; 2],
     names: Vec<String>,
     rows: Vec<(i64, Vec<f64>)>,
-    pictures: HashMap<String, Pictures>,
+    pictures: HashMap<String, SteppedImages>,
     texts: Vec<(i64, String)>,
 }
 
@@ -72,7 +72,7 @@ impl RecordedFrames {
         };
         let (program, scene_toml) = origin(path).map_err(refused)?;
         let scene = Scene::from_toml(&scene_toml).map_err(|error| refused(error.to_string()))?;
-        let found = Found::read(path).map_err(refused)?;
+        let found = FoundRows::read(path).map_err(refused)?;
         let unfit = "holds no frames that can be read back: not recorded by this version of asperity, or without a \
                      step";
         let grid = scalars::grid_of(&found.grid).ok_or_else(|| refused(unfit.to_owned()))?;
@@ -292,7 +292,7 @@ fn origin(path: &Path) -> Result<(String, String), String> {
     }
 }
 
-impl Found {
+impl FoundRows {
     fn read(path: &Path) -> Result<Self, String> {
         let file = crate::files::open_plain(path).map_err(|error| error.to_string())?;
         let messages = DecoderApp::decode_eager(BufReader::new(file));
