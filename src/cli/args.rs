@@ -1,6 +1,8 @@
 //! The command line's words.
 
 mod recordings;
+mod study;
+mod sweep_texts;
 
 use std::path::PathBuf;
 
@@ -9,6 +11,9 @@ use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs, ExportAs};
+
+pub(crate) use self::study::{StudyArgs, StudyKind};
+use self::sweep_texts::{SWEEP_ABOUT, SWEEP_EXAMPLES};
 
 const ABOUT: &str =
     "Explorer of rolling-sliding contact fatigue: rough lubricated contacts, stress, life";
@@ -46,40 +51,6 @@ it repeats breaks off.
 Outputs: a file that is there is replaced (--force) only by one that is whole; until then the new one lies beside it,
 as NAME.part-PID-N.ENDING, which is what a killed run leaves. Results are the same bit for bit on any number of
 threads and on every CPU with the same vector units; between kinds of CPU they differ by rounding (about 1e-7).";
-
-const SWEEP_ABOUT: &str = "\
-Run many cases of a scene; write one table with a row for each, and plots.
-
-A sweep file names a scene and what varies: [vary] takes any keys of a scene, each with a list of values or a
-range { from, to, n, spacing = \"linear\" or \"log\" }. Several keys make a grid (every combination; the default)
-or, with combine = \"list\", vary together. Instead of [vary], [gear] follows a tooth along its line of action,
-[race] a ball through its loaded zone, [cam] a cam's flank. asperity sweep slide_roll --show file prints one.
-
-Cases that differ only in S or an amplitude start from each other's final state, in chains of at most [chain] longest
-cases; a chain begins cold. The file alone determines the chains, and shards are made of whole chains, so the table is
-the same byte for byte whatever --shard, --threads and interruptions, on machines of one kind: CPUs with other vector
-units differ by rounding (about 1e-7). Every case is written whole or not at all: after an interruption --resume
-continues.
-
-The folder must be new, empty or marked by a sweep (sweep.digest); --force removes the sweep's own files in it and no
-others.";
-
-const SWEEP_EXAMPLES: &str = "\
-Built in: slide_roll, life_map, stribeck, lambda, fzg_c, bearing_race, cam_flank.
-
-Examples:
-  asperity sweep slide_roll                      the default scene at 21 values of S, into ./slide_roll.sweep/
-  asperity sweep slide_roll --show file > mine.toml    a file to edit
-  asperity sweep mine.toml --resume              continues after an interruption
-  asperity sweep mine.toml --shard 3/8           the third of eight parts, on this machine or another
-  asperity sweep collect mine.sweep              the table of parts that share a folder
-  asperity sweep collect one.sweep two.sweep --out all.sweep
-  asperity sweep slide_roll --compare-cold       what the chains save, and what they cost in accuracy
-  asperity sweep fzg_c --show ride > ride.toml   then asperity run ride.toml: a recording along the tooth
-  asperity sweep fzg_c --show points             R, U1, U2, S, load, p_h, film along the path; no simulation
-
-Exit codes: 0 all converged; 1 bad input; 2 some cases did not converge; 3 some stalled, or cases are missing;
-4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP).";
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -164,49 +135,6 @@ digits. For Python: assets/asperity.py reads a recording into numpy.")]
         #[arg(value_name = "FILE.rrd")]
         file: PathBuf,
     },
-}
-
-/// What to study.
-#[derive(Debug, Args)]
-pub(crate) struct StudyArgs {
-    /// Which study
-    #[arg(value_enum)]
-    pub(crate) kind: StudyKind,
-    /// The smallest set of cases
-    #[arg(long, conflicts_with = "full")]
-    pub(crate) quick: bool,
-    /// The largest set of cases
-    #[arg(long)]
-    pub(crate) full: bool,
-    /// Folder for the report's files; created if missing
-    #[arg(long, value_name = "FOLDER")]
-    pub(crate) out: Option<PathBuf>,
-    /// Only cases whose name or group contains this text (stability, scaling, evidence)
-    #[arg(long, value_name = "TEXT")]
-    pub(crate) only: Option<String>,
-    /// Cores to use [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
-    pub(crate) threads: Option<u16>,
-}
-
-impl StudyArgs {
-    /// Cores to use.
-    pub(crate) fn threads(&self) -> usize {
-        threads(self.threads)
-    }
-}
-
-/// The studies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum StudyKind {
-    /// Error against run time, part by part
-    Accuracy,
-    /// Stiff and extreme cases: each converges or is named
-    Stability,
-    /// Cost of a step by grid, symmetry, threads and regime
-    Scaling,
-    /// Published tables and experiments beside what is found here; each row is a scene: asperity run evidence/NAME
-    Evidence,
 }
 
 /// Which sweep, and how to run it.

@@ -4,6 +4,8 @@
 //! bits. What is drawn in every second picture only (traction, roughness) is that of the last one; a step whose
 //! fields are all its own is [whole](RecordedFrames::whole).
 
+mod origin;
+
 use std::collections::HashMap;
 use std::io::BufReader;
 use std::path::Path;
@@ -16,9 +18,8 @@ use rerun::{
     ComponentIdentifier, DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument,
 };
 
-use super::message::{self, Ends};
+use self::origin::origin;
 use super::moment::STEP;
-use super::note::Note;
 use super::scalars::{self, RowReader};
 use super::{RereadError, classes, damage, maps, slice, text};
 use crate::math::number::{GPA, MPA, UM, Unit};
@@ -260,36 +261,6 @@ fn value_of(half: u16) -> f32 {
         _ => (1024.0 + digits) * 2.0_f32.powi(exponent - 25),
     };
     if half & 0x8000 == 0 { size } else { -size }
-}
-
-/// Program and scene of a recording. Its messages are counted before anything of them is believed.
-fn origin(path: &Path) -> Result<(String, String), String> {
-    let unread = |error: std::io::Error| format!("cannot be read: {error}");
-    let file = crate::files::open_plain(path).map_err(unread)?;
-    let bytes = file.metadata().map_err(unread)?.len();
-    let mut origin = None;
-    let (ends, unreadable) = message::read(BufReader::new(file), bytes, |data| {
-        Note::all_in(data, |note| {
-            if let Note::Origin {
-                program,
-                scene_toml,
-                ..
-            } = note
-            {
-                origin = Some((program, scene_toml));
-            }
-        });
-    })?;
-    match ends {
-        Ends::Early { at, reason } => Err(format!("damaged at byte {at} of {bytes} ({reason})")),
-        _ if unreadable > 0 => Err(format!(
-            "damaged: {unreadable} of its messages cannot be read"
-        )),
-        _ => origin.ok_or_else(|| {
-            "holds no run: not recorded by this version of asperity, or several side by side"
-                .to_owned()
-        }),
-    }
 }
 
 impl FoundRows {
