@@ -1,13 +1,19 @@
 //! The command line's words.
 
+mod recordings;
+mod study;
+mod sweep_texts;
+
 use std::path::PathBuf;
 
-use asperity::observe::Format;
 use asperity::scene::{Knob, presets};
 use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
-use super::beside::BesideValues;
+pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs, ExportAs};
+
+pub(crate) use self::study::{StudyArgs, StudyKind};
+use self::sweep_texts::{SWEEP_ABOUT, SWEEP_EXAMPLES};
 
 const ABOUT: &str =
     "Explorer of rolling-sliding contact fatigue: rough lubricated contacts, stress, life";
@@ -45,40 +51,6 @@ it repeats breaks off.
 Outputs: a file that is there is replaced (--force) only by one that is whole; until then the new one lies beside it,
 as NAME.part-PID-N.ENDING, which is what a killed run leaves. Results are the same bit for bit on any number of
 threads and on every CPU with the same vector units; between kinds of CPU they differ by rounding (about 1e-7).";
-
-const SWEEP_ABOUT: &str = "\
-Run many cases of a scene; write one table with a row for each, and plots.
-
-A sweep file names a scene and what varies: [vary] takes any keys of a scene, each with a list of values or a
-range { from, to, n, spacing = \"linear\" or \"log\" }. Several keys make a grid (every combination; the default)
-or, with combine = \"list\", vary together. Instead of [vary], [gear] follows a tooth along its line of action,
-[race] a ball through its loaded zone, [cam] a cam's flank. asperity sweep slide_roll --show file prints one.
-
-Cases that differ only in S or an amplitude start from each other's final state, in chains of at most [chain] longest
-cases; a chain begins cold. The file alone determines the chains, and shards are made of whole chains, so the table is
-the same byte for byte whatever --shard, --threads and interruptions, on machines of one kind: CPUs with other vector
-units differ by rounding (about 1e-7). Every case is written whole or not at all: after an interruption --resume
-continues.
-
-The folder must be new, empty or marked by a sweep (sweep.digest); --force removes the sweep's own files in it and no
-others.";
-
-const SWEEP_EXAMPLES: &str = "\
-Built in: slide_roll, life_map, stribeck, lambda, fzg_c, bearing_race, cam_flank.
-
-Examples:
-  asperity sweep slide_roll                      the default scene at 21 values of S, into ./slide_roll.sweep/
-  asperity sweep slide_roll --show file > mine.toml    a file to edit
-  asperity sweep mine.toml --resume              continues after an interruption
-  asperity sweep mine.toml --shard 3/8           the third of eight parts, on this machine or another
-  asperity sweep collect mine.sweep              the table of parts that share a folder
-  asperity sweep collect one.sweep two.sweep --out all.sweep
-  asperity sweep slide_roll --compare-cold       what the chains save, and what they cost in accuracy
-  asperity sweep fzg_c --show ride > ride.toml   then asperity run ride.toml: a recording along the tooth
-  asperity sweep fzg_c --show points             R, U1, U2, S, load, p_h, film along the path; no simulation
-
-Exit codes: 0 all converged; 1 bad input; 2 some cases did not converge; 3 some stalled, or cases are missing;
-4 an output failed; 5 it was stopped (Ctrl-C, SIGTERM, SIGHUP).";
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -164,121 +136,6 @@ digits. For Python: assets/asperity.py reads a recording into numpy.")]
         #[arg(value_name = "FILE.rrd")]
         file: PathBuf,
     },
-}
-
-/// What to put side by side.
-#[derive(Debug, Args)]
-pub(crate) struct CompareArgs {
-    /// Recordings, as written by run and explore
-    #[arg(value_name = "FILE.rrd", required = true, num_args = 2..=3)]
-    pub(crate) files: Vec<PathBuf>,
-    /// Recording to write
-    #[arg(long, value_name = "FILE.rrd", default_value = "both.rrd")]
-    pub(crate) out: PathBuf,
-    /// What is equal where runs are shown together
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "time")]
-    pub(crate) by: CompareBy,
-    /// Replace the file if it exists
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-/// What is equal where runs are shown together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum CompareBy {
-    /// Simulated time
-    Time,
-    /// The place of a crest of body 1
-    Place,
-}
-
-/// What to make of a recording.
-#[derive(Debug, Args)]
-pub(crate) struct ExportArgs {
-    /// Recording, as written by run and explore
-    #[arg(value_name = "FILE.rrd")]
-    pub(crate) file: PathBuf,
-    /// What to make
-    #[arg(
-        long = "as",
-        value_name = "FORMATS",
-        value_enum,
-        value_delimiter = ',',
-        default_value = "gif"
-    )]
-    pub(crate) formats: Vec<ExportAs>,
-    /// Folder to write to [default: ./NAME_export]
-    #[arg(long, value_name = "FOLDER")]
-    pub(crate) out: Option<PathBuf>,
-    /// Which pictures, by name [default: all; of those that move the pressure]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub(crate) show: Vec<String>,
-    /// Stills of every N-th step at most
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(1..))]
-    pub(crate) every: u64,
-    /// Width of SVG and PDF, mm
-    #[arg(long, value_name = "MM", default_value_t = 85.0, value_parser = within::<30, 1000>)]
-    pub(crate) width_mm: f64,
-    /// Pixels per inch of the fields in them
-    #[arg(long, value_name = "DPI", default_value_t = 300.0, value_parser = within::<36, 1200>)]
-    pub(crate) dpi: f64,
-    /// Size of their type, points
-    #[arg(long, value_name = "PT", default_value_t = 7.0, value_parser = within::<3, 24>)]
-    pub(crate) font_pt: f64,
-    /// Replace files that exist
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-/// A number between two.
-fn within<const LEAST: u32, const MOST: u32>(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
-    let fits = (f64::from(LEAST)..=f64::from(MOST)).contains(&value);
-    fits.then_some(value)
-        .ok_or_else(|| format!("allowed: {LEAST} to {MOST}"))
-}
-
-/// What to study.
-#[derive(Debug, Args)]
-pub(crate) struct StudyArgs {
-    /// Which study
-    #[arg(value_enum)]
-    pub(crate) kind: StudyKind,
-    /// The smallest set of cases
-    #[arg(long, conflicts_with = "full")]
-    pub(crate) quick: bool,
-    /// The largest set of cases
-    #[arg(long)]
-    pub(crate) full: bool,
-    /// Folder for the report's files; created if missing
-    #[arg(long, value_name = "FOLDER")]
-    pub(crate) out: Option<PathBuf>,
-    /// Only cases whose name or group contains this text (stability, scaling, evidence; of accuracy only: default)
-    #[arg(long, value_name = "TEXT")]
-    pub(crate) only: Option<String>,
-    /// Cores to use [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
-    pub(crate) threads: Option<u16>,
-}
-
-impl StudyArgs {
-    /// Cores to use.
-    pub(crate) fn threads(&self) -> usize {
-        threads(self.threads)
-    }
-}
-
-/// The studies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum StudyKind {
-    /// Error against run time, part by part
-    Accuracy,
-    /// Stiff and extreme cases: each converges or is named
-    Stability,
-    /// Cost of a step by grid, symmetry, threads and regime
-    Scaling,
-    /// Published tables and experiments beside what is found here; each row is a scene: asperity run evidence/NAME
-    Evidence,
 }
 
 /// Which sweep, and how to run it.
@@ -374,6 +231,10 @@ impl ExploreArgs {
 
 /// How to run it and what to write.
 #[derive(Debug, Clone, Args)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "flags of a command line, each of its own"
+)]
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
@@ -426,40 +287,6 @@ pub(crate) struct RunArgs {
     /// Replace output files that exist
     #[arg(long)]
     pub(crate) force: bool,
-}
-
-/// What is exported of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum ExportAs {
-    /// Fields as numpy archives
-    Npz,
-    /// Maps and centre line as pictures
-    Png,
-    /// The same as papers print them: sized in mm, axes and text as vectors, no title
-    Svg,
-    /// The same as PDF
-    Pdf,
-    /// All steps one after another
-    Gif,
-    /// The same as animated PNG, in all colours
-    Apng,
-    /// Every scalar of every step (of a recording; a run has --table)
-    Csv,
-}
-
-impl ExportAs {
-    /// What a step is written as; `None`: steps share a table.
-    pub(crate) fn of_steps(self) -> Option<Format> {
-        match self {
-            Self::Npz => Some(Format::Npz),
-            Self::Png => Some(Format::Png),
-            Self::Svg => Some(Format::Svg),
-            Self::Pdf => Some(Format::Pdf),
-            Self::Gif => Some(Format::Gif),
-            Self::Apng => Some(Format::Apng),
-            Self::Csv => None,
-        }
-    }
 }
 
 /// A run without a screen, which may be saved and taken up again.

@@ -3,38 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{CompareArgs, HeadlessArgs};
+use super::args::{BesideValues, CompareArgs, HeadlessArgs};
 use super::failure::Failure;
-
-/// The values of a key that `--beside` names.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct BesideValues {
-    /// Key of a scene.
-    pub(crate) key: String,
-    /// As they were written.
-    pub(crate) values: Vec<String>,
-}
-
-impl std::str::FromStr for BesideValues {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = "such as motion.slide_roll=0,0.5: a key and two or three values";
-        let (key, values) = text.split_once('=').ok_or(wrong)?;
-        let values: Vec<String> = values
-            .split(',')
-            .map(|value| value.trim().to_owned())
-            .collect();
-        let is_whole = !key.trim().is_empty() && values.iter().all(|value| !value.is_empty());
-        if !is_whole || !(2..=3).contains(&values.len()) {
-            return Err(wrong.to_owned());
-        }
-        Ok(Self {
-            key: key.trim().to_owned(),
-            values,
-        })
-    }
-}
 
 /// Runs a scene once for each value and puts the recordings side by side.
 pub(crate) fn run(
@@ -155,22 +125,4 @@ fn put_together(
         help = "use a build with the default features",
         "this program was built without the feature rerun, so it reads no recordings"
     )))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_read_or_refused() {
-        let read = |text: &str| text.parse::<BesideValues>();
-        let values = read("motion.slide_roll=0, 0.5").expect("two values");
-        assert_eq!(
-            (values.key.as_str(), values.values.len()),
-            ("motion.slide_roll", 2)
-        );
-        for wrong in ["motion.slide_roll", "a=1", "a=1,,2", "=1,2", "a=1,2,3,4"] {
-            assert!(read(wrong).is_err(), "{wrong}");
-        }
-    }
 }

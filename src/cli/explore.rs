@@ -80,6 +80,11 @@ pub(crate) fn explore(args: &ExploreArgs, engine: Engine) -> Result<u8, Failure>
     let lesson = args.lesson.as_deref().map(Lesson::load).transpose();
     let lesson = lesson.map_err(|error| Failure::input(miette!("{error}")))?;
     let args = &args.run;
+    if args.hold {
+        return Err(Failure::input(miette!(
+            "--hold is for asperity run: the explorer does not wait for viewers"
+        )));
+    }
     let prepared = scenes::prepare(args)?;
     let path = match &args.out {
         Some(path) => path.clone(),

@@ -16,6 +16,7 @@ mod run;
 mod scenes;
 #[cfg(feature = "tui")]
 mod shown;
+mod signals;
 mod study;
 mod sweep;
 mod view;

@@ -181,7 +181,7 @@ impl Outputs {
         use asperity::observe::rerun::{Gate, Live, Recorder};
         /// Frames that may wait: a viewer that is waited for should miss none.
         const WAITING: usize = 256;
-        let gate = Gate::open(port, super::run::stop_on_signals()?)?;
+        let gate = Gate::open(port, super::signals::stop_on_signals()?)?;
         let recorder = Recorder::live(Live::Serve(gate.behind()), record)?;
         live::announce(gate.port());
         super::failure::tell(

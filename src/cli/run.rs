@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use asperity::observe::{ObserveError, Overwrite};
@@ -16,6 +15,7 @@ use super::failure::{Failure, tell};
 use super::names::Names;
 use super::outputs::{Outputs, RecorderPace};
 use super::repeat::{self, Repetition};
+use super::signals::stop_on_signals;
 use super::{beside, report, scenes};
 
 /// Estimated time from which a progress bar is worth its line, s.
@@ -207,24 +207,6 @@ fn refuse_recording_without_recorder(args: &RunArgs) -> Result<(), Failure> {
         )));
     }
     Ok(())
-}
-
-/// Ctrl-C or a request to end stops the run after its step; a second one ends the program at once.
-pub(crate) fn stop_on_signals() -> Result<Arc<AtomicBool>, Failure> {
-    static ASKED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
-    // Of several runs one after another the first has them watched.
-    if let Some(asked) = ASKED.get() {
-        return Ok(Arc::clone(asked));
-    }
-    let asked = ASKED.get_or_init(Arc::default);
-    let raised = Arc::clone(asked);
-    ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    })
-    .map_err(|error| Failure::stalled(miette::miette!("signals cannot be watched: {error}")))?;
-    Ok(Arc::clone(asked))
 }
 
 fn wait(session: &Session, estimate_s: f64, interrupt: &AtomicBool, what: &str) {

@@ -14,8 +14,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::{SweepArgs, SweepCommand, SweepShown};
 use super::failure::{Failure, tell};
-use super::run::stop_on_signals;
 use super::scenes::{print, print_lines};
+use super::signals::stop_on_signals;
 
 /// Exit code of a sweep that somebody stopped.
 const STOPPED: u8 = 5;

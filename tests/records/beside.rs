@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
-use asperity::observe::rerun::{Beside, ComparedBy, RecordedFrames, Recorder, RunBeside, compare};
+use asperity::observe::rerun::{
+    ComparedBy, RecordedFrames, Recorder, RunBeside, RunsCompared, compare,
+};
 use asperity::observe::{Observer, Overwrite, RunContext};
 use asperity::scene::{Record, Scene};
 use asperity::sim::Frame;
@@ -49,7 +51,7 @@ fn record(path: &Path, steps: u64, change: impl Fn(&mut Frame)) -> Vec<Arc<Frame
     frames
 }
 
-fn beside(files: &[&PathBuf], out: &Path, by: ComparedBy) -> Result<Beside, String> {
+fn beside(files: &[&PathBuf], out: &Path, by: ComparedBy) -> Result<RunsCompared, String> {
     let runs = files.iter().zip(["one", "two", "three"]);
     let runs = runs.map(|(path, name)| RunBeside {
         name: name.to_owned(),

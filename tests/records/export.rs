@@ -148,6 +148,10 @@ mod from_a_recording {
         export.finish().unwrap().bytes
     }
 
+    fn has_ending(name: &str, ending: &str) -> bool {
+        Path::new(name).extension().is_some_and(|own| own == ending)
+    }
+
     fn pixels(path: &Path) -> Vec<u8> {
         let decoder =
             png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).unwrap()));
@@ -179,12 +183,12 @@ mod from_a_recording {
             let name = entry.unwrap().file_name();
             let [one, two] = [one.join(&name), two.join(&name)];
             let name = name.to_string_lossy().into_owned();
-            if name.ends_with(".npz") {
+            if has_ending(&name, "npz") {
                 let sizes = [&one, &two].map(|path| std::fs::metadata(path).unwrap().len());
                 assert_eq!(sizes[0], sizes[1], "{name}: the same arrays");
             }
             // Fringes repeat ten times in the film that is 0.05 % uncertain in the bath.
-            if !name.ends_with(".png") || name.contains("interferogram") {
+            if !has_ending(&name, "png") || name.contains("interferogram") {
                 continue;
             }
             let [one, two] = [pixels(&one), pixels(&two)];

@@ -60,7 +60,7 @@ impl Animation {
     /// As GIF.
     pub(super) fn gif(&self) -> Vec<u8> {
         let (wide, tall) = self.size;
-        let palette = Palette::of(&self.pictures);
+        let palette = GifPalette::of(&self.pictures);
         let mut out = b"GIF89a".to_vec();
         let short = |value: u32| (value as u16).to_le_bytes();
         out.extend(short(wide));
@@ -73,7 +73,8 @@ impl Animation {
         let mut before: Vec<u8> = Vec::new();
         for picture in &self.pictures {
             let now = palette.indices(picture);
-            let Area { left, top, w, h } = Area::that_differs(&before, &now, wide as usize);
+            let ChangedArea { left, top, w, h } =
+                ChangedArea::that_differs(&before, &now, wide as usize);
             out.extend([0x21, 0xf9, 4, 5]);
             out.extend(self.delay().to_le_bytes());
             out.extend([TRANSPARENT, 0, 0x2c]);
@@ -139,14 +140,14 @@ impl Animation {
 const TRANSPARENT: u8 = 255;
 
 /// A rectangle of a picture.
-struct Area {
+struct ChangedArea {
     left: usize,
     top: usize,
     w: usize,
     h: usize,
 }
 
-impl Area {
+impl ChangedArea {
     /// The least one that holds all that differs, of one pixel at least.
     fn that_differs(before: &[u8], now: &[u8], wide: usize) -> Self {
         let (mut x, mut y) = ([usize::MAX, 0], [usize::MAX, 0]);
@@ -169,13 +170,13 @@ impl Area {
 }
 
 /// Colours that stand for all.
-struct Palette {
+struct GifPalette {
     colours: [[u8; 3]; 256],
     /// Of every colour at five bits: which stands for it.
     of: Vec<u8>,
 }
 
-impl Palette {
+impl GifPalette {
     fn of(pictures: &[Vec<u8>]) -> Self {
         let mut seen = vec![(0_u64, [0_u64; 3]); 1 << 15];
         for pixel in pictures.iter().flat_map(|picture| picture.chunks_exact(3)) {

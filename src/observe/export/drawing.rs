@@ -32,14 +32,14 @@ pub(super) struct Drawing {
 }
 
 /// Where it is drawn.
-pub(super) enum Canvas<'a> {
+pub(super) enum PictureTarget<'a> {
     /// Into a file.
     File(&'a Path),
     /// As pixels of three bytes, of axes so many pixels wide.
     Pixels(&'a mut Vec<u8>, u32),
 }
 
-impl<'a> Canvas<'a> {
+impl<'a> PictureTarget<'a> {
     /// Width of the axes.
     fn wide(&self) -> u32 {
         match self {
@@ -89,7 +89,11 @@ impl Drawing {
     ///
     /// # Errors
     /// What went wrong, in words.
-    pub(super) fn map(&self, picture: &Picture, canvas: Canvas) -> Result<(u32, u32), String> {
+    pub(super) fn map(
+        &self,
+        picture: &Picture,
+        canvas: PictureTarget,
+    ) -> Result<(u32, u32), String> {
         let [across, high] = [picture.x, picture.y].map(|axis| {
             let [from, to] = axis.ends();
             to - from
@@ -113,7 +117,7 @@ impl Drawing {
     pub(super) fn figure(
         &self,
         figure: &ExportedFigure,
-        canvas: Canvas,
+        canvas: PictureTarget,
     ) -> Result<(u32, u32), String> {
         let wide = canvas.wide();
         let size = (wide + 2 * LEFT, wide * 7 / 12 + ABOVE + BELOW);
@@ -124,7 +128,7 @@ impl Drawing {
     }
 
     /// An empty picture with title and state.
-    fn begin<'a>(&self, canvas: Canvas<'a>, size: (u32, u32)) -> Result<Area<'a>, String> {
+    fn begin<'a>(&self, canvas: PictureTarget<'a>, size: (u32, u32)) -> Result<Area<'a>, String> {
         font()?;
         let root = canvas.area(size);
         let text = |text: &str, y: i32, size: i32, colour: RGBColor| {

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use self::animation::Animation;
-use self::drawing::Canvas;
+use self::drawing::PictureTarget;
 use self::npz::Npz;
 use self::pages::{Page, Pictures};
 pub use self::paper::PrintSize;
@@ -180,14 +180,14 @@ impl Export {
             let path = self.folder.join(file);
             let (pictures, print) = (&mut self.pictures, self.print);
             self.overwrite.write_by(&path, |at| {
-                let drawn = match format {
-                    Format::Png => pictures.draw(frame, page, Canvas::File(at)).map(drop),
-                    _ => {
-                        let printed = pictures.print(frame, page, (&print, format == Format::Pdf));
-                        printed.and_then(|bytes| {
-                            std::fs::write(at, bytes).map_err(|error| error.to_string())
-                        })
-                    }
+                let drawn = if format == Format::Png {
+                    let drawn = pictures.draw(frame, page, PictureTarget::File(at));
+                    drawn.map(drop)
+                } else {
+                    let printed = pictures.print(frame, page, (&print, format == Format::Pdf));
+                    printed.and_then(|bytes| {
+                        std::fs::write(at, bytes).map_err(|error| error.to_string())
+                    })
                 };
                 drawn.map_err(std::io::Error::other)
             })?;
@@ -209,9 +209,11 @@ impl Export {
             let animation = self.moving.entry(name).or_default();
             if animation.wants(frame.passages) {
                 let mut pixels = Vec::new();
-                let drawn =
-                    self.pictures
-                        .draw(frame, page, Canvas::Pixels(&mut pixels, MOVING_WIDE));
+                let drawn = self.pictures.draw(
+                    frame,
+                    page,
+                    PictureTarget::Pixels(&mut pixels, MOVING_WIDE),
+                );
                 let size = drawn.map_err(|reason| self.failed(&std::io::Error::other(reason)))?;
                 self.moving.entry(name).or_default().push(size, pixels);
             }

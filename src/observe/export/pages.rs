@@ -4,7 +4,7 @@
 
 use std::borrow::Cow;
 
-use super::drawing::{Canvas, Drawing, DrawnCurve, ExportedFigure, Right};
+use super::drawing::{Drawing, DrawnCurve, ExportedFigure, PictureTarget, Right};
 use super::paper::{Paper, PrintSize};
 use crate::math::number::{GPA, MM, UM, Unit, plain};
 use crate::picture::{Look, NodeAxis, Picture, Ramp, Ranges, Scope, Subject};
@@ -105,16 +105,16 @@ impl Pictures {
         &mut self,
         frame: &Frame,
         page: Page,
-        canvas: Canvas,
+        canvas: PictureTarget,
     ) -> Result<(u32, u32), String> {
         let ranges = self.ranges(frame);
         let name = self.scene.as_ref().map_or("", |scene| scene.title.as_str());
         let drawing = Drawing {
             title: format!("{name}: {}", page.title()),
             state: match canvas {
-                Canvas::File(_) => state(frame),
+                PictureTarget::File(_) => state(frame),
                 // Half as wide.
-                Canvas::Pixels(..) => moving_state(frame),
+                PictureTarget::Pixels(..) => moving_state(frame),
             },
             x_title: page.x_title(),
         };

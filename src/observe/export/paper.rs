@@ -41,7 +41,7 @@ const PT_PER_MM: f64 = 72.0 / 25.4;
 
 /// Where a text stands to its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Anchor {
+enum TextAnchor {
     Start,
     Middle,
     End,
@@ -50,7 +50,7 @@ enum Anchor {
 /// A text: its place is that of its baseline's anchor.
 struct PaperText {
     at: [f64; 2],
-    anchor: Anchor,
+    anchor: TextAnchor,
     /// Whether it reads upwards.
     turned: bool,
     text: String,
@@ -183,7 +183,7 @@ impl Paper {
             }
             paper.text(
                 [name_at, plot.top - 0.6 * em],
-                Anchor::Start,
+                TextAnchor::Start,
                 curve.name,
                 curve.colour,
             );
@@ -216,7 +216,7 @@ impl Paper {
         });
     }
 
-    fn text(&mut self, at: [f64; 2], anchor: Anchor, text: &str, colour: [u8; 3]) {
+    fn text(&mut self, at: [f64; 2], anchor: TextAnchor, text: &str, colour: [u8; 3]) {
         self.texts.push(PaperText {
             at,
             anchor,
@@ -241,10 +241,15 @@ impl Paper {
         for value in ticks(low, high, 5) {
             let x = plot.left + plot.wide * (value - low) / (high - low);
             self.line(vec![[x, bottom], [x, bottom + 0.4 * em]], INK, 0.6);
-            self.text([x, bottom + 1.5 * em], Anchor::Middle, &plain(value), INK);
+            self.text(
+                [x, bottom + 1.5 * em],
+                TextAnchor::Middle,
+                &plain(value),
+                INK,
+            );
         }
         let middle = plot.left + 0.5 * plot.wide;
-        self.text([middle, bottom + 3.0 * em], Anchor::Middle, title, INK);
+        self.text([middle, bottom + 3.0 * em], TextAnchor::Middle, title, INK);
     }
 
     /// Ticks at a side: whether at the right, and whether values grow downwards.
@@ -261,7 +266,11 @@ impl Paper {
         } else {
             (plot.left, -1.0)
         };
-        let anchor = if at_right { Anchor::Start } else { Anchor::End };
+        let anchor = if at_right {
+            TextAnchor::Start
+        } else {
+            TextAnchor::End
+        };
         for value in ticks(low, high, 5) {
             let share = (value - low) / (high - low);
             let y = plot.top + plot.high * if down { share } else { 1.0 - share };
@@ -276,7 +285,7 @@ impl Paper {
         let away = if at_right { 3.9 } else { 3.4 };
         self.texts.push(PaperText {
             at: [edge + out * away * em, plot.top + 0.5 * plot.high],
-            anchor: Anchor::Middle,
+            anchor: TextAnchor::Middle,
             turned: true,
             text: title.to_owned(),
             colour,
@@ -302,20 +311,20 @@ impl Paper {
             let y = plot.top + plot.high * (high - value) / (high - low);
             self.text(
                 [left + 1.4 * em, y + 0.35 * em],
-                Anchor::Start,
+                TextAnchor::Start,
                 &look.number(value),
                 INK,
             );
         }
         self.text(
             [left - 0.2 * em, plot.top - 0.6 * em],
-            Anchor::Start,
+            TextAnchor::Start,
             &look.title(),
             INK,
         );
         if let Some(note) = look.note() {
             let at = [left + 5.6 * em, plot.top + plot.high + 1.5 * em];
-            self.text(at, Anchor::End, &note, INK);
+            self.text(at, TextAnchor::End, &note, INK);
         }
     }
 }

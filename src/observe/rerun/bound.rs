@@ -25,7 +25,7 @@ const MOST_ROWS: usize = 4096;
 
 /// What a recording ends with.
 #[derive(Default)]
-pub(super) struct Ending {
+pub(super) struct RecordingEnd {
     /// First and last moment of its curves.
     pub(super) moments: Option<[Moment; 2]>,
     /// The last texts of these entities.
@@ -38,7 +38,7 @@ pub(super) struct Ending {
 /// In words, when there is no room for a second file or it is no recording; the first is as it was.
 pub(super) fn bind(
     path: &Path,
-    more: impl FnOnce(&Ending) -> Result<Vec<Chunk>, String>,
+    more: impl FnOnce(&RecordingEnd) -> Result<Vec<Chunk>, String>,
 ) -> Result<u64, String> {
     // Behind a link lies the file itself, which alone may be replaced; and only a file.
     let path = path.canonicalize().map_err(|error| error.to_string())?;
@@ -68,7 +68,7 @@ fn beside(path: &Path) -> PathBuf {
 fn write(
     from: &Path,
     to: &Path,
-    more: impl FnOnce(&Ending) -> Result<Vec<Chunk>, String>,
+    more: impl FnOnce(&RecordingEnd) -> Result<Vec<Chunk>, String>,
 ) -> Result<(), String> {
     let words = |error: &dyn std::fmt::Display| error.to_string();
     let reader = BufReader::new(File::open(from).map_err(|error| words(&error))?);
@@ -83,7 +83,7 @@ fn write(
         strands: Vec::new(),
         places: HashMap::new(),
         reach: None,
-        ending: Ending::default(),
+        ending: RecordingEnd::default(),
     };
     for message in messages {
         binder.take(&message.map_err(|error| words(&error))?)?;
@@ -118,10 +118,10 @@ struct Binder {
     places: HashMap<RowKind, usize>,
     /// How far the recording goes, as it was told last.
     reach: Option<LogMsg>,
-    ending: Ending,
+    ending: RecordingEnd,
 }
 
-impl Ending {
+impl RecordingEnd {
     /// Takes up rows that come in the order of time.
     fn see(&mut self, chunk: &Chunk) {
         let path = chunk.entity_path().to_string();

@@ -4,6 +4,8 @@
 //! bits. What is drawn in every second picture only (traction, roughness) is that of the last one; a step whose
 //! fields are all its own is [whole](RecordedFrames::whole).
 
+mod origin;
+
 use std::collections::HashMap;
 use std::io::BufReader;
 use std::path::Path;
@@ -16,17 +18,16 @@ use rerun::{
     ComponentIdentifier, DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument,
 };
 
-use super::message::{self, Ends};
+use self::origin::origin;
 use super::moment::STEP;
-use super::note::Note;
 use super::scalars::{self, RowReader};
 use super::{RereadError, classes, damage, maps, slice, text};
 use crate::math::number::{GPA, MPA, UM, Unit};
 use crate::scene::Scene;
 use crate::sim::{DamageBlock, Frame, StressSlice};
 
-/// Pictures of an entity by their steps.
-type Pictures = Vec<(i64, Arc<[u8]>)>;
+/// SteppedImages of an entity by their steps.
+type SteppedImages = Vec<(i64, Arc<[u8]>)>;
 
 /// What a recording holds of its run.
 pub struct RecordedFrames {
@@ -43,20 +44,20 @@ pub struct RecordedFrames {
     blocks: [Vec<f64>; 2],
     reader: RowReader,
     rows: Vec<(i64, Vec<f64>)>,
-    pictures: HashMap<String, Pictures>,
+    pictures: HashMap<String, SteppedImages>,
     /// What stood under *Now*.
     texts: Vec<(i64, String)>,
 }
 
 /// What is collected from the chunks.
 #[derive(Default)]
-struct Found {
+struct FoundRows {
     grid: Vec<f64>,
     depths_m: Vec<f64>,
     blocks: [Vec<f64>; 2],
     names: Vec<String>,
     rows: Vec<(i64, Vec<f64>)>,
-    pictures: HashMap<String, Pictures>,
+    pictures: HashMap<String, SteppedImages>,
     texts: Vec<(i64, String)>,
 }
 
@@ -72,7 +73,7 @@ impl RecordedFrames {
         };
         let (program, scene_toml) = origin(path).map_err(refused)?;
         let scene = Scene::from_toml(&scene_toml).map_err(|error| refused(error.to_string()))?;
-        let found = Found::read(path).map_err(refused)?;
+        let found = FoundRows::read(path).map_err(refused)?;
         let unfit = "holds no frames that can be read back: not recorded by this version of asperity, or without a \
                      step";
         let grid = scalars::grid_of(&found.grid).ok_or_else(|| refused(unfit.to_owned()))?;
@@ -262,37 +263,7 @@ fn value_of(half: u16) -> f32 {
     if half & 0x8000 == 0 { size } else { -size }
 }
 
-/// Program and scene of a recording. Its messages are counted before anything of them is believed.
-fn origin(path: &Path) -> Result<(String, String), String> {
-    let unread = |error: std::io::Error| format!("cannot be read: {error}");
-    let file = crate::files::open_plain(path).map_err(unread)?;
-    let bytes = file.metadata().map_err(unread)?.len();
-    let mut origin = None;
-    let (ends, unreadable) = message::read(BufReader::new(file), bytes, |data| {
-        Note::all_in(data, |note| {
-            if let Note::Origin {
-                program,
-                scene_toml,
-                ..
-            } = note
-            {
-                origin = Some((program, scene_toml));
-            }
-        });
-    })?;
-    match ends {
-        Ends::Early { at, reason } => Err(format!("damaged at byte {at} of {bytes} ({reason})")),
-        _ if unreadable > 0 => Err(format!(
-            "damaged: {unreadable} of its messages cannot be read"
-        )),
-        _ => origin.ok_or_else(|| {
-            "holds no run: not recorded by this version of asperity, or several side by side"
-                .to_owned()
-        }),
-    }
-}
-
-impl Found {
+impl FoundRows {
     fn read(path: &Path) -> Result<Self, String> {
         let file = crate::files::open_plain(path).map_err(|error| error.to_string())?;
         let messages = DecoderApp::decode_eager(BufReader::new(file));

@@ -49,7 +49,7 @@ mod trace;
 mod waiting;
 mod weight;
 
-pub use beside::{Beside, ComparedBy, RunBeside, compare};
+pub use beside::{ComparedBy, RunBeside, RunsCompared, compare};
 pub use frames::RecordedFrames;
 pub use gate::Gate;
 pub use live::Live;

@@ -12,7 +12,7 @@ use rerun::{
     TextDocument,
 };
 
-use super::bound::{self, Ending};
+use super::bound::{self, RecordingEnd};
 use super::colour::curve;
 use super::gathered::chunk_of;
 use super::stream::Stream;
@@ -149,7 +149,7 @@ pub fn note_summary(path: &Path, summary: &Summary) -> Result<(), ObserveError> 
     let chunk: Chunk = row
         .into_chunk(entity(RESULT))
         .map_err(|error| failed(error.to_string()))?;
-    let more = |ending: &Ending| {
+    let more = |ending: &RecordingEnd| {
         let mut chunks = vec![chunk];
         chunks.extend(band(summary, ending)?);
         Ok(chunks)
@@ -161,7 +161,7 @@ pub fn note_summary(path: &Path, summary: &Summary) -> Result<(), ObserveError> 
 const BAND: &str = "life/log10_relative/with_the_meshs_error";
 
 /// The life's band with the mesh's error: as lines over the whole run, and in the last texts.
-fn band(summary: &Summary, ending: &Ending) -> Result<Vec<Chunk>, String> {
+fn band(summary: &Summary, ending: &RecordingEnd) -> Result<Vec<Chunk>, String> {
     let ends = summary.life_relative_low.zip(summary.life_relative_high);
     let ends = ends.filter(|(low, high)| *low > 0.0 && high.is_finite());
     let (Some((low, high)), Some(moments)) = (ends, ending.moments) else {

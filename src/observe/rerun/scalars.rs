@@ -22,8 +22,11 @@ const GRID_NAMES: [&str; 7] = ["line", "nx", "ny", "x_min_m", "dx_m", "y_min_m",
 /// Depths of the slice, once, m.
 pub(super) const DEPTHS: &str = "slice_y0/depths_m";
 
+/// How a number is read off a frame.
+type FrameNumber = fn(&Frame) -> Option<f64>;
+
 /// What a row has beside the catalogue.
-const MORE: [(&str, fn(&Frame) -> Option<f64>); 10] = [
+const MORE: [(&str, FrameNumber); 10] = [
     ("regime_code", |f| Some(code(f.metrics.regime))),
     ("point_body", |f| Some(f.material_point?.body.into())),
     ("point_depth_m", |f| Some(f.material_point?.depth_m)),

@@ -155,7 +155,7 @@ fn lecture(frame: &Frame, caption: &str) -> String {
     let mut text = String::with_capacity(512);
     let slide_roll = sig(m.slide_roll, 3);
     let motion = match m.slide_roll {
-        s if s == 0.0 => "both bodies roll alike".to_owned(),
+        0.0 => "both bodies roll alike".to_owned(),
         s if s > 0.0 => "body 1 is the slower".to_owned(),
         _ => "body 2 is the slower".to_owned(),
     };

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use ab_glyph::{Font as _, FontRef, OutlineCurve, Point};
 
-use super::{Anchor, Paper, PaperText, png_of};
+use super::{Paper, PaperText, TextAnchor, png_of};
 
 impl Paper {
     /// The page.
@@ -19,13 +19,14 @@ impl Paper {
             b"<< /Type /Catalog /Pages 2 0 R >>".to_vec(),
             b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>".to_vec(),
         ];
-        let names: String = (0..self.fields.len())
-            .map(|k| format!("/F{k} {} 0 R ", k + 5))
+        let names: Vec<String> = (0..self.fields.len())
+            .map(|k| format!("/F{k} {} 0 R", k + 5))
             .collect();
+        let names = names.join(" ");
         objects.push(
             format!(
                 "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {wide:.2} {high:.2}] /Contents 4 0 R \
-                 /Resources << /XObject << {names}>> >> >>"
+                 /Resources << /XObject << {names} >> >> >>"
             )
             .into_bytes(),
         );
@@ -83,9 +84,9 @@ impl Paper {
             .map(|id| f64::from(font.h_advance_unscaled(id)) * scale)
             .sum();
         let mut along = match text.anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => -0.5 * wide,
-            Anchor::End => -wide,
+            TextAnchor::Start => 0.0,
+            TextAnchor::Middle => -0.5 * wide,
+            TextAnchor::End => -wide,
         };
         let ([x, y], [r, g, b]) = (text.at, shares(text.colour));
         let turn = if text.turned { "0 1 -1 0" } else { "1 0 0 1" };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Anchor, PT_PER_MM, Paper, png_of};
+use super::{PT_PER_MM, Paper, TextAnchor, png_of};
 
 impl Paper {
     /// The page.
@@ -47,9 +47,9 @@ impl Paper {
         for text in &self.texts {
             let [x, y] = text.at;
             let anchor = match text.anchor {
-                Anchor::Start => "start",
-                Anchor::Middle => "middle",
-                Anchor::End => "end",
+                TextAnchor::Start => "start",
+                TextAnchor::Middle => "middle",
+                TextAnchor::End => "end",
             };
             let turn = if text.turned {
                 format!(" transform=\"rotate(-90 {x:.2} {y:.2})\"")

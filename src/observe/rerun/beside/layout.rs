@@ -83,12 +83,11 @@ impl Layout<'_> {
     fn differences(&mut self, of: ContactKind) -> Vec<ContainerLike> {
         let first = self.names.first().copied().unwrap_or_default();
         let title = |name: &str| format!("Pressure of {name} less {first}");
-        let all = self.each(|views, shown, name| {
+        self.each(|views, shown, name| {
             let is_other = views.under != format!("{}/", RUNS[0]);
             let map = |views: &mut Views| views.map(&title(name), DIFFERENCE, &[], &shown.map);
             (is_other && shown.kind == of).then(|| map(views))
-        });
-        all
+        })
     }
 
     fn life(&mut self) -> ContainerLike {
