@@ -19,7 +19,7 @@ fn warm(threads: usize, extra: &[&str]) -> Simulation {
         .chain(extra)
         .map(|s| s.parse().unwrap())
         .collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), threads).unwrap();
     while sim.passage_steps() < 120 {
         sim.step().unwrap();

@@ -35,7 +35,7 @@ fn a_session_that_has_ended_holds_nothing() {
         "body_2.surface.kind=smooth",
     ];
     let sets: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let mut after = Vec::new();
     for _ in 0..12 {
         let session = Session::start(Request {

@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn the_companion_has_the_same_rectangle_and_half_the_nodes() {
-        let mut scene = Scene::load("demonstration").expect("a preset");
+        let mut scene = Scene::load(crate::scene::presets::QUICK).expect("a preset");
         scene.time.tolerance = Some(1e-3);
         let plan = Plan::new(&scene).expect("a plan");
         let coarse = coarser(&scene, &plan).expect("a coarser grid");

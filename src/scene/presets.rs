@@ -12,6 +12,8 @@ pub struct Preset {
 
 /// Name of the scene that runs when none is named.
 pub const DEFAULT: &str = "demonstration";
+/// The same on a coarse mesh: for tests, lessons and sweeps.
+pub const QUICK: &str = "demonstration_quick";
 
 macro_rules! preset {
     ($name:literal) => {
@@ -24,6 +26,7 @@ macro_rules! preset {
 
 const PRESETS: &[Preset] = &[
     preset!("demonstration"),
+    preset!("demonstration_quick"),
     preset!("ball_bearing"),
     preset!("ball_bearing_worn"),
     preset!("twin_disc"),

@@ -26,6 +26,7 @@ mod linearise;
 use rayon::prelude::*;
 
 pub use deferred::Guessed;
+use deferred::Lacking;
 pub use linearise::Linearisation;
 
 use super::faces::{Faces, conductances};
@@ -62,6 +63,8 @@ pub struct Reynolds {
     east: Vec<f64>,
     north: Vec<f64>,
     scratch: Vec<Scratch>,
+    /// What the flow of second order lacks.
+    lacking: Lacking,
     /// F, film units.
     pub residual: Vec<f64>,
     /// D.
@@ -95,6 +98,7 @@ impl Reynolds {
             east: zero.clone(),
             north: zero.clone(),
             scratch,
+            lacking: Lacking::new(n),
             residual: zero.clone(),
             diagonal: vec![1.0; n],
             conductance: zero,

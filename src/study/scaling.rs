@@ -7,8 +7,8 @@
 //! units mean the same on any machine. Steps are those of the default scene's passage (rough on both bodies,
 //! mixed lubrication, converged to the scene's tolerance) without stress, life and recording; medians. The
 //! whole grid is had by turning body 2's waves by a hundredth of a degree, which breaks the symmetry and
-//! nothing else. A second run with all stages on, of the mirrored grid on one thread, splits what a step costs:
-//! whatever it takes beyond the bare one goes to stress, counting and life; a frame is filled apart.
+//! nothing else. A second run with all stages on, of the mirrored grid, splits what a step costs:
+//! whatever it takes beyond the bare one goes to stress, counting and life; a frame is filled apart. A whole frame is all of it.
 
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -50,6 +50,8 @@ pub struct ScalingRow {
 pub struct Split {
     /// Mean of stress, counting and life over steps: volumes are due in some of them only.
     pub stress_and_life_s: f64,
+    /// Mean of a whole step with all of them.
+    pub whole_s: f64,
     /// A frame of it.
     pub frame_s: f64,
     /// Memory with them, bytes.
@@ -80,6 +82,7 @@ impl ScalingCase {
 
 const GENERAL: &[&str] = &["body_2.surface.angle_deg=0.01"];
 const MIRRORED: &[&str] = &[];
+const MIRRORED_CASE: &str = "mirrored in y";
 
 /// The default scene at other speeds of entrainment.
 const SPEEDS: [(&str, &[&str]); 5] = [
@@ -116,7 +119,7 @@ fn cases(extent: Extent) -> Vec<ScalingCase> {
         let most = if nodes == LARGEST { 1 } else { 2 };
         for threads in 1..=most {
             push("whole grid", nodes, threads, steps, GENERAL);
-            push("mirrored in y", nodes, threads, steps, MIRRORED);
+            push(MIRRORED_CASE, nodes, threads, steps, MIRRORED);
         }
     }
     if extent != Extent::Quick {
@@ -152,10 +155,11 @@ pub fn scaling(
 fn measure(case: &ScalingCase) -> Result<ScalingRow, String> {
     let bare = run(case, &["stress=none", "life=none"])?;
     let pair_s = bare.pair_s;
-    let splits = case.keys == MIRRORED && case.threads == 1;
+    let splits = case.name == MIRRORED_CASE;
     let split = if splits {
         let whole = run(case, &[])?;
         Some(Split {
+            whole_s: whole.mean_s,
             stress_and_life_s: (whole.mean_s - bare.mean_s).max(0.0),
             frame_s: whole.frame_s,
             memory_bytes: whole.memory_bytes,
@@ -296,8 +300,8 @@ pub fn scaling_text(rows: &[ScalingRow]) -> String {
 /// What each stage takes, in pairs.
 fn push_splits(text: &mut String, rows: &[ScalingRow]) {
     text.push_str(
-        "\n| grid | case | solution, pairs | stress, counting and life, pairs | frame, pairs | MB with them |\n\
-         |---|---|---|---|---|---|\n",
+        "\n| grid | case | threads | solution, pairs | stress, counting and life, pairs | frame, pairs | whole frame, pairs | whole frames/s | MB with them |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
     );
     for (row, split) in rows
         .iter()
@@ -305,11 +309,14 @@ fn push_splits(text: &mut String, rows: &[ScalingRow]) {
     {
         let _ = writeln!(
             text,
-            "| {n}² | {} | {:.1} | {:.1} | {:.1} | {:.0} |",
+            "| {n}² | {} | {} | {:.1} | {:.1} | {:.1} | {:.1} | {:.1} | {:.0} |",
             row.case,
+            row.threads,
             row.units(),
             split.stress_and_life_s / row.pair_s,
             split.frame_s / row.pair_s,
+            (split.whole_s + split.frame_s) / row.pair_s,
+            1.0 / (split.whole_s + split.frame_s),
             split.memory_bytes as f64 * 1e-6,
             n = row.nodes,
         );

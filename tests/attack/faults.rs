@@ -12,7 +12,7 @@ use super::report::Tally;
 
 const SMALL: [&str; 8] = [
     "run",
-    "demonstration",
+    "demonstration_quick",
     "--set=grid.nodes=33",
     "--set=body_1.surface.wavelength_x_m=4e-4",
     "--set=body_2.surface.wavelength_x_m=4e-4",

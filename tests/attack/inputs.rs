@@ -14,7 +14,7 @@ use super::report::Tally;
 /// A contact that is done in a moment.
 pub(crate) const SMALL: [&str; 8] = [
     "run",
-    "demonstration",
+    "demonstration_quick",
     "--set=grid.nodes=33",
     "--set=body_1.surface.kind=smooth",
     "--set=body_2.surface.kind=smooth",

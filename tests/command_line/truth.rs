@@ -17,7 +17,7 @@ use std::time::Duration;
 
 use crate::common::tui_fixture::{plain, setup_planned};
 use asperity::plan::Plan;
-use asperity::scene::{ContactKind, Override, Scene};
+use asperity::scene::{ContactKind, Override, Scene, presets};
 use asperity::sim::{Frame, Simulation};
 use asperity::tui::app::{App, Leading};
 use asperity::tui::view;
@@ -130,7 +130,7 @@ fn cases() -> Vec<Case> {
     cases.extend(SETTINGS.map(|sets| {
         Case {
             name: sets.join(" "),
-            scene: "demonstration".to_owned(),
+            scene: presets::QUICK.to_owned(),
             sets: sets
                 .iter()
                 .map(|&set| set.to_owned())

@@ -32,7 +32,7 @@ pub(crate) fn sets(stiff: Stiff) -> Vec<String> {
     let smooth = ["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"];
     let all = sets.iter().map(String::as_str).chain(smooth);
     let all: Vec<Override> = all.map(|s| s.parse().unwrap()).collect();
-    let plan = Plan::new(&Scene::load_with("demonstration", &all).unwrap()).unwrap();
+    let plan = Plan::new(&Scene::load_with("demonstration_quick", &all).unwrap()).unwrap();
     let (wx, wy) = (8.0 * plan.dx_m, 8.0 * plan.dy_m);
     sets.extend([
         format!("body_1.surface.wavelength_x_m={wx:e}"),

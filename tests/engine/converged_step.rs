@@ -30,7 +30,7 @@ fn simulation(keys: &[&str], tolerance: f64) -> Simulation {
         .chain(keys)
         .map(|text| text.parse().unwrap())
         .collect();
-    let scene = Scene::load_with(presets::DEFAULT, &overrides).unwrap();
+    let scene = Scene::load_with(presets::QUICK, &overrides).unwrap();
     let plan = Plan::new(&scene).unwrap();
     Simulation::new(&scene, plan, 1).unwrap()
 }

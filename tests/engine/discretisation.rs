@@ -31,7 +31,7 @@ const CASES: [(Case, &[&str]); 10] = [
     (
         (
             "thick, smooth",
-            "demonstration",
+            "demonstration_quick",
             &["load.force_n=20", "motion.entrainment_m_s=4"],
         ),
         &SMOOTH,
@@ -40,7 +40,7 @@ const CASES: [(Case, &[&str]); 10] = [
     (
         (
             "thin, smooth",
-            "demonstration",
+            "demonstration_quick",
             &["motion.entrainment_m_s=3"],
         ),
         &SMOOTH,
@@ -49,7 +49,7 @@ const CASES: [(Case, &[&str]); 10] = [
     (
         (
             "waves, rolling",
-            "demonstration",
+            "demonstration_quick",
             &["motion.slide_roll=0", "motion.entrainment_m_s=5"],
         ),
         &TRANSVERSE,
@@ -57,7 +57,7 @@ const CASES: [(Case, &[&str]); 10] = [
     (
         (
             "waves, sliding",
-            "demonstration",
+            "demonstration_quick",
             &["motion.slide_roll=1", "motion.entrainment_m_s=5"],
         ),
         &TRANSVERSE,
@@ -65,7 +65,7 @@ const CASES: [(Case, &[&str]); 10] = [
     (
         (
             "both rough, mixed",
-            "demonstration",
+            "demonstration_quick",
             &[
                 "body_1.surface.wavelength_x_m=4e-4",
                 "body_2.surface.wavelength_x_m=4e-4",
@@ -75,14 +75,18 @@ const CASES: [(Case, &[&str]); 10] = [
         &[],
     ),
     (
-        ("dry, rough", "demonstration", &["lubricant=none"]),
+        ("dry, rough", "demonstration_quick", &["lubricant=none"]),
         &[
             "body_1.surface.wavelength_x_m=4e-4",
             "body_2.surface.kind=smooth",
         ],
     ),
     (
-        ("isotropic", "demonstration", &["motion.entrainment_m_s=4"]),
+        (
+            "isotropic",
+            "demonstration_quick",
+            &["motion.entrainment_m_s=4"],
+        ),
         &[
             "body_1.surface.kind=smooth",
             "body_2.surface.wavelength_x_m=4e-4",

@@ -127,7 +127,7 @@ fn scene(is_line: bool, (m, l): (f64, f64), more: &[String]) -> Scene {
         .chain(more.iter().cloned())
         .map(|set| set.parse().unwrap())
         .collect();
-    Scene::load_with("demonstration", &sets).unwrap()
+    Scene::load_with("demonstration_quick", &sets).unwrap()
 }
 
 /// Central film over that by formula, and what the plan says the film loses by edges and mesh.

@@ -25,7 +25,7 @@ fn pressure(more: &str) -> Vec<f32> {
         more,
     ];
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
     while sim.passage_steps() < 1 {
         sim.step().unwrap();
@@ -87,7 +87,7 @@ fn a_contact_of_few_nodes_is_solved_to_the_last_digit() {
                 ])
                 .map(|set| set.parse().unwrap())
                 .collect();
-            let scene = Scene::load_with("demonstration", &sets).unwrap();
+            let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
             let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
             while !sim.is_done() {
                 sim.step().unwrap();

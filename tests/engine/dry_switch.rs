@@ -22,7 +22,7 @@ fn scene(speed_m_s: f64, more: &[&str]) -> Scene {
     let speed = format!("motion.entrainment_m_s={speed_m_s:e}");
     let sets = COMMON.iter().chain(more).copied().chain([speed.as_str()]);
     let sets: Vec<Override> = sets.map(|text| text.parse().unwrap()).collect();
-    Scene::load_with("demonstration", &sets).unwrap()
+    Scene::load_with("demonstration_quick", &sets).unwrap()
 }
 
 fn film_m(speed_m_s: f64, more: &[&str]) -> f64 {

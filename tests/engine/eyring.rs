@@ -320,7 +320,7 @@ fn run(sets: &[&str], steps: u64) -> (Frame, asperity::sim::Stats) {
         .chain(sets)
         .map(|s| s.parse().unwrap())
         .collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
     while sim.passage_steps() < steps {
         sim.step().unwrap();
@@ -404,7 +404,7 @@ fn cost_of_a_step_and_of_a_whole_frame() {
     );
     println!("|---|---|---|---|---|---|---|---|---|");
     for (preset, nodes, steps) in [
-        ("demonstration", "grid.nodes=129", 96),
+        ("demonstration_quick", "grid.nodes=129", 96),
         ("fzg_point_b", "grid.nodes=513", 400),
     ] {
         for (what, left_out) in [

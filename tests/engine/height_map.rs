@@ -23,7 +23,7 @@ fn ridges(n: usize) -> Shape {
 
 /// The default scene with body 1 smooth and a surface of `extra` on body 2, in `folder`.
 fn scene_file(folder: &Path, surface: &str) -> String {
-    let mut scene = Scene::load("demonstration").unwrap();
+    let mut scene = Scene::load("demonstration_quick").unwrap();
     scene.body_1.surface = Surface::Smooth {};
     scene.body_2.surface = Surface::Smooth {};
     scene.grid.nodes = 65;

@@ -54,7 +54,7 @@ fn run(stiff: Stiff, steps: u64, more: &[&str]) -> Outcome {
     let sets = sets(stiff);
     let all = sets.iter().map(String::as_str).chain(more.iter().copied());
     let sets: Vec<Override> = all.map(|s| s.parse().unwrap()).collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let tolerance = scene.numerics.tolerance;
     let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
     let mut frame = Frame::default();
@@ -218,7 +218,7 @@ fn dry_steps_of_unlike_bodies_converge_with_any_friction() {
         ];
         let sets = sets.iter().chain(more);
         let sets: Vec<Override> = sets.map(|s| s.parse().unwrap()).collect();
-        let scene = Scene::load_with("demonstration", &sets).unwrap();
+        let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
         let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
         while sim.passage_steps() < 2 {
             sim.step().unwrap();
@@ -249,7 +249,7 @@ fn dry_steps_of_unlike_bodies_converge_with_any_friction() {
 fn a_load_is_taken_up_to_the_edge_of_the_domain() {
     let sets = ["grid.nodes=65", "stress=none", "life=none"];
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();
     let most = plan.most_force_n();
     let mut sim = Simulation::new(&scene, plan, 1).unwrap();

@@ -46,7 +46,7 @@ fn rough_run(laws: [&str; 4]) {
         "stress=none".to_owned(),
     ];
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
     let mut frame = Frame::default();
     let (mut mass, mut load) = (0.0_f64, 0.0_f64);

@@ -43,7 +43,7 @@ fn bits(field: &[f32]) -> Vec<u32> {
 #[test]
 fn reversing_the_flow_is_a_mirror_image() {
     let common = ["grid.nodes=65", "stress.depths=8", "motion.slide_roll=0.7"];
-    let with = |more: &[&str]| scene("demonstration", &[&common, more].concat());
+    let with = |more: &[&str]| scene("demonstration_quick", &[&common, more].concat());
     let forward = with(&[
         "body_1.surface.phase_deg=40",
         "body_2.surface.angle_deg=25",
@@ -107,7 +107,7 @@ fn distance(a: &[f32], b: &[f32]) -> f64 {
 
 #[test]
 fn exchanging_the_bodies_changes_the_sign_of_sliding_and_nothing_else() {
-    let as_is = scene("demonstration", &["grid.nodes=65", "life=none"]);
+    let as_is = scene("demonstration_quick", &["grid.nodes=65", "life=none"]);
     let mut exchanged = as_is.clone();
     std::mem::swap(&mut exchanged.body_1, &mut exchanged.body_2);
     exchanged.motion.slide_roll *= -1.0;
@@ -131,7 +131,7 @@ fn exchanging_the_bodies_changes_the_sign_of_sliding_and_nothing_else() {
 fn zero_entrainment_is_refused_by_name() {
     for value in ["0", "0.0", "-0.0", "1e-7", "-1e-9"] {
         let set: Override = format!("motion.entrainment_m_s={value}").parse().unwrap();
-        let text = Scene::load_with("demonstration", &[set])
+        let text = Scene::load_with("demonstration_quick", &[set])
             .unwrap_err()
             .to_string();
         assert!(text.contains("motion.entrainment_m_s"), "{text}");
@@ -141,7 +141,7 @@ fn zero_entrainment_is_refused_by_name() {
         );
     }
     let scene = scene(
-        "demonstration",
+        "demonstration_quick",
         &["grid.nodes=65", "life=none", "stress=none"],
     );
     let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
@@ -206,7 +206,7 @@ fn ridges_turned_by_a_right_angle_are_longitudinal() {
         "stress=none",
         "body_2.surface.kind=smooth",
     ];
-    let with = |more: &[&str]| scene("demonstration", &[&common, more].concat());
+    let with = |more: &[&str]| scene("demonstration_quick", &[&common, more].concat());
     let turned = with(&[
         "body_1.surface.wavelength_x_m=3e-4",
         "body_1.surface.wavelength_y_m=inf",
@@ -237,7 +237,7 @@ fn ridges_turned_by_a_right_angle_are_longitudinal() {
 fn oblique_ridges_slide_and_converge() {
     for s in ["0.5", "-1"] {
         let scene = scene(
-            "demonstration",
+            "demonstration_quick",
             &[
                 "grid.nodes=65",
                 "life=none",

@@ -18,9 +18,9 @@ fn smooth(nodes: usize, order: &str) -> f64 {
         "time.passages=0.5".to_owned(),
     ];
     let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
-    let mut scene = Scene::load_with("demonstration", &sets).unwrap();
+    let mut scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     // The rectangle of 129 nodes.
-    let domain = Plan::new(&Scene::load("demonstration").unwrap())
+    let domain = Plan::new(&Scene::load("demonstration_quick").unwrap())
         .unwrap()
         .domain;
     scene.grid.x_min_a = Some(domain.x_min_a);
@@ -57,7 +57,7 @@ fn smooth_films_converge_faster_and_to_the_same_limit() {
 fn the_plan_warns_by_the_order_asked_for() {
     let warnings = |order: &str| {
         let set = format!("numerics.order={order}").parse().unwrap();
-        let scene = Scene::load_with("demonstration", &[set]).unwrap();
+        let scene = Scene::load_with("demonstration_quick", &[set]).unwrap();
         Plan::new(&scene).unwrap().warnings
     };
     let coarse = |warning: &Warning| matches!(warning, Warning::CoarseForTheFilm { .. });
@@ -69,7 +69,7 @@ fn the_plan_warns_by_the_order_asked_for() {
 fn the_order_follows_the_mesh() {
     let order = |sets: &[&str]| {
         let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
-        let scene = Scene::load_with("demonstration", &sets).unwrap();
+        let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
         Plan::new(&scene).unwrap().order
     };
     let by_mesh = "numerics.order=by_mesh";

@@ -6,7 +6,7 @@ use asperity::scene::{Override, Scene, presets};
 
 fn plan(settings: &[&str]) -> Result<Plan, PlanError> {
     let overrides: Vec<Override> = settings.iter().map(|text| text.parse().unwrap()).collect();
-    Plan::new(&Scene::load_with(presets::DEFAULT, &overrides).unwrap())
+    Plan::new(&Scene::load_with(presets::QUICK, &overrides).unwrap())
 }
 
 const SMOOTH: [&str; 2] = ["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"];
@@ -225,7 +225,7 @@ fn a_recording_keeps_its_budget() {
 #[test]
 fn events_keep_time_marching() {
     let toml = Scene::load_with(
-        presets::DEFAULT,
+        presets::QUICK,
         &[
             "body_1.surface.kind=smooth".parse().unwrap(),
             "body_2.surface.kind=smooth".parse().unwrap(),
@@ -274,7 +274,7 @@ fn long_steps_are_warned_of_with_the_length_that_is_advised() {
 
 #[test]
 fn loads_and_amplitudes_of_events_are_foreseen() {
-    let text = Scene::load(presets::DEFAULT).unwrap().to_toml();
+    let text = Scene::load(presets::QUICK).unwrap().to_toml();
     let with = |set: &str| {
         let text = format!("{text}\n[[event]]\nat_s = 1e-3\nset = {{ {set} }}\n");
         Plan::new(&Scene::from_toml(&text).unwrap()).unwrap()

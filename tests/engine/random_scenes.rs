@@ -257,7 +257,7 @@ fn scene(sets: &[String]) -> Option<Scene> {
     ];
     all.extend(sets.iter().cloned());
     let all: Vec<Override> = all.iter().map(|text| text.parse().unwrap()).collect();
-    Scene::load_with("demonstration", &all).ok()
+    Scene::load_with("demonstration_quick", &all).ok()
 }
 
 /// How a scene ended.

@@ -67,7 +67,7 @@ fn the_plans_lambda_is_the_screens_in_every_preset_and_no_thin_film_is_full() {
 #[test]
 fn the_least_film_is_that_of_all_nodes_under_pressure() {
     // Under a light load crests meet outside of the Hertz ellipse, where the film is thinnest.
-    let mut scene = small("demonstration");
+    let mut scene = small("demonstration_quick");
     (scene.load.force_n, scene.load.hertz_pressure_pa) = (Some(10.0), None);
     for body in [&mut scene.body_1, &mut scene.body_2] {
         body.surface = Surface::Sinusoid {
@@ -111,7 +111,7 @@ fn the_summary_warns_of_what_the_frame_warns_of() {
         "body_2.surface.wavelength_y_m=4e-4",
     ];
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let (_, mut sim, mut frame) = first(&scene);
     while sim.passage_steps() < 20 {
         sim.step().unwrap();
@@ -143,7 +143,7 @@ fn the_summary_warns_of_what_the_frame_warns_of() {
     assert!(summary.p_max_greatest_pa >= summary.p_max_pa);
     assert!(summary.h_min_least_m <= summary.h_min_m);
     // A standing body, no film, no life are said where they hold.
-    let dry = small("demonstration");
+    let dry = small("demonstration_quick");
     let dry = Scene {
         lubricant: None,
         ..dry

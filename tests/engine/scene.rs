@@ -55,7 +55,7 @@ fn presets_have_the_operating_points_they_claim() {
         ("micropitting_rig", 1.50, 231.0, 0.1),
         ("mtm_ball_on_disc", 1.007, 231.0, 0.5),
         ("ball_on_glass", 0.527, 117.0, 0.0),
-        ("demonstration", 1.73, 219.78, 0.5),
+        ("demonstration_quick", 1.73, 219.78, 0.5),
     ] {
         let scene = Scene::load(name).unwrap();
         let p_max = scene.hertz().p_max_pa * 1e-9;
@@ -440,7 +440,7 @@ proptest! {
 fn none_is_a_word_of_the_keys_that_know_it() {
     let set = |text: &str| -> Scene {
         let set: Override = text.parse().unwrap();
-        Scene::load_with("demonstration", &[set]).unwrap()
+        Scene::load_with("demonstration_quick", &[set]).unwrap()
     };
     let source = |text: &str| set(text).numerics.error_estimate;
     assert_eq!(source("numerics.tolerance=1e-3"), ErrorSource::Companion);

@@ -154,7 +154,7 @@ impl Case {
     }
 
     fn start(self) -> (Session, Arc<Mutex<Seen>>) {
-        let mut scene = Scene::load(presets::DEFAULT).unwrap();
+        let mut scene = Scene::load(presets::QUICK).unwrap();
         scene.events = self.events;
         let seen = Arc::new(Mutex::new(Seen::default()));
         let probe = Probe {
@@ -253,7 +253,7 @@ fn a_stall_ends_the_run_and_closes_the_outputs() {
 
 #[test]
 fn a_simulation_that_cannot_start_is_an_outcome() {
-    let scene = Scene::load(presets::DEFAULT).unwrap();
+    let scene = Scene::load(presets::QUICK).unwrap();
     let request = Request {
         name: "test".into(),
         plan: Plan::new(&scene).unwrap(),

@@ -28,7 +28,7 @@ fn run(sim: &mut Simulation, steps: u64, mut each: impl FnMut(&Frame)) {
 #[test]
 fn one_and_two_threads_give_the_same_frames_bit_for_bit() {
     let bits = |threads| {
-        let mut sim = simulation("demonstration", &["grid.nodes=65"], threads);
+        let mut sim = simulation("demonstration_quick", &["grid.nodes=65"], threads);
         let mut all: Vec<u32> = Vec::new();
         run(&mut sim, 12, |frame| {
             let slice = frame.slice.as_ref().unwrap();
@@ -53,7 +53,11 @@ fn one_and_two_threads_give_the_same_frames_bit_for_bit() {
 
 #[test]
 fn every_rough_step_holds_load_and_mass_and_the_counts_agree() {
-    let mut sim = simulation("demonstration", &["grid.nodes=65", "stress.depths=8"], 2);
+    let mut sim = simulation(
+        "demonstration_quick",
+        &["grid.nodes=65", "stress.depths=8"],
+        2,
+    );
     let steps = 256;
     run(&mut sim, steps, |frame| {
         let m = &frame.metrics;
@@ -86,7 +90,7 @@ fn a_smooth_scene_in_pure_rolling_lives_as_long_as_its_reference() {
         "body_1.surface.kind=smooth",
         "body_2.surface.kind=smooth",
     ];
-    let mut sim = simulation("demonstration", &sets, 2);
+    let mut sim = simulation("demonstration_quick", &sets, 2);
     run(&mut sim, 1, |_| {});
     let life = sim.summary().life_relative.unwrap();
     println!("relative life of a smooth scene at S = 0: {life}");
@@ -126,7 +130,7 @@ fn other_materials_and_mass_conservation_converge() {
         "lubricant.cavitation=jfo",
         "life=none",
     ];
-    let mut sim = simulation("demonstration", &sets, 2);
+    let mut sim = simulation("demonstration_quick", &sets, 2);
     run(&mut sim, 16, |frame| assert!(frame.metrics.converged));
 }
 
@@ -134,7 +138,7 @@ fn other_materials_and_mass_conservation_converge() {
 fn a_dry_scene_is_the_same_on_one_and_two_threads() {
     let bits = |threads| {
         let sets = ["grid.nodes=65", "lubricant=none", "life=none"];
-        let mut sim = simulation("demonstration", &sets, threads);
+        let mut sim = simulation("demonstration_quick", &sets, threads);
         let mut all: Vec<u32> = Vec::new();
         run(&mut sim, 4, |frame| {
             all.extend(frame.pressure_pa.iter().map(|v| v.to_bits()));
@@ -148,7 +152,7 @@ fn a_dry_scene_is_the_same_on_one_and_two_threads() {
 #[test]
 fn a_dry_rough_scene_converges_and_slides_with_boundary_friction() {
     let sets = ["grid.nodes=65", "lubricant=none", "life=none"];
-    let mut sim = simulation("demonstration", &sets, 2);
+    let mut sim = simulation("demonstration_quick", &sets, 2);
     run(&mut sim, 8, |frame| {
         assert!(frame.metrics.converged);
         let deepest = frame.film_m.iter().copied().fold(f32::INFINITY, f32::min);
@@ -171,7 +175,7 @@ fn the_greatest_shear_stress_is_that_of_the_field() {
     for s in ["0", "-0.5", "1"] {
         let slide_roll = format!("motion.slide_roll={s}");
         let sets = ["grid.nodes=65", "life=none", "stress=none", &slide_roll];
-        let mut sim = simulation("demonstration", &sets, 2);
+        let mut sim = simulation("demonstration_quick", &sets, 2);
         run(&mut sim, 4, |frame| {
             let field = frame.traction_pa.iter().map(|q| f64::from(q.abs()));
             let greatest = field.fold(0.0, f64::max);

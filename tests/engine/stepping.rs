@@ -21,7 +21,7 @@ fn simulation(sets: &[&str]) -> Simulation {
         .chain(sets)
         .map(|s| s.parse().unwrap())
         .collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap()
 }
 

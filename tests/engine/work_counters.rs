@@ -23,13 +23,13 @@ struct Case {
 const CASES: [Case; 5] = [
     Case {
         name: "mixed, mirrored",
-        preset: "demonstration",
+        preset: "demonstration_quick",
         sets: &["grid.nodes=65", "time.passages=0.5"],
         golden: [160, 509, 2476, 25_618, 0],
     },
     Case {
         name: "mixed, whole grid, mass-conserving",
-        preset: "demonstration",
+        preset: "demonstration_quick",
         sets: &[
             "grid.nodes=33",
             "time.passages=1",
@@ -43,13 +43,13 @@ const CASES: [Case; 5] = [
     },
     Case {
         name: "dry",
-        preset: "demonstration",
+        preset: "demonstration_quick",
         sets: &["grid.nodes=65", "time.passages=0.5", "lubricant=none"],
         golden: [131, 626, 1199, 6816, 0],
     },
     Case {
         name: "line",
-        preset: "demonstration",
+        preset: "demonstration_quick",
         sets: &[
             "contact.kind=line",
             "contact.ry_m=none",

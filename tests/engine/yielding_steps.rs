@@ -49,7 +49,7 @@ struct Outcome {
 
 /// Runs the start-up and `steps` steps; every step is looked at from the development on.
 fn run(sets: &[String], steps: u64) -> Outcome {
-    let mut sim = simulation("demonstration", sets);
+    let mut sim = simulation("demonstration_quick", sets);
     let (mut frame, mut outcome) = (Frame::default(), Outcome::default());
     while sim.passage_steps() < steps {
         sim.step().unwrap();
@@ -127,7 +127,7 @@ fn infinite_hardness_is_none() {
         sets
     };
     let [mut absent, mut infinite, mut hard] =
-        ["none", "inf", "9e11"].map(|value| simulation("demonstration", &sets(value)));
+        ["none", "inf", "9e11"].map(|value| simulation("demonstration_quick", &sets(value)));
     let mut frames = [Frame::default(), Frame::default(), Frame::default()];
     while !absent.is_done() {
         for (sim, frame) in [&mut absent, &mut infinite, &mut hard]
@@ -175,7 +175,7 @@ fn rough_on_hard(line: bool, wave: f64) -> Vec<String> {
         sets.extend(line.map(str::to_owned));
     }
     let parsed: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let plan = Plan::new(&Scene::load_with("demonstration", &parsed).unwrap()).unwrap();
+    let plan = Plan::new(&Scene::load_with("demonstration_quick", &parsed).unwrap()).unwrap();
     let dx_m = plan.domain.dx_a() * plan.hertz.a_m;
     let wave_m = wave * dx_m;
     sets.push(format!("body_2.surface.wavelength_x_m={wave_m:e}"));
@@ -184,7 +184,7 @@ fn rough_on_hard(line: bool, wave: f64) -> Vec<String> {
 
 /// What a run yields in all, m³, and the share of it that does so in each passage, start-up first.
 fn shares(sets: &[String]) -> (f64, Vec<f64>) {
-    let mut sim = simulation("demonstration", sets);
+    let mut sim = simulation("demonstration_quick", sets);
     let (mut ends, mut frame) = (vec![0.0], Frame::default());
     while !sim.is_done() {
         sim.step().unwrap();
@@ -239,7 +239,7 @@ fn a_harder_body_stays_and_like_bodies_share() {
         sets
     };
     let yielded = |one: &str, two: &str| {
-        let mut sim = simulation("demonstration", &sets(one, two));
+        let mut sim = simulation("demonstration_quick", &sets(one, two));
         while !sim.is_done() {
             sim.step().unwrap();
         }
@@ -264,8 +264,8 @@ fn a_run_goes_on_from_what_has_yielded() {
         "body_2.hardness_pa=2e9",
     ]
     .map(str::to_owned);
-    let mut whole = simulation("demonstration", &sets);
-    let mut parts = simulation("demonstration", &sets);
+    let mut whole = simulation("demonstration_quick", &sets);
+    let mut parts = simulation("demonstration_quick", &sets);
     let (mut one, mut two) = (Frame::default(), Frame::default());
     while !whole.is_done() {
         whole.step().unwrap();
@@ -273,7 +273,7 @@ fn a_run_goes_on_from_what_has_yielded() {
         if parts.stage() == Stage::Passage && parts.passage_steps() % 8 == 1 {
             // Through a file, and into a workspace that has seen nothing.
             let saved = serde_json::to_string(&parts.save()).unwrap();
-            parts = simulation("demonstration", &sets);
+            parts = simulation("demonstration_quick", &sets);
             parts
                 .restore(serde_json::from_str(&saved).unwrap())
                 .unwrap();
@@ -286,14 +286,14 @@ fn a_run_goes_on_from_what_has_yielded() {
     }
     assert!(whole.metrics().yielded_m3.unwrap()[0] > 0.0);
     // Of other bodies it is refused.
-    let mut elastic = simulation("demonstration", &sets[..2]);
+    let mut elastic = simulation("demonstration_quick", &sets[..2]);
     assert!(elastic.restore(whole.save()).is_err());
 }
 
 #[test]
 fn a_body_too_soft_for_the_load_is_refused() {
     let sets: Vec<Override> = vec!["body_1.hardness_pa=8e8".parse().unwrap()];
-    let refused = Scene::load_with("demonstration", &sets)
+    let refused = Scene::load_with("demonstration_quick", &sets)
         .unwrap_err()
         .to_string();
     assert!(refused.contains("half the Hertz pressure"), "{refused}");
@@ -301,12 +301,12 @@ fn a_body_too_soft_for_the_load_is_refused() {
 
 #[test]
 fn a_load_that_no_body_carries_is_refused_from_events_and_from_hands() {
-    let scene = Scene::load("demonstration").unwrap();
+    let scene = Scene::load("demonstration_quick").unwrap();
     let (force, p_hertz_pa) = (scene.force_n(), scene.hertz().p_max_pa);
     let hardness: Override = format!("body_2.hardness_pa={:e}", 0.55 * p_hertz_pa)
         .parse()
         .unwrap();
-    let soft = Scene::load_with("demonstration", &[hardness]).unwrap();
+    let soft = Scene::load_with("demonstration_quick", &[hardness]).unwrap();
     let with = |load: f64| {
         let event = format!("[[event]]\nat_s = 1e-3\nset = {{ \"load.force_n\" = {load} }}\n");
         Scene::from_toml(&format!("{}\n{event}", soft.to_toml()))
@@ -339,7 +339,7 @@ fn what_has_flowed_goes_with_an_amplitude_that_is_turned_away() {
         .map(str::to_owned)
         .to_vec();
         sets.push(format!("lubricant.eyring_flow={flow}"));
-        let mut sim = simulation("demonstration", &sets);
+        let mut sim = simulation("demonstration_quick", &sets);
         let mut frame = Frame::default();
         let step = |sim: &mut Simulation, frame: &mut Frame| {
             sim.step().unwrap();

@@ -75,7 +75,7 @@ fn life_against_amplitude() {
          part of the step (in ln life) that falls into the largest of them: 0.25 of an even slope, 1 of a jump. Greatest \
          pressure and the paper's count beside it.\n",
     );
-    for preset in ["demonstration", "fzg_point_b"] {
+    for preset in ["demonstration_quick", "fzg_point_b"] {
         write!(
             out,
             "\n## {preset}\n\n| amplitude, m | life | step, % | largest of four | body | greatest p, GPa | paper's count |\n|---|---|---|---|---|---|---|\n"
@@ -147,7 +147,7 @@ fn life_falls_with_sliding_and_with_roughness() {
             .to_vec();
         sets.push(format!("motion.slide_roll={s}"));
         sets.extend([1, 2].map(|body| format!("body_{body}.surface.amplitude_m={amplitude_m}")));
-        let out = run("demonstration", &sets);
+        let out = run("demonstration_quick", &sets);
         let life = out.life_relative.unwrap();
         println!(
             "S = {s}, {amplitude_m:e} m: {life:.3}, cycles {:.4}, peaks {:.3}, traction {:.3}; paper's count {:.3}",
@@ -177,7 +177,7 @@ fn life_rises_with_the_film() {
             "life.damage_map=off".to_owned(),
             format!("motion.entrainment_m_s={speed_m_s}"),
         ];
-        let out = run("demonstration", &sets);
+        let out = run("demonstration_quick", &sets);
         let (lambda, life) = (out.lambda_ratio.unwrap(), out.life_relative.unwrap());
         println!("U = {speed_m_s} m/s, lambda {lambda:.3}: life {life:.3}");
         life

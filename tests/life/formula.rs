@@ -150,7 +150,7 @@ fn spread(mut ratios: Vec<f64>) -> String {
 }
 
 fn point() -> Scene {
-    scene("demonstration", &["stress.depths=24"])
+    scene("demonstration_quick", &["stress.depths=24"])
 }
 
 fn line() -> Scene {

@@ -9,7 +9,7 @@ use asperity::sim::{Frame, Simulation, Stage, Summary};
 
 fn simulation(sets: &[String]) -> Simulation {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();
     Simulation::new(&scene, plan, 2).unwrap()
 }

@@ -136,7 +136,7 @@ impl Pair {
 
 #[test]
 fn a_load_that_is_turned_up_gives_the_life_of_a_run_that_begins_there() {
-    let own = scene("demonstration", &ROUGH);
+    let own = scene("demonstration_quick", &ROUGH);
     let pair = compare("800 to 2376 N", &own, &[("load.force_n", 2376.0)]);
     pair.agrees(0.01, 0.02);
     // Life falls as the smooth contact's does: r^-(c + 3/e), the films' share aside.
@@ -149,7 +149,7 @@ fn a_load_that_is_turned_up_gives_the_life_of_a_run_that_begins_there() {
 
 #[test]
 fn a_speed_that_is_turned_up_gives_the_life_of_a_run_that_begins_there() {
-    let own = scene("demonstration", &ROUGH);
+    let own = scene("demonstration_quick", &ROUGH);
     let speed = 5.0 * own.motion.entrainment_m_s;
     let pair = compare("five times U", &own, &[("motion.entrainment_m_s", speed)]);
     // By damage other points of the track are met by other crests: the lives agree within their bands, which are told.
@@ -239,7 +239,7 @@ fn models_and_calibrated_cycles_follow_the_load() {
             &kind,
             &limit,
         ]);
-        let own = scene("demonstration", &sets);
+        let own = scene("demonstration_quick", &sets);
         let pair = compare(model, &own, &[("load.force_n", 1600.0)]);
         let (one, two) = (&pair.turned, &pair.cold);
         let cycles = [one.life_cycles, two.life_cycles];
@@ -263,7 +263,7 @@ fn models_and_calibrated_cycles_follow_the_load() {
 
 #[test]
 fn going_on_from_a_state_in_the_middle_is_the_same_bit_for_bit() {
-    let own = scene("demonstration", &["grid.nodes=65", "stress.depths=8"]);
+    let own = scene("demonstration_quick", &["grid.nodes=65", "stress.depths=8"]);
     let mut sim = simulation(&own);
     while sim.passage_steps() < 5 {
         sim.step().unwrap();

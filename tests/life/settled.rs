@@ -15,7 +15,7 @@ fn scene(name: &str, sets: &[&str]) -> Scene {
 /// Waves that 65 nodes carry, so that the band is no barn door.
 fn point() -> Scene {
     scene(
-        "demonstration",
+        "demonstration_quick",
         &[
             "grid.nodes=65",
             "stress.depths=8",
@@ -213,7 +213,7 @@ fn no_step_of_a_ramp_is_in_a_mean() {
 #[test]
 fn a_smooth_contact_is_settled_at_once() {
     let smooth = ["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"];
-    for name in ["demonstration", "ball_bearing", "fzg_point_b"] {
+    for name in ["demonstration_quick", "ball_bearing", "fzg_point_b"] {
         for count in ["life.cycles=damage", "life.cycles=global"] {
             let scene = scene(name, &[smooth[0], smooth[1], count, "grid.nodes=65"]);
             let mut sim = simulation(&scene);

@@ -339,7 +339,7 @@ fn over_time(contents: &Contents, frames: &[Arc<Frame>], app: &mut App) {
 #[test]
 #[should_panic(expected = "picture [")]
 fn a_painter_with_another_range_is_found() {
-    let scene = scene("demonstration", &["grid.nodes=65"]);
+    let scene = scene("demonstration_quick", &["grid.nodes=65"]);
     let mut announced = scene.clone();
     announced.events = vec![event("load.force_n", 8.0 * 800.0)];
     compare(&scene, &announced);
@@ -348,10 +348,10 @@ fn a_painter_with_another_range_is_found() {
 #[test]
 fn two_presets_a_line_contact_and_a_dry_scene_look_alike_in_all_painters() {
     const SMALL: &str = "grid.nodes=65";
-    let mut dry = scene("demonstration", &[SMALL, "record=none"]);
+    let mut dry = scene("demonstration_quick", &[SMALL, "record=none"]);
     dry.lubricant = None;
     let scenes = [
-        scene("demonstration", &[SMALL]),
+        scene("demonstration_quick", &[SMALL]),
         scene("fzg_point_b", &["grid.nodes=129"]),
         scene("mtm_ball_on_disc", &[SMALL]),
         dry,

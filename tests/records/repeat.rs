@@ -32,7 +32,7 @@ fn wait_for_steps(session: &Session, steps: u64) {
 fn small(sets: &[&str]) -> Scene {
     let all = ["grid.nodes=65", "stress.depths=8"];
     let sets: Vec<Override> = all.iter().chain(sets).map(|s| s.parse().unwrap()).collect();
-    Scene::load_with("demonstration", &sets).unwrap()
+    Scene::load_with("demonstration_quick", &sets).unwrap()
 }
 
 #[test]

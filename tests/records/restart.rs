@@ -9,7 +9,7 @@ use asperity::sim::{Frame, Simulation, State, Stats};
 
 fn scene(sets: &[&str]) -> Scene {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    Scene::load_with("demonstration", &sets).unwrap()
+    Scene::load_with("demonstration_quick", &sets).unwrap()
 }
 
 const SMALL: [&str; 3] = ["grid.nodes=65", "stress.depths=8", "record=none"];
@@ -328,7 +328,12 @@ fn devices_pipes_and_folders_are_no_states() {
     ] {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_asperity"))
             .current_dir(folder.path())
-            .args(["run", "demonstration", "--set=record=none", "--from-state"])
+            .args([
+                "run",
+                "demonstration_quick",
+                "--set=record=none",
+                "--from-state",
+            ])
             .arg(path)
             .output()
             .unwrap();

@@ -97,7 +97,7 @@ fn bodies_flows_and_steps_of_every_kind_go_on_and_repeat() {
     ];
     let mut count = 0;
     for case in cases {
-        let scene = [&["demonstration"], &SMALL[..], case].concat();
+        let scene = [&["demonstration_quick"], &SMALL[..], case].concat();
         count += in_all_ways(&scene, ["0.3", "0.6"]);
     }
     println!("{count} rows, 0 differ");

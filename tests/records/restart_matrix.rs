@@ -54,7 +54,7 @@ pub(crate) struct Case {
 
 fn load(sets: &[String]) -> Scene {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    Scene::load_with("demonstration", &sets).unwrap()
+    Scene::load_with("demonstration_quick", &sets).unwrap()
 }
 
 fn scene(shape: &[&str], flow: &str, bodies: &[&str], map: Option<&Path>, step: &str) -> Scene {

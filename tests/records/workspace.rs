@@ -96,32 +96,32 @@ fn presets_are_the_same_without_their_workspace() {
 #[test]
 fn every_kind_of_contact_is_the_same_without_its_workspace() {
     let kinds: [(&str, &str, &[&str]); 8] = [
-        ("unlike", "demonstration", &["body_2.young_pa=7e10"]),
+        ("unlike", "demonstration_quick", &["body_2.young_pa=7e10"]),
         (
             "unlike and dry",
-            "demonstration",
+            "demonstration_quick",
             &["body_2.young_pa=7e10", "lubricant=none"],
         ),
         (
             "yielding",
-            "demonstration",
+            "demonstration_quick",
             &["body_1.hardness_pa=1e9", "body_2.hardness_pa=1e9"],
         ),
-        ("dry", "demonstration", &["lubricant=none"]),
+        ("dry", "demonstration_quick", &["lubricant=none"]),
         (
             "mass-conserving",
-            "demonstration",
+            "demonstration_quick",
             &["lubricant.cavitation=jfo"],
         ),
         ("line", "fzg_point_b", &["life.spread=models"]),
         (
             "adaptive",
-            "demonstration",
+            "demonstration_quick",
             &["time.tolerance=0.03", "life.cycles=peaks"],
         ),
         (
             "unmirrored",
-            "demonstration",
+            "demonstration_quick",
             &["body_2.surface.angle_deg=20"],
         ),
     ];
@@ -160,8 +160,8 @@ fn grids_and_references_are_the_same_without_the_workspace() {
     let sets: Vec<Override> = ["grid.nodes=129", "stress.depths=8", "record=none"]
         .map(|s| s.parse().unwrap())
         .to_vec();
-    let climbs = Scene::load_with("demonstration", &sets).unwrap();
+    let climbs = Scene::load_with("demonstration_quick", &sets).unwrap();
     println!("climbing: {} frames", compared("climbing", &climbs, 2, 1.0));
-    let turned = small("demonstration", &[]);
+    let turned = small("demonstration_quick", &[]);
     println!("turned: {} frames", compared("turned", &turned, 70, 0.8));
 }

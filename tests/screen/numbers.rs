@@ -32,7 +32,7 @@ fn scene() -> Scene {
         "body_2.surface.wavelength_y_m=4e-4",
     ];
     let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
-    Scene::load_with("demonstration", &sets).unwrap()
+    Scene::load_with("demonstration_quick", &sets).unwrap()
 }
 
 /// What closed forms say of a scene.
@@ -73,7 +73,7 @@ impl Bench {
         let plan = Plan::new(scene).unwrap();
         let sim = Simulation::new(scene, plan.clone(), 1).unwrap();
         let app = App::new(
-            setup_planned(scene, "demonstration", &plan),
+            setup_planned(scene, "demonstration_quick", &plan),
             Vec::new(),
             plain(),
         );

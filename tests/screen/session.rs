@@ -28,7 +28,7 @@ fn repeating() -> Scene {
 
 fn scene(sets: &[&str]) -> Scene {
     let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
-    Scene::load_with("demonstration", &sets).unwrap()
+    Scene::load_with("demonstration_quick", &sets).unwrap()
 }
 
 fn request(scene: &Scene, ending: Ending) -> (Request, Kept) {
@@ -295,7 +295,7 @@ fn a_sweep_that_is_called_off_ends() {
 #[test]
 #[ignore = "prints a time"]
 fn time_from_a_turn_of_s_to_its_life() {
-    let scene = Scene::load("demonstration").unwrap();
+    let scene = Scene::load("demonstration_quick").unwrap();
     let plan = Plan::new(&scene).unwrap();
     let mut sim = Simulation::new(&scene, plan, 2).unwrap();
     let settled = |sim: &Simulation| sim.metrics().life.is_some_and(|life| life.settled);
@@ -333,7 +333,7 @@ fn drawing_costs_the_simulation() {
     use ratatui::layout::Rect;
     use ratatui::{Terminal, TerminalOptions, Viewport};
 
-    let scene = Arc::new(Scene::load("demonstration").unwrap());
+    let scene = Arc::new(Scene::load("demonstration_quick").unwrap());
     let plan = Plan::new(&scene).unwrap();
     let request = Request {
         name: "test".to_owned(),
@@ -345,7 +345,7 @@ fn drawing_costs_the_simulation() {
     };
     let session = Session::start(request).unwrap();
     wait_for(&session, |session| session.status().steps > 8);
-    let setup = setup_planned(&scene, "demonstration", &plan);
+    let setup = setup_planned(&scene, "demonstration_quick", &plan);
     let theme = Theme::new(Capabilities {
         depth: ColorDepth::True,
         glyphs: Glyphs::Unicode,

@@ -263,7 +263,7 @@ fn the_material_point_is_chosen_by_body_depth_and_place() {
 fn state() -> asperity::sim::State {
     use asperity::plan::Plan;
     let sets = ["grid.nodes=65", "stress.depths=8"].map(|set| set.parse().unwrap());
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();
     asperity::sim::Simulation::new(&scene, plan, 1)
         .unwrap()

@@ -54,7 +54,7 @@ fn crossings(sets: &[&str], wanted: usize) -> (Vec<Crossing>, f64) {
         .chain(sets)
         .map(|text| text.parse().unwrap())
         .collect();
-    let scene = Scene::load_with("demonstration", &sets).unwrap();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();
     let gate_pa = GATE * plan.hertz.p_max_pa;
     let mut sim = Simulation::new(&scene, plan, 1).unwrap();

@@ -47,18 +47,6 @@ pub struct Guessed<'a> {
     pub s: &'a [f64],
 }
 
-impl Guessed<'_> {
-    /// Most that may flow through the face between two nodes, whose flow counts with weight `w`.
-    fn most(&self, w: f64, a: usize, b: usize) -> f64 {
-        MOST_OIL * self.c_star[a].min(self.c_star[b]) / (w * self.s[a].max(self.s[b]))
-    }
-
-    /// Whether a node is under pressure and has a film.
-    fn is_open(&self, n: usize) -> bool {
-        self.p[n] > 0.0 && self.h[n] > 0.0
-    }
-}
-
 /// Film and fluidity at the four nodes around a face, densities at the two beside it.
 struct Around {
     h: [f64; 4],
@@ -71,7 +59,13 @@ struct Around {
 #[inline(always)]
 fn middle(v: [f64; 4]) -> f64 {
     let cubic = (9.0 * (v[1] + v[2]) - v[0] - v[3]) / 16.0;
-    cubic.clamp(0.5 * v[1].min(v[2]), 1.5 * v[1].max(v[2]))
+    bounded(cubic, 0.5 * v[1].min(v[2]), 1.5 * v[1].max(v[2]))
+}
+
+/// `value` between two bounds, without the branch and the panic of `clamp`, which keep a loop from the vector units.
+#[inline(always)]
+fn bounded(value: f64, least: f64, most: f64) -> f64 {
+    value.max(least).min(most)
 }
 
 /// e of a face from the flows through it and its two neighbours.
@@ -90,88 +84,183 @@ fn lacking(f: [f64; 3], around: &Around, most: f64) -> f64 {
     let falls = f[1] * harmonic - slope * (b - a) / 12.0 - bend * (a + b) / 48.0;
     let raw = 6.0 * falls / (a + 4.0 * c + b) - bend / 24.0 - f[1];
     let most = most.min((f[0].abs() + f[1].abs() + f[2].abs()) / 3.0);
-    raw.clamp(-most, most)
+    bounded(raw, -most, most)
+}
+
+/// Faces that are worked out beside each other.
+const LANES: usize = 8;
+
+/// A run of faces: of the four nodes around face k what `p[0][k]` to `p[3][k]` and so on hold.
+#[derive(Clone, Copy)]
+struct Run<'a> {
+    p: [&'a [f64]; 4],
+    h: [&'a [f64]; 4],
+    g: [&'a [f64]; 4],
+    ln_g: [&'a [f64]; 2],
+    rho: [&'a [f64]; 2],
+    /// Conductances of the face before, of the face and of the face behind.
+    tau: [&'a [f64]; 3],
+    c_star: [&'a [f64]; 2],
+    s: [&'a [f64]; 2],
+}
+
+/// `LANES` values from `start` on; beyond the end zeros, as of closed films.
+#[inline(always)]
+fn lanes<const N: usize>(runs: [&[f64]; N], start: usize) -> [[f64; LANES]; N] {
+    runs.map(|run| {
+        let rest = &run[start..];
+        rest.first_chunk().copied().unwrap_or_else(|| {
+            let mut few = [0.0; LANES];
+            few[..rest.len()].copy_from_slice(rest);
+            few
+        })
+    })
+}
+
+/// The values of one lane.
+#[inline(always)]
+fn lane<const N: usize>(values: &[[f64; LANES]; N], k: usize) -> [f64; N] {
+    std::array::from_fn(|n| values[n][k])
+}
+
+dispatched! {
+/// e of a run of faces whose flow counts with weight `w`; 0 where one of the four nodes has no pressure or no film.
+fn fill(run: &Run, w: f64, out: &mut [f64]) {
+    for (chunk, e) in out.chunks_mut(LANES).enumerate() {
+        let start = chunk * LANES;
+        let (p, h, g) = (lanes(run.p, start), lanes(run.h, start), lanes(run.g, start));
+        let (ln_g, rho) = (lanes(run.ln_g, start), lanes(run.rho, start));
+        let (tau, c_star, s) = (lanes(run.tau, start), lanes(run.c_star, start), lanes(run.s, start));
+        let mut all = [0.0; LANES];
+        for k in 0..LANES {
+            let (p, tau) = (lane(&p, k), lane(&tau, k));
+            let around = Around { h: lane(&h, k), g: lane(&g, k), ln_g: lane(&ln_g, k), rho: lane(&rho, k) };
+            let ([c_a, c_b], [s_a, s_b]) = (lane(&c_star, k), lane(&s, k));
+            let flows = std::array::from_fn(|f| tau[f] * (p[f + 1] - p[f]));
+            let most = MOST_OIL * c_a.min(c_b) / (w * s_a.max(s_b));
+            let least = |v: [f64; 4]| v[0].min(v[1]).min(v[2].min(v[3]));
+            let is_open = least(p).min(least(around.h)) > 0.0;
+            let e = lacking(flows, &around, most);
+            all[k] = if is_open { e } else { 0.0 };
+        }
+        e.copy_from_slice(&all[..e.len()]);
+    }
+}
+}
+
+/// What the flow lacks through the faces with the eastern neighbour and with the row above.
+pub(super) struct Lacking {
+    east: Vec<f64>,
+    north: Vec<f64>,
+}
+
+impl Lacking {
+    /// Room for `n` nodes.
+    pub(super) fn new(n: usize) -> Self {
+        Self {
+            east: vec![0.0; n],
+            north: vec![0.0; n],
+        }
+    }
 }
 
 impl Reynolds {
-    /// What the correction of the face between the middle two of these nodes needs.
-    fn around(&self, at: &Guessed, direction: FlowDirection, nodes: [usize; 4]) -> Around {
+    /// Faces whose four nodes begin at `starts`, and whose conductances begin at `faces` in `tau`.
+    fn run<'a>(
+        &'a self,
+        at: &Guessed<'a>,
+        direction: FlowDirection,
+        (starts, len): ([usize; 4], usize),
+        (tau, faces): (&'a [f64], [usize; 3]),
+    ) -> Run<'a> {
         let fluidities = self.fluidity.nodes(direction, &self.q, 0..self.q.len());
-        Around {
-            h: nodes.map(|n| at.h[n]),
-            g: nodes.map(|n| fluidities.g[n]),
-            ln_g: [nodes[1], nodes[2]].map(|n| fluidities.ln_g[n]),
-            rho: [self.rho[nodes[1]], self.rho[nodes[2]]],
+        let all = |of: &'a [f64]| starts.map(|start| &of[start..start + len]);
+        let two = |of: &'a [f64]| [starts[1], starts[2]].map(|start| &of[start..start + len]);
+        Run {
+            p: all(at.p),
+            h: all(at.h),
+            g: all(fluidities.g),
+            ln_g: two(fluidities.ln_g),
+            rho: two(&self.rho),
+            tau: faces.map(|face| &tau[face..face + len]),
+            c_star: two(at.c_star),
+            s: two(at.s),
         }
     }
 
-    /// e of the face between the nodes `i` and `i + 1` of the row that begins at `start`.
-    fn lacking_along(&self, grid: &Grid, at: &Guessed, start: usize, i: usize) -> f64 {
-        let n = start + i;
-        if i == 0 || i + 2 >= grid.nx || !(n - 1..=n + 2).all(|n| at.is_open(n)) {
-            return 0.0;
-        }
-        let flow = |n: usize| self.east[n] * (at.p[n + 1] - at.p[n]);
-        let flows = [flow(n - 1), flow(n), flow(n + 1)];
-        let most = at.most(grid.flow_weights().0, n, n + 1);
-        let around = self.around(at, FlowDirection::Along, [n - 1, n, n + 1, n + 2]);
-        lacking(flows, &around, most)
+    /// e of the faces along row `j`: those between the nodes 1 and nx − 2.
+    fn lacking_along(&self, grid: &Grid, at: &Guessed, j: usize, out: &mut [f64]) {
+        let (start, len) = (j * grid.nx, grid.nx - 3);
+        let nodes = [0, 1, 2, 3].map(|k| start + k);
+        let faces = (&self.east[..], [0, 1, 2].map(|k| start + k));
+        let run = self.run(at, FlowDirection::Along, (nodes, len), faces);
+        fill(&run, grid.flow_weights().0, &mut out[1..=len]);
     }
 
-    /// e of the face between rows `j` and `j + 1` in column `i`.
-    fn lacking_across(&self, grid: &Grid, at: &Guessed, j: usize, i: usize) -> f64 {
+    /// e of the faces between rows `j` and `j + 1`.
+    fn lacking_across(&self, grid: &Grid, at: &Guessed, j: usize, out: &mut [f64]) {
         let interior = grid.interior_rows();
         if !interior.contains(&j) || !interior.contains(&(j + 1)) {
-            return 0.0;
+            return;
         }
-        let rows = [grid.row_below(j), j, j + 1, grid.row_above(j + 1)];
-        let nodes @ [low, here, above, high] = rows.map(|row| row * grid.nx + i);
-        if !nodes.into_iter().all(|n| at.is_open(n)) {
-            return 0.0;
-        }
-        let p = at.p;
-        let flows = [
-            self.north[face_below(grid, j) * grid.nx + i] * (p[here] - p[low]),
-            self.north[here] * (p[above] - p[here]),
-            self.north[above] * (p[high] - p[above]),
-        ];
-        let most = at.most(grid.flow_weights().1, here, above);
-        lacking(flows, &self.around(at, FlowDirection::Across, nodes), most)
+        let nx = grid.nx;
+        let nodes = [grid.row_below(j), j, j + 1, grid.row_above(j + 1)].map(|row| row * nx);
+        let faces = (
+            &self.north[..],
+            [face_below(grid, j), j, j + 1].map(|row| row * nx),
+        );
+        let run = self.run(at, FlowDirection::Across, (nodes, nx), faces);
+        fill(&run, grid.flow_weights().1, out);
     }
 
     /// Adds to `c_star` what the flow of second order lacks, and takes it off F. Properties, faces and F are those of the
     /// last call of [`Reynolds::residual`], at this guess.
     pub fn correct(&mut self, grid: &Grid, at: &Guessed, c_star: &mut [f64]) {
         let nx = grid.nx;
+        let is_line = grid.symmetry == Symmetry::Line;
+        let mut lacking = std::mem::replace(&mut self.lacking, Lacking::new(0));
+        let this = &*self;
+        let faces = lacking
+            .east
+            .par_chunks_mut(nx)
+            .zip(lacking.north.par_chunks_mut(nx));
+        faces
+            .enumerate()
+            .with_min_len(ROWS)
+            .for_each(|(j, (east, north))| {
+                this.lacking_along(grid, at, j, east);
+                if !is_line {
+                    this.lacking_across(grid, at, j, north);
+                }
+            });
         let (wx, wy) = grid.flow_weights();
         let interior = grid.interior_rows();
-        let mut residual = std::mem::take(&mut self.residual);
-        let this = &*self;
-        let rows = residual.par_chunks_mut(nx).zip(c_star.par_chunks_mut(nx));
+        let rows = self
+            .residual
+            .par_chunks_mut(nx)
+            .zip(c_star.par_chunks_mut(nx));
         rows.enumerate()
             .with_min_len(ROWS)
             .filter(|(j, _)| interior.contains(j))
             .for_each(|(j, (f, c_star))| {
-                let mut west = 0.0;
+                let east = &lacking.east[j * nx..][..nx];
+                let north = &lacking.north[j * nx..][..nx];
                 for i in 1..nx - 1 {
-                    let east = this.lacking_along(grid, at, j * nx, i);
-                    let mut comes = wx * (east - west);
-                    west = east;
-                    if grid.symmetry != Symmetry::Line {
-                        let north = this.lacking_across(grid, at, j, i);
+                    let mut comes = wx * (east[i] - east[i - 1]);
+                    if !is_line {
                         let south = match (j, grid.symmetry) {
-                            (0, Symmetry::MirrorY) => -north,
+                            (0, Symmetry::MirrorY) => -north[i],
                             (0, _) => 0.0,
-                            _ => this.lacking_across(grid, at, j - 1, i),
+                            _ => lacking.north[(j - 1) * nx + i],
                         };
-                        comes += wy * (north - south);
+                        comes += wy * (north[i] - south);
                     }
                     let comes = at.s[j * nx + i] * comes;
                     c_star[i] += comes;
                     f[i] -= comes;
                 }
             });
-        self.residual = residual;
+        self.lacking = lacking;
     }
 }
 

@@ -5,6 +5,7 @@
 //! runs are measured against the finest run of all, and the cheapest settings for three errors in life follow.
 
 mod counted;
+mod default_scene;
 mod hertz;
 mod passage;
 mod plot;
@@ -13,6 +14,7 @@ mod row;
 mod smooth;
 mod stress;
 
+pub use default_scene::{COMPARED, DefaultRun, DefaultSetting};
 pub use passage::{LifeLimit, LifeRun, LifeValue, Resolution};
 pub use plot::{life_plot, work_precision_plot};
 pub use report::{accuracy_table, accuracy_text};
@@ -32,6 +34,8 @@ pub struct Accuracy {
     pub limit: LifeLimit,
     /// Length of those runs, in lengths of 4 a.
     pub passages: f64,
+    /// The default scene as it comes and otherwise, the finest last.
+    pub default_scene: Vec<DefaultRun>,
 }
 
 /// Errors in life for which settings are recommended.
@@ -47,6 +51,11 @@ impl Accuracy {
     pub fn passes(&self) -> bool {
         self.rows.iter().all(|row| row.error.is_finite())
             && self.lives.iter().all(|run| run.error.is_finite())
+            && self
+                .default_scene
+                .iter()
+                .flat_map(|run| run.values)
+                .all(f64::is_finite)
     }
 }
 
@@ -210,6 +219,10 @@ pub fn accuracy(
     })
     .map_err(failed(StudiedPart::Life))?;
     rows.extend(more);
+    let default_scene = default_scene::default_scene(extent, threads, |name| {
+        progress(name, all - 1, all);
+    })
+    .map_err(failed(StudiedPart::Life))?;
     row::observe_orders(&mut rows);
     row::mark_front(&mut rows);
     Ok(Accuracy {
@@ -217,5 +230,6 @@ pub fn accuracy(
         lives,
         limit,
         passages: sizes.passages,
+        default_scene,
     })
 }

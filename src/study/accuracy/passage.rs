@@ -23,7 +23,7 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// What the presets use.
+    /// What the presets use, but for the default scene, which is finer.
     pub const USUAL: Self = Self {
         nodes: 129,
         step: 1.0,
@@ -36,6 +36,7 @@ impl Resolution {
             format!("grid.nodes={}", self.nodes),
             format!("time.step_nodes={}", self.step),
             format!("numerics.tolerance={:e}", self.tolerance),
+            "numerics.order=second".to_owned(),
             "numerics.error_estimate=none".to_owned(),
             "record=none".to_owned(),
         ]

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::super::table::{MarkdownTable, figure};
+use super::default_scene::push_default_scene;
 use super::{Accuracy, LEVELS, StudiedPart, Varied};
 
 /// Every row.
@@ -53,6 +54,7 @@ pub fn accuracy_text(result: &Accuracy) -> String {
     text.push_str(&accuracy_table(result).markdown());
     push_orders(&mut text, result);
     push_lives(&mut text, result);
+    push_default_scene(&mut text, &result.default_scene);
     text
 }
 

@@ -8,7 +8,7 @@
 //! stands beside it: windows do not hold whole periods, so their means scatter.
 
 use crate::plan::Plan;
-use crate::scene::{Override, Scene};
+use crate::scene::{Override, Scene, presets};
 use crate::sim::{Frame, Simulation, Stage};
 
 /// Names of the sums.
@@ -103,7 +103,7 @@ pub(super) fn long_run(
         .map(|text| text.parse::<Override>())
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| error.to_string())?;
-    let scene = Scene::load_with("demonstration", &overrides).map_err(|error| error.to_string())?;
+    let scene = Scene::load_with(presets::QUICK, &overrides).map_err(|error| error.to_string())?;
     let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
     let window = plan.steps_per_passage;
     let mut sim = Simulation::new(&scene, plan, 1).map_err(|error| error.to_string())?;

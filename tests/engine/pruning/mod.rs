@@ -32,7 +32,7 @@ const THREADS: usize = 2;
 const VARIANTS: [(&str, &str, &[&str]); 4] = [
     (
         "demonstration, dry, smooth",
-        "demonstration",
+        "demonstration_quick",
         &[
             "lubricant=none",
             "stress=none",
@@ -43,17 +43,17 @@ const VARIANTS: [(&str, &str, &[&str]); 4] = [
     ),
     (
         "demonstration, Newtonian",
-        "demonstration",
+        "demonstration_quick",
         &["lubricant.rheology=newtonian", "motion.slide_roll=0.02"],
     ),
     (
         "demonstration, smooth",
-        "demonstration",
+        "demonstration_quick",
         &["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"],
     ),
     (
         "demonstration, longitudinal",
-        "demonstration",
+        "demonstration_quick",
         &[
             "body_1.surface.kind=smooth",
             "body_2.surface.wavelength_x_m=inf",
@@ -76,7 +76,7 @@ fn variants(is_whole: bool) -> Vec<Variant> {
     }
     let mut all: Vec<Variant> = presets::all()
         .iter()
-        .filter(|preset| is_whole || preset.name == presets::DEFAULT)
+        .filter(|preset| is_whole || preset.name == presets::QUICK)
         .map(|preset| (preset.name.to_owned(), preset.name, sets.clone()))
         .collect();
     all.extend(VARIANTS.iter().map(|(name, preset, more)| {
