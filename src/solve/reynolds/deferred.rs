@@ -108,10 +108,10 @@ struct Run<'a> {
 #[inline(always)]
 fn lanes<const N: usize>(runs: [&[f64]; N], start: usize) -> [[f64; LANES]; N] {
     runs.map(|run| {
-        let tail = &run[start..];
-        tail.first_chunk().copied().unwrap_or_else(|| {
+        let left = &run[start..];
+        left.first_chunk().copied().unwrap_or_else(|| {
             let mut few = [0.0; LANES];
-            few[..tail.len()].copy_from_slice(tail);
+            few[..left.len()].copy_from_slice(left);
             few
         })
     })
