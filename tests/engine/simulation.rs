@@ -203,7 +203,7 @@ fn the_load_acts_at_the_centre_of_the_pressure() {
             format!("body_2.surface.kind={surface}"),
         ];
         let sets = sets.each_ref().map(String::as_str);
-        let mut sim = simulation("demonstration", &sets, 2);
+        let mut sim = simulation("demonstration_quick", &sets, 2);
         run(&mut sim, 4, |frame| {
             let (mut load, mut moment) = (0.0, 0.0);
             for (n, p) in frame.pressure_pa.iter().enumerate() {

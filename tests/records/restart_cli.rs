@@ -109,7 +109,7 @@ fn every_preset_goes_on_and_repeats() {
     for preset in presets::all() {
         // A point and a line on all their grids; the others on fewer nodes, which changes no branch that they take.
         let sizes: &[&str] = match preset.name {
-            "demonstration" | "fzg_point_b" => &[],
+            "demonstration_quick" | "fzg_point_b" => &[],
             _ => &["--set=grid.nodes=65"],
         };
         let scene = [&[preset.name], sizes].concat();
