@@ -73,7 +73,13 @@ pub(crate) struct Cli {
 pub(crate) enum CliCommand {
     /// Open the explorer: the contact live, with knobs to turn
     #[command(after_long_help = Knob::table())]
-    Explore(ExploreArgs),
+    Explore {
+        #[command(flatten)]
+        run: RunArgs,
+        /// Begin with a lesson of your own
+        #[arg(long, value_name = "FILE.toml")]
+        lesson: Option<PathBuf>,
+    },
     /// Run a scene without a screen
     #[command(after_long_help = "\
 Examples:
@@ -207,26 +213,6 @@ pub(crate) struct SceneArgs {
     /// Length of the run after the start-up, in passages of 4 a at speed U (sets time.passages)
     #[arg(long, value_name = "N")]
     pub(crate) passages: Option<f64>,
-}
-
-/// What to explore.
-#[derive(Debug, Args)]
-pub(crate) struct ExploreArgs {
-    #[command(flatten)]
-    pub(crate) run: RunArgs,
-    /// Begin with a lesson of your own
-    #[arg(long, value_name = "FILE.toml")]
-    pub(crate) lesson: Option<PathBuf>,
-}
-
-impl ExploreArgs {
-    /// What a bare `asperity` means on a terminal.
-    pub(crate) fn bare() -> Self {
-        Self {
-            run: RunArgs::bare(),
-            lesson: None,
-        }
-    }
 }
 
 /// How to run it and what to write.
@@ -389,10 +375,8 @@ impl RunArgs {
 
 /// As many as asked for, or one for each core.
 fn threads(asked: Option<u16>) -> usize {
-    asked.map_or_else(
-        || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-        usize::from,
-    )
+    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    asked.map_or_else(all, usize::from)
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ use asperity::tui::{
 use miette::miette;
 
 use super::Engine;
-use super::args::{ExploreArgs, RunArgs};
+use super::args::RunArgs;
 use super::failure::{Failure, tell};
 use super::names::Names;
 use super::outputs::{Outputs, RecorderPace, Recording};
@@ -76,10 +76,13 @@ impl Sitting {
 }
 
 /// Opens the explorer and runs until the user quits.
-pub(crate) fn explore(args: &ExploreArgs, engine: Engine) -> Result<u8, Failure> {
-    let lesson = args.lesson.as_deref().map(Lesson::load).transpose();
+pub(crate) fn explore(
+    args: &RunArgs,
+    lesson: Option<&Path>,
+    engine: Engine,
+) -> Result<u8, Failure> {
+    let lesson = lesson.map(Lesson::load).transpose();
     let lesson = lesson.map_err(|error| Failure::input(miette!("{error}")))?;
-    let args = &args.run;
     if args.hold {
         return Err(Failure::input(miette!(
             "--hold is for asperity run: the explorer does not wait for viewers"

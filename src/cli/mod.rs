@@ -26,7 +26,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-use args::{Cli, CliCommand, ExploreArgs, HeadlessArgs, RunArgs};
+use args::{Cli, CliCommand, HeadlessArgs, RunArgs};
 use asperity::run::{Request, RunError, Session};
 use failure::Failure;
 
@@ -54,7 +54,7 @@ fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> 
     match command {
         None => bare(engine),
         Some(CliCommand::Run(args)) => run::run(&args),
-        Some(CliCommand::Explore(args)) => explore(&args, engine),
+        Some(CliCommand::Explore { run, lesson }) => explore(&run, lesson.as_deref(), engine),
         Some(CliCommand::Check(args)) => scenes::check(&args),
         Some(CliCommand::Scenes { name }) => scenes::scenes(name.as_deref()),
         Some(CliCommand::Study(args)) => study::study(&args),
@@ -69,19 +69,23 @@ fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> 
 fn bare(engine: Engine) -> Result<u8, Failure> {
     let on_a_terminal = std::io::stdout().is_terminal() && std::io::stdin().is_terminal();
     if on_a_terminal && cfg!(feature = "tui") {
-        explore(&ExploreArgs::bare(), engine)
+        explore(&RunArgs::bare(), None, engine)
     } else {
         run::run(&HeadlessArgs::whole(RunArgs::bare_headless()))
     }
 }
 
 #[cfg(feature = "tui")]
-fn explore(args: &ExploreArgs, engine: Engine) -> Result<u8, Failure> {
-    explore::explore(args, engine)
+fn explore(
+    args: &RunArgs,
+    lesson: Option<&std::path::Path>,
+    engine: Engine,
+) -> Result<u8, Failure> {
+    explore::explore(args, lesson, engine)
 }
 
 #[cfg(not(feature = "tui"))]
-fn explore(_args: &ExploreArgs, _engine: Engine) -> Result<u8, Failure> {
+fn explore(_: &RunArgs, _: Option<&std::path::Path>, _: Engine) -> Result<u8, Failure> {
     Err(Failure::input(miette::miette!(
         help = "asperity run computes the same without a screen; a build with the default features has the explorer",
         "this program was built without the feature tui, so it has no explorer"

@@ -119,14 +119,6 @@ impl Bench {
         }
     }
 
-    /// What the film may be wrong by, by the mesh.
-    pub(super) fn mesh_error(&self) -> f64 {
-        self.frame
-            .metrics
-            .errors
-            .map_or(0.0, |errors| errors.h_central)
-    }
-
     pub(super) fn press(&mut self, actions: &[Action]) {
         for action in actions {
             for effect in self.app.apply(*action) {

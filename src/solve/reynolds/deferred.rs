@@ -132,7 +132,7 @@ fn fill(run: &Run, w: f64, out: &mut [f64]) {
         let (ln_g, rho) = (lanes(run.ln_g, start), lanes(run.rho, start));
         let (tau, c_star, s) = (lanes(run.tau, start), lanes(run.c_star, start), lanes(run.s, start));
         let mut all = [0.0; LANES];
-        for k in 0..LANES {
+        for (k, lacks) in all.iter_mut().enumerate() {
             let (p, tau) = (lane(&p, k), lane(&tau, k));
             let around = Around { h: lane(&h, k), g: lane(&g, k), ln_g: lane(&ln_g, k), rho: lane(&rho, k) };
             let ([c_a, c_b], [s_a, s_b]) = (lane(&c_star, k), lane(&s, k));
@@ -140,8 +140,8 @@ fn fill(run: &Run, w: f64, out: &mut [f64]) {
             let most = MOST_OIL * c_a.min(c_b) / (w * s_a.max(s_b));
             let least = |v: [f64; 4]| v[0].min(v[1]).min(v[2].min(v[3]));
             let is_open = least(p).min(least(around.h)) > 0.0;
-            let e = lacking(flows, &around, most);
-            all[k] = if is_open { e } else { 0.0 };
+            let lacking = lacking(flows, &around, most);
+            *lacks = if is_open { lacking } else { 0.0 };
         }
         e.copy_from_slice(&all[..e.len()]);
     }

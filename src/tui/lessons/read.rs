@@ -80,9 +80,13 @@ fn default_scene() -> String {
     presets::QUICK.to_owned()
 }
 
-type Read<T> = Result<T, SceneError>;
+type LessonRead<T> = Result<T, SceneError>;
 
-fn refused<T>(key: impl Into<String>, value: impl Display, allowed: impl Into<String>) -> Read<T> {
+fn refused<T>(
+    key: impl Into<String>,
+    value: impl Display,
+    allowed: impl Into<String>,
+) -> LessonRead<T> {
     Err(SceneError::value(key, value, allowed))
 }
 
@@ -170,7 +174,7 @@ impl Lesson {
 }
 
 /// Letters that can be shown, on one line.
-fn words(key: impl Into<String>, text: &str, most: usize) -> Read<String> {
+fn words(key: impl Into<String>, text: &str, most: usize) -> LessonRead<String> {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let fits = (1..=most).contains(&line.chars().count());
     if fits && !line.chars().any(char::is_control) {
@@ -184,7 +188,12 @@ fn words(key: impl Into<String>, text: &str, most: usize) -> Read<String> {
 }
 
 /// One of some names.
-fn one_of<T: Copy>(key: String, name: &str, all: &[T], of: impl Fn(T) -> &'static str) -> Read<T> {
+fn one_of<T: Copy>(
+    key: String,
+    name: &str,
+    all: &[T],
+    of: impl Fn(T) -> &'static str,
+) -> LessonRead<T> {
     let found = all.iter().find(|one| of(**one) == name);
     let names = || {
         all.iter()
@@ -197,7 +206,7 @@ fn one_of<T: Copy>(key: String, name: &str, all: &[T], of: impl Fn(T) -> &'stati
         .map_or_else(|| refused(key, name, names()), Ok)
 }
 
-fn figure(key: String, name: &str) -> Read<LessonFigure> {
+fn figure(key: String, name: &str) -> LessonRead<LessonFigure> {
     let names = || {
         let names: Vec<&str> = LessonFigure::all().map(LessonFigure::name).collect();
         format!("one of {}", names.join(", "))
@@ -213,7 +222,7 @@ impl BeatReader {
         format!("beat {}: {name}", self.0)
     }
 
-    fn beat(&self, file: BeatFile, staging: Option<Staging>) -> Read<Beat> {
+    fn beat(&self, file: BeatFile, staging: Option<Staging>) -> LessonRead<Beat> {
         if !(file.passages > 0.0 && file.passages <= LONGEST_BEAT) {
             let range = format!("above 0, to {LONGEST_BEAT}");
             return refused(self.key("passages"), file.passages, range);
@@ -250,7 +259,7 @@ impl BeatReader {
                 .map(|name| one_of(self.key("enlarge"), name, &PanelKind::ALL, PanelKind::name))
                 .transpose()?,
             passages: file.passages,
-            claims: claims.collect::<Read<_>>()?,
+            claims: claims.collect::<LessonRead<_>>()?,
             question: file
                 .question
                 .map(|asked| self.question(asked))
@@ -259,7 +268,7 @@ impl BeatReader {
     }
 
     /// Knobs by their scene keys: to a value, or so many times the scene's.
-    fn sets(&self, file: &BeatFile) -> Read<Vec<(Knob, KnobSetting)>> {
+    fn sets(&self, file: &BeatFile) -> LessonRead<Vec<(Knob, KnobSetting)>> {
         let to = file.knobs.iter();
         let to = to.map(|(key, value)| ("knobs", key, KnobSetting::To(*value)));
         let times = file.times.iter();
@@ -278,7 +287,7 @@ impl BeatReader {
         Ok(sets)
     }
 
-    fn measure(&self, table: &str, of: &str, over: Option<&str>) -> Read<LessonMeasure> {
+    fn measure(&self, table: &str, of: &str, over: Option<&str>) -> LessonRead<LessonMeasure> {
         let key = |name: &str| self.key(&format!("{table}.{name}"));
         Ok(LessonMeasure {
             of: figure(key("of"), of)?,
@@ -291,7 +300,7 @@ impl BeatReader {
         })
     }
 
-    fn claim(&self, file: &ClaimFile) -> Read<Claim> {
+    fn claim(&self, file: &ClaimFile) -> LessonRead<Claim> {
         let measure = self.measure("claims", &file.of, file.over.as_deref())?;
         let (least, most) = (
             file.from.unwrap_or(f64::NEG_INFINITY),
@@ -313,7 +322,7 @@ impl BeatReader {
         })
     }
 
-    fn question(&self, file: QuestionFile) -> Read<LessonQuestion> {
+    fn question(&self, file: QuestionFile) -> LessonRead<LessonQuestion> {
         let key = |name: &str| self.key(&format!("question.{name}"));
         if !ANSWERS.contains(&file.answers.len()) {
             let range = format!("{} to {} of them", ANSWERS.start(), ANSWERS.end());
@@ -333,7 +342,7 @@ impl BeatReader {
         Ok(LessonQuestion {
             ask: words(key("ask"), &file.ask, LETTERS[1])?,
             measure: self.measure("question", &file.of, file.over.as_deref())?,
-            answers: answers.collect::<Read<_>>()?,
+            answers: answers.collect::<LessonRead<_>>()?,
             limits: file.limits,
             because: words(key("because"), &file.because, LETTERS[1])?,
         })

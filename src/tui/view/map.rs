@@ -21,7 +21,7 @@ use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::sig;
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, point, put, title};
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, title};
 use motion::motion;
 use paint::{MapMark, Pixel, color_bar, look, paint};
 use profile::SurfaceProfile;
@@ -31,14 +31,14 @@ use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 const BAR: u16 = 8;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let inner = panel(app, areas, PanelKind::Map, heading(app, areas), buffer);
+    let (theme, title) = (app.theme, heading(app, areas));
+    let inner = panel(app, areas, PanelKind::Map, title, buffer);
     let Some(frame) = app.frame() else {
         waiting(app, inner, buffer);
         return;
     };
     if app.map == MapKind::Profile {
-        side_view(app, frame, inner, buffer);
+        profile::side_view(app, frame, inner, buffer);
         return;
     }
     let (picture, bar) = split(areas, inner);
@@ -77,18 +77,6 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     probe(app, frame, (picture, image), buffer);
 }
 
-/// Both surfaces with the oil between them, and below them the trace of the point that rides on one.
-fn side_view(app: &App, frame: &Frame, inner: Rect, buffer: &mut Buffer) {
-    let Some(profile) = SurfaceProfile::of(app, frame) else {
-        return;
-    };
-    let (area, below) = profile::rooms(inner);
-    profile::draw(app, &profile, area, inner, buffer);
-    if let Some(below) = below {
-        point::under_profile(app, frame, (below, profile.x), buffer);
-    }
-}
-
 /// The cells that the map fills.
 pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
     let frame = app.frame()?;
@@ -106,16 +94,7 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitma
     let frame = app.frame()?;
     let area = room(app, areas)?;
     if app.map == MapKind::Profile {
-        let profile = SurfaceProfile::of(app, frame)?;
-        let mut picture = profile::pixels(&profile, area, cell);
-        if let Some([x, y]) = profile::point_part(app, &profile) {
-            let whole = MapWindow {
-                x: [0.0, 1.0],
-                y: [0.0, 1.0],
-            };
-            MapMark::Diamond.draw(&mut picture, &whole, (x, y), 0.6 * f64::from(cell.0));
-        }
-        return Some(picture);
+        return profile::in_pixels(app, frame, area, cell);
     }
     let (picture, _) = split(areas, inside(areas, areas.map));
     let window = window(app, frame, picture);
@@ -167,7 +146,6 @@ fn picture_of(
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let frame = app.frame()?;
     if app.map == MapKind::Profile {
-        // There the point is put.
         let profile = SurfaceProfile::of(app, frame)?;
         let (area, _) = profile::rooms(inside(areas, areas.map));
         let across = at.x >= area.x && at.x < area.right() && areas.map.contains(at);

@@ -14,7 +14,7 @@ use crate::tui::view::knobs::{SPECIFIC, SYMBOLS};
 use crate::tui::view::{ASCII_BORDER, ascii_text, put};
 
 /// Draws a box of a wanted size in the middle and gives the room inside.
-fn boxed(
+pub(super) fn boxed(
     app: &App,
     within: Rect,
     (width, height): (u16, u16),
@@ -302,42 +302,6 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
     Paragraph::new(text)
         .wrap(Wrap { trim: true })
         .render(below, buffer);
-}
-
-/// The lessons: one of them begins.
-pub(super) fn lessons(app: &App, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let rows = app.lessons.len() as u16;
-    let size = (66, rows + 4);
-    let inner = boxed(app, within, size, "lessons (t closes)", Role::Key, buffer);
-    for (place, lesson) in app.lessons.iter().enumerate() {
-        let chosen = place == app.lesson;
-        let mark = if chosen { theme.pick("▸", ">") } else { " " };
-        let role = if chosen { Role::Chosen } else { Role::Text };
-        let asked = lesson.beats.iter().filter(|beat| beat.question.is_some());
-        let number = if place < 9 {
-            (place + 1).to_string()
-        } else {
-            " ".to_owned()
-        };
-        let line = Line::from(vec![
-            Span::styled(mark, theme.style(Role::Chosen)),
-            Span::styled(format!("{number} "), theme.style(Role::Key)),
-            Span::styled(ascii_text(theme, &lesson.title), theme.style(role)),
-            Span::styled(format!("  {} asked", asked.count()), theme.style(Role::Dim)),
-        ]);
-        put(inner, place as u16, &line, buffer);
-    }
-    let keys = theme.pick(
-        "↑↓ choose  Enter or a digit begins  T ends the lesson",
-        "up, down: choose; Enter or a digit begins; T ends the lesson",
-    );
-    put(
-        inner,
-        inner.height.saturating_sub(1),
-        &Line::styled(keys, theme.style(Role::Dim)),
-        buffer,
-    );
 }
 
 /// Words that are too long for the last line, in a box at the foot of the screen.

@@ -1,20 +1,17 @@
 //! Last lines: where the run is, how well it converges, what is left out, what is recorded.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::scene::CycleBasis;
 use crate::sim::{CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named};
 use crate::sweep::Along;
-use crate::tui::action::Action;
-use crate::tui::app::{
-    App, ErrandKind, Leading, Overlay, PanelKind, RunPace, Trouble, WhyUnconverged,
-};
+use crate::tui::app::{App, Leading, Trouble, WhyUnconverged};
 use crate::tui::theme::Role;
-use crate::tui::units::{bytes, seconds, sig};
+use crate::tui::units::{seconds, sig};
+use crate::tui::view::footer::{hints_shown, recorder};
 use crate::tui::view::{Areas, PanelSpacing, ascii_text, knobs, overlay, put, put_right};
-use crate::tui::wiring::RecorderActivity;
 
 /// Words and their roles, in the order in which they are dropped from the right.
 type StatusWords = Vec<(String, Role)>;
@@ -237,64 +234,6 @@ fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
     put(room, row, &Line::from(spans), buffer);
 }
 
-/// A key of the last line: what it is called, and what it asks for.
-struct FooterKey {
-    key: &'static str,
-    word: String,
-    action: Action,
-}
-
-impl FooterKey {
-    fn new(key: &'static str, word: &str, action: Action) -> Self {
-        let word = word.to_owned();
-        Self { key, word, action }
-    }
-
-    /// Columns of the key with its word and the gap after it.
-    fn width(&self) -> usize {
-        self.key.chars().count() + self.word.chars().count() + 3
-    }
-}
-
-/// The keys that fit, whole.
-fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
-    let mut hints = hints(app);
-    let taken: usize = hints.iter().map(FooterKey::width).sum();
-    if !app.setup.left_out.is_empty() && app.typing.is_none() {
-        let free = usize::from(room.width).saturating_sub(taken);
-        hints.push(FooterKey::new("i", &left_out(app, free), Action::Plan));
-    }
-    let mut free = usize::from(room.width);
-    // What does not fit whole is not begun, and nothing after it.
-    let fits = |hint: &FooterKey| {
-        let fits = hint.width() <= free;
-        free = free.saturating_sub(hint.width());
-        fits
-    };
-    hints.into_iter().take_while(fits).collect()
-}
-
-/// A press on a key of the last line is that key.
-pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
-    let recorder = recorder(app).width() as u16 + 1;
-    let room = Rect {
-        y: areas.status.bottom().saturating_sub(1),
-        height: 1,
-        width: areas.status.width.saturating_sub(recorder),
-        ..areas.status
-    };
-    if app.message().is_some() || !room.contains(at) {
-        return None;
-    }
-    let mut end = room.x + 1;
-    let mut hints = hints_shown(app, room).into_iter();
-    let under = hints.find(|hint| {
-        end += hint.width() as u16;
-        at.x < end
-    })?;
-    Some(under.action)
-}
-
 fn one_line(message: &str, columns: u16) -> bool {
     !message.contains('\n') && message.chars().count() < usize::from(columns)
 }
@@ -307,110 +246,4 @@ pub(super) fn message(app: &App, areas: &Areas, screen: Rect, buffer: &mut Buffe
         return;
     }
     overlay::message(app, message, screen, buffer);
-}
-
-/// What the plan leaves out: all of it where it fits, else how much.
-fn left_out(app: &App, room: usize) -> String {
-    let left_out = &app.setup.left_out;
-    let stages: Vec<&str> = left_out.iter().map(|left| left.stage).collect();
-    let all = ascii_text(app.theme, &format!("not computed: {}", stages.join(", ")));
-    if all.chars().count() + 4 <= room {
-        all
-    } else {
-        format!("{} not computed", left_out.len())
-    }
-}
-
-/// What can be done now: by what is open, asked, typed or large, and then by the panel that the keys speak of.
-fn hints(app: &App) -> Vec<FooterKey> {
-    let key = FooterKey::new;
-    let enter = app.theme.pick("⏎", "Enter");
-    if app.typing.is_some() {
-        return vec![
-            key(enter, "set", Action::Enter),
-            key("Esc", "leave it", Action::Close),
-        ];
-    }
-    match app.overlay {
-        Overlay::Lessons => {
-            return vec![
-                key(enter, "begin", Action::Enter),
-                key("t", "close", Action::Lessons),
-            ];
-        }
-        Overlay::Scene => {
-            return vec![
-                key(enter, "run it", Action::Enter),
-                key("e", "close", Action::Scene),
-            ];
-        }
-        Overlay::Help | Overlay::Plan => return vec![key("Esc", "close", Action::Close)],
-        Overlay::None => {}
-    }
-    let mut hints = vec![
-        key("?", "keys", Action::Help),
-        key("q", "quit", Action::Quit),
-    ];
-    if app.tour.is_some() {
-        hints.push(key("n", "go on", Action::NextBeat));
-        hints.push(key("N", "back", Action::PreviousBeat));
-        hints.push(key("T", "end lesson", Action::EndTour));
-    }
-    if app.enlarged.is_some() {
-        hints.push(key("Esc", "all panels", Action::Close));
-    }
-    let pause = match (&app.replay, app.pace) {
-        (Some(_), _) => key("o", "live", Action::Replay),
-        (None, RunPace::Paused) => key("space", "go on", Action::TogglePause),
-        (None, RunPace::Running) => key("space", "pause", Action::TogglePause),
-    };
-    let pin = if app.pinned.is_some() {
-        "release"
-    } else {
-        "freeze"
-    };
-    let own = match app.focus {
-        PanelKind::Knobs => key("=", "type", Action::Type),
-        PanelKind::Map => key("m", "map", Action::NextMap),
-        PanelKind::CentreLine => key("z", "zoom", Action::Zoom),
-        PanelKind::Life => key("y", "curve", Action::Curve),
-        PanelKind::Point => key("p", "trace", Action::PointQuantity),
-    };
-    hints.extend([pause, key("b", pin, Action::Pin), own]);
-    if app.tour.is_none() {
-        hints.push(key("t", "lessons", Action::Lessons));
-        hints.push(key("e", "scene", Action::Scene));
-    }
-    if app.offers(ErrandKind::Record) {
-        hints.push(key("r", "record", Action::Record));
-    }
-    hints
-}
-
-fn recorder(app: &App) -> Line<'static> {
-    let theme = app.theme;
-    let dim = theme.style(Role::Dim);
-    let Some(recorder) = &app.status.recorder else {
-        return Line::styled("not recording ", dim);
-    };
-    let (word, role) = match recorder.activity {
-        RecorderActivity::Recording => (theme.pick("● rec ", "* rec "), Role::Pressure),
-        RecorderActivity::Paused => (theme.pick("‖ rec paused ", "= rec paused "), Role::Warn),
-        RecorderActivity::Stopped => (theme.pick("■ rec stopped ", "# rec stopped "), Role::Bad),
-    };
-    let skipped = match recorder.skipped {
-        0 => String::new(),
-        skipped => format!("{skipped} skipped "),
-    };
-    Line::from(vec![
-        Span::styled(word, theme.style(role)),
-        Span::styled(
-            format!(
-                "{} {} frames {skipped}",
-                bytes(recorder.bytes),
-                recorder.frames
-            ),
-            dim,
-        ),
-    ])
 }

@@ -12,6 +12,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
+use super::paint::MapMark;
+use super::raster::MapWindow;
 use crate::picture::{CONTACT, Look, Subject, Tint};
 use crate::scene::Scene;
 use crate::sim::{Frame, StressSlice};
@@ -19,7 +21,7 @@ use crate::tui::app::{App, Zoom};
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::Role;
 use crate::tui::units::{nice_ceiling, sig, tick};
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::{ascii_text, point, put, put_right};
 
 /// Depth to which a body is drawn at the edge of the picture, in half-widths.
 const DEEP: f64 = 0.6;
@@ -242,14 +244,20 @@ pub(super) fn rooms(inner: Rect) -> (Rect, Option<Rect>) {
     (profile, trace)
 }
 
+/// Both surfaces with the oil between them, and below them the trace of the point that rides on one.
+pub(super) fn side_view(app: &App, frame: &Frame, inner: Rect, buffer: &mut Buffer) {
+    let Some(profile) = SurfaceProfile::of(app, frame) else {
+        return;
+    };
+    let (area, below) = rooms(inner);
+    draw(app, &profile, area, inner, buffer);
+    if let Some(below) = below {
+        point::under_profile(app, frame, (below, profile.x), buffer);
+    }
+}
+
 /// Draws the profile, where it is not left to the terminal's own pixels, and its numbers.
-pub(super) fn draw(
-    app: &App,
-    profile: &SurfaceProfile,
-    area: Rect,
-    inner: Rect,
-    buffer: &mut Buffer,
-) {
+fn draw(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let rows = usize::from(area.height) * if theme.paints() { 2 } else { 1 };
     let columns = if app.is_in_pixels() {
@@ -274,9 +282,11 @@ pub(super) fn draw(
         }
     }
     numbers(app, profile, area, inner, buffer);
+    let cell = |part: f64, cells: u16| (part * f64::from(cells)) as u16;
     if !app.is_in_pixels()
-        && let Some((column, row)) = point_cell(app, profile, area)
-        && let Some(cell) = buffer.cell_mut((column, row))
+        && let Some([along, down]) = point_part(app, profile)
+        && let (column, row) = (cell(along, area.width), cell(down, area.height))
+        && let Some(cell) = buffer.cell_mut((area.x + column, area.y + row))
     {
         cell.set_symbol(theme.pick("◆", "X"));
         if theme.paints() {
@@ -288,7 +298,7 @@ pub(super) fn draw(
 }
 
 /// The followed point, riding on its body: parts of the picture along and down.
-pub(super) fn point_part(app: &App, profile: &SurfaceProfile) -> Option<[f64; 2]> {
+fn point_part(app: &App, profile: &SurfaceProfile) -> Option<[f64; 2]> {
     let point = app.point_now()?;
     let x = point.sample.x_m / profile.frame.a_m;
     let [lower, upper] = profile.surfaces(x);
@@ -297,15 +307,6 @@ pub(super) fn point_part(app: &App, profile: &SurfaceProfile) -> Option<[f64; 2]
     let down = 0.5 * (1.0 - z / profile.half_m);
     let inside = |part: f64| (0.0..1.0).contains(&part);
     (inside(along) && inside(down)).then_some([along, down])
-}
-
-fn point_cell(app: &App, profile: &SurfaceProfile, area: Rect) -> Option<(u16, u16)> {
-    let [along, down] = point_part(app, profile)?;
-    let cell = |part: f64, cells: u16| (part * f64::from(cells)) as u16;
-    Some((
-        area.x + cell(along, area.width),
-        area.y + cell(down, area.height),
-    ))
 }
 
 /// Heights at the left, x/a and what is what below.
@@ -362,7 +363,7 @@ fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, buffer:
 }
 
 /// The profile in the terminal's own pixels, so many for a cell.
-pub(super) fn pixels(profile: &SurfaceProfile, area: Rect, cell: (u16, u16)) -> Bitmap {
+fn pixels(profile: &SurfaceProfile, area: Rect, cell: (u16, u16)) -> Bitmap {
     let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
     let (width, height) = (side(area.width, cell.0), side(area.height, cell.1));
     let columns = profile.columns(width);
@@ -379,6 +380,20 @@ pub(super) fn pixels(profile: &SurfaceProfile, area: Rect, cell: (u16, u16)) -> 
         height,
         rgba,
     }
+}
+
+/// The same with the followed point.
+pub(super) fn in_pixels(app: &App, frame: &Frame, area: Rect, cell: (u16, u16)) -> Option<Bitmap> {
+    let profile = SurfaceProfile::of(app, frame)?;
+    let mut picture = pixels(&profile, area, cell);
+    if let Some([x, y]) = point_part(app, &profile) {
+        let whole = MapWindow {
+            x: [0.0, 1.0],
+            y: [0.0, 1.0],
+        };
+        MapMark::Diamond.draw(&mut picture, &whole, (x, y), 0.6 * f64::from(cell.0));
+    }
+    Some(picture)
 }
 
 #[cfg(test)]

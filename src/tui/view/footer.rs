@@ -1,0 +1,175 @@
+//! The keys of the last line: what can be done now.
+
+use ratatui::layout::{Position, Rect};
+use ratatui::text::{Line, Span};
+
+use crate::tui::action::Action;
+use crate::tui::app::{App, ErrandKind, Overlay, PanelKind, RunPace};
+use crate::tui::theme::Role;
+use crate::tui::units::bytes;
+use crate::tui::view::{Areas, ascii_text};
+use crate::tui::wiring::RecorderActivity;
+
+/// A key of the last line: what it is called, and what it asks for.
+pub(super) struct FooterKey {
+    pub(super) key: &'static str,
+    pub(super) word: String,
+    action: Action,
+}
+
+impl FooterKey {
+    fn new(key: &'static str, word: &str, action: Action) -> Self {
+        let word = word.to_owned();
+        Self { key, word, action }
+    }
+
+    /// Columns of the key with its word and the gap after it.
+    fn width(&self) -> usize {
+        self.key.chars().count() + self.word.chars().count() + 3
+    }
+}
+
+/// The keys that fit, whole.
+pub(super) fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
+    let mut hints = hints(app);
+    let taken: usize = hints.iter().map(FooterKey::width).sum();
+    if !app.setup.left_out.is_empty() && app.typing.is_none() {
+        let free = usize::from(room.width).saturating_sub(taken);
+        hints.push(FooterKey::new("i", &left_out(app, free), Action::Plan));
+    }
+    let mut free = usize::from(room.width);
+    // What does not fit whole is not begun, and nothing after it.
+    let fits = |hint: &FooterKey| {
+        let fits = hint.width() <= free;
+        free = free.saturating_sub(hint.width());
+        fits
+    };
+    hints.into_iter().take_while(fits).collect()
+}
+
+/// A press on a key of the last line is that key.
+pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
+    let recorder = recorder(app).width() as u16 + 1;
+    let room = Rect {
+        y: areas.status.bottom().saturating_sub(1),
+        height: 1,
+        width: areas.status.width.saturating_sub(recorder),
+        ..areas.status
+    };
+    if app.message().is_some() || !room.contains(at) {
+        return None;
+    }
+    let mut end = room.x + 1;
+    let mut hints = hints_shown(app, room).into_iter();
+    let under = hints.find(|hint| {
+        end += hint.width() as u16;
+        at.x < end
+    })?;
+    Some(under.action)
+}
+
+/// What the plan leaves out: all of it where it fits, else how much.
+fn left_out(app: &App, room: usize) -> String {
+    let left_out = &app.setup.left_out;
+    let stages: Vec<&str> = left_out.iter().map(|left| left.stage).collect();
+    let all = ascii_text(app.theme, &format!("not computed: {}", stages.join(", ")));
+    if all.chars().count() + 4 <= room {
+        all
+    } else {
+        format!("{} not computed", left_out.len())
+    }
+}
+
+/// What can be done now: by what is open, asked, typed or large, and then by the panel that the keys speak of.
+fn hints(app: &App) -> Vec<FooterKey> {
+    let key = FooterKey::new;
+    let enter = app.theme.pick("⏎", "Enter");
+    if app.typing.is_some() {
+        return vec![
+            key(enter, "set", Action::Enter),
+            key("Esc", "leave it", Action::Close),
+        ];
+    }
+    match app.overlay {
+        Overlay::Lessons => {
+            return vec![
+                key(enter, "begin", Action::Enter),
+                key("t", "close", Action::Lessons),
+            ];
+        }
+        Overlay::Scene => {
+            return vec![
+                key(enter, "run it", Action::Enter),
+                key("e", "close", Action::Scene),
+            ];
+        }
+        Overlay::Help | Overlay::Plan => return vec![key("Esc", "close", Action::Close)],
+        Overlay::None => {}
+    }
+    let mut hints = vec![
+        key("?", "keys", Action::Help),
+        key("q", "quit", Action::Quit),
+    ];
+    if app.tour.is_some() {
+        hints.push(key("n", "go on", Action::NextBeat));
+        hints.push(key("N", "back", Action::PreviousBeat));
+        hints.push(key("T", "end lesson", Action::EndTour));
+    }
+    if app.enlarged.is_some() {
+        hints.push(key("Esc", "all panels", Action::Close));
+    }
+    let pause = match (&app.replay, app.pace) {
+        (Some(_), _) => key("o", "live", Action::Replay),
+        (None, RunPace::Paused) => key("space", "go on", Action::TogglePause),
+        (None, RunPace::Running) => key("space", "pause", Action::TogglePause),
+    };
+    let pin = if app.pinned.is_some() {
+        "release"
+    } else {
+        "freeze"
+    };
+    let own = match app.focus {
+        PanelKind::Knobs => key("=", "type", Action::Type),
+        PanelKind::Map => key("m", "map", Action::NextMap),
+        PanelKind::CentreLine => key("z", "zoom", Action::Zoom),
+        PanelKind::Life => key("y", "curve", Action::Curve),
+        PanelKind::Point => key("p", "trace", Action::PointQuantity),
+    };
+    hints.extend([pause, key("b", pin, Action::Pin), own]);
+    if app.tour.is_none() {
+        hints.push(key("t", "lessons", Action::Lessons));
+        hints.push(key("e", "scene", Action::Scene));
+    }
+    if app.offers(ErrandKind::Record) {
+        hints.push(key("r", "record", Action::Record));
+    }
+    hints
+}
+
+pub(super) fn recorder(app: &App) -> Line<'static> {
+    let theme = app.theme;
+    let dim = theme.style(Role::Dim);
+    let Some(recorder) = &app.status.recorder else {
+        return Line::styled("not recording ", dim);
+    };
+    let (word, role) = match recorder.activity {
+        RecorderActivity::Recording => (theme.pick("● rec ", "* rec "), Role::Pressure),
+        RecorderActivity::Paused => (theme.pick("‖ rec paused ", "= rec paused "), Role::Warn),
+        RecorderActivity::Stopped => (theme.pick("■ rec stopped ", "# rec stopped "), Role::Bad),
+    };
+    let skipped = match recorder.skipped {
+        0 => String::new(),
+        skipped => format!("{skipped} skipped "),
+    };
+    Line::from(vec![
+        Span::styled(word, theme.style(role)),
+        Span::styled(
+            format!(
+                "{} {} frames {skipped}",
+                bytes(recorder.bytes),
+                recorder.frames
+            ),
+            dim,
+        ),
+    ])
+}
