@@ -54,7 +54,7 @@ fn refuse_what_is_not_read(args: &StudyArgs) -> Result<(), Failure> {
                 .as_deref()
                 .is_some_and(|part| !DEFAULT_PART.contains(part)) =>
         {
-            "--only: this study's parts belong together, but for --only \"default scene\""
+            "--only: this study's parts belong together, but for --only default; stability, scaling and evidence take any"
         }
         StudyKind::Scaling if args.threads.is_some() => {
             "--threads: this study compares one thread with two; to have cases of one only: --only \"1 threads\""

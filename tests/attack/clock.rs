@@ -62,6 +62,14 @@ fn difference(one: &Path, other: &Path) -> Option<String> {
     }
     let mut pairs = one.iter().zip(&other);
     pairs.find_map(|(one, other)| {
+        // What is not known is no number, which is similar to nothing, not even to itself: such rows are compared by bits.
+        let is_same = one.components() == other.components()
+            && one.timelines().iter().all(|(name, column)| {
+                name.as_str() == "log_time" || other.timelines().get(name) == Some(column)
+            });
+        if is_same {
+            return None;
+        }
         let error = Chunk::ensure_similar(one, other).err()?;
         Some(format!("{}: {error}", one.entity_path()))
     })

@@ -333,8 +333,8 @@ fn check_tells_that_the_spacing_of_crests_is_assumed() {
             rest.split_once("assumed")
                 .is_some_and(|(words, _)| words.len() < 20)
         });
-        let published =
-            preset.name.starts_with("demonstration") && says.contains("Pu, Zhu, Wang & Wang (2016)");
+        let published = preset.name.starts_with("demonstration")
+            && says.contains("Pu, Zhu, Wang & Wang (2016)");
         assert!(assumed || published, "{}: {says}", preset.name);
     }
 }

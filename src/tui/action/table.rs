@@ -160,7 +160,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[(key(KeyCode::Enter), Action::Enter)],
         "⏎",
-        "panel whole screen; run; start",
+        "panel whole; run; start",
         Group::Show,
     ),
     row(

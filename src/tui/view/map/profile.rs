@@ -169,7 +169,7 @@ impl<'a> SurfaceProfile<'a> {
         let [lower, upper] = column.surfaces;
         let middle = f64::midpoint(lower, upper);
         // Where the film is thinner than a pixel it still has one.
-        if (lower..=upper).contains(&z) || (z - middle).abs() <= 0.5 * pixel_m {
+        if (lower < z && z <= upper) || (z - middle).abs() <= 0.5 * pixel_m {
             return column.gap;
         }
         let (body, into, slice) = if z < middle {
