@@ -413,7 +413,7 @@ fn scripted_events_take_effect_at_their_time_in_order() {
 }
 
 #[test]
-fn a_knob_that_is_refused_is_told_and_not_logged() {
+fn a_knob_that_is_refused_is_logged_as_the_words_that_tell_it() {
     let mut case = Case::new(5);
     case.ending = Ending::OnStop;
     let (session, seen) = case.start();
@@ -421,7 +421,11 @@ fn a_knob_that_is_refused_is_told_and_not_logged() {
     wait_until(&session, |steps| steps > 2);
     session.send(Command::Stop);
     let outcome = session.join().unwrap();
-    assert_eq!(outcome.applied.len(), 1, "{:?}", outcome.applied);
+    let [told, stopped] = &outcome.applied[..] else {
+        panic!("{:?}", outcome.applied);
+    };
+    assert!(matches!(&told.command, Command::Say(text) if text.contains("at most 2")));
+    assert_eq!(stopped.command, Command::Stop);
     let events = seen.lock().unwrap().events.clone();
     assert_eq!(events.len(), 1, "{events:?}");
     assert!(events[0].1.contains("at most 2"), "{events:?}");

@@ -461,14 +461,14 @@ mod tests {
     fn what_is_where() {
         let frame = frame();
         let profile = profile(&frame, 0.5);
-        // A hundred rows of 10 nm, from 500 nm downwards.
-        let at = |x: f64, row: usize| profile.at(&profile.column(x), row, 100);
-        assert!(matches!(at(0.0, 50), Matter::Oil(_)));
-        assert!(matches!(at(0.0, 10), Matter::Body(2, ..)));
-        assert!(matches!(at(0.0, 90), Matter::Body(1, ..)));
-        let oil = (0..100).filter(|row| matches!(at(0.0, *row), Matter::Oil(_)));
-        assert_eq!(oil.count(), 20, "to scale");
-        let touching = (0..100).filter(|row| at(1.0, *row) == Matter::Touching);
+        // 125 rows of 8 nm, from 500 nm downwards: no pixel's middle lies on a surface.
+        let at = |x: f64, row: usize| profile.at(&profile.column(x), row, 125);
+        assert!(matches!(at(0.0, 62), Matter::Oil(_)));
+        assert!(matches!(at(0.0, 12), Matter::Body(2, ..)));
+        assert!(matches!(at(0.0, 112), Matter::Body(1, ..)));
+        let oil = (0..125).filter(|row| matches!(at(0.0, *row), Matter::Oil(_)));
+        assert_eq!(oil.count(), 25, "200 nm");
+        let touching = (0..125).filter(|row| at(1.0, *row) == Matter::Touching);
         assert_eq!(touching.count(), 1, "a film of no height has a pixel");
         let share = share_1(&Scene::load("ball_on_glass").unwrap());
         assert!((share - 0.5).abs() > 0.1, "steel on glass: {share}");
