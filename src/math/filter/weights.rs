@@ -37,7 +37,9 @@ impl<T: FftNum> Weights<T> {
             .for_each(|(j, (values, used))| {
                 set(j, values);
                 for (used, values) in used.iter_mut().zip(values.chunks_exact(nx)) {
-                    *used = values.iter().any(|v| !v.is_zero());
+                    // Part by part, for the vector units: most rows of most symbols have none.
+                    let mut parts = values.chunks(32);
+                    *used = parts.any(|part| part.iter().fold(false, |any, v| any | !v.is_zero()));
                 }
             });
         for (b, any) in self.any.iter_mut().enumerate() {

@@ -104,23 +104,30 @@ struct Run<'a> {
     s: [&'a [f64]; 2],
 }
 
-/// `LANES` values from `start` on; beyond the end zeros, as of closed films.
+/// `LANES` values from `start` on; beyond the end zeros, as of closed films. Loops, here and below: the library's `map`
+/// over arrays is compiled for the narrow units and called a value at a time (a fortieth of a frame).
 #[inline(always)]
 fn lanes<const N: usize>(runs: [&[f64]; N], start: usize) -> [[f64; LANES]; N] {
-    runs.map(|run| {
+    let mut all = [[0.0; LANES]; N];
+    for (values, run) in all.iter_mut().zip(runs) {
         let left = &run[start..];
-        left.first_chunk().copied().unwrap_or_else(|| {
-            let mut few = [0.0; LANES];
-            few[..left.len()].copy_from_slice(left);
-            few
-        })
-    })
+        if let Some(chunk) = left.first_chunk() {
+            *values = *chunk;
+        } else {
+            values[..left.len()].copy_from_slice(left);
+        }
+    }
+    all
 }
 
 /// The values of one lane.
 #[inline(always)]
 fn lane<const N: usize>(values: &[[f64; LANES]; N], k: usize) -> [f64; N] {
-    std::array::from_fn(|n| values[n][k])
+    let mut all = [0.0; N];
+    for (value, of) in all.iter_mut().zip(values) {
+        *value = of[k];
+    }
+    all
 }
 
 dispatched! {
@@ -136,7 +143,7 @@ fn fill(run: &Run, w: f64, out: &mut [f64]) {
             let (p, tau) = (lane(&p, k), lane(&tau, k));
             let around = Around { h: lane(&h, k), g: lane(&g, k), ln_g: lane(&ln_g, k), rho: lane(&rho, k) };
             let ([c_a, c_b], [s_a, s_b]) = (lane(&c_star, k), lane(&s, k));
-            let flows = std::array::from_fn(|f| tau[f] * (p[f + 1] - p[f]));
+            let flows = [tau[0] * (p[1] - p[0]), tau[1] * (p[2] - p[1]), tau[2] * (p[3] - p[2])];
             let most = MOST_OIL * c_a.min(c_b) / (w * s_a.max(s_b));
             let least = |v: [f64; 4]| v[0].min(v[1]).min(v[2].min(v[3]));
             let is_open = least(p).min(least(around.h)) > 0.0;
