@@ -335,12 +335,11 @@ impl Driver {
                 };
                 self.announce(sim, kind);
             }
-            // Not done, and told where it would have been: words, which a run that is repeated says again, as it plays its
-            // script again.
-            Err(error) => match by {
-                SetBy::Hand => self.carry_out(sim, Command::Say(error.to_string())),
-                SetBy::Script => self.announce(sim, RunEventKind::Caption(error.to_string())),
-            },
+            // Not done, but told: in words that a run that is repeated says again, as it plays its script again.
+            Err(error) if by == SetBy::Hand => {
+                self.carry_out(sim, Command::Say(error.to_string()));
+            }
+            Err(error) => self.announce(sim, RunEventKind::Caption(error.to_string())),
         }
     }
 
