@@ -336,9 +336,7 @@ impl Driver {
                 self.announce(sim, kind);
             }
             // Not done, but told: in words that a run that is repeated says again, as it plays its script again.
-            Err(error) if by == SetBy::Hand => {
-                self.carry_out(sim, Command::Say(error.to_string()));
-            }
+            Err(error) if by == SetBy::Hand => self.carry_out(sim, Command::Say(error.to_string())),
             Err(error) => self.announce(sim, RunEventKind::Caption(error.to_string())),
         }
     }
