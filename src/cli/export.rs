@@ -1,82 +1,44 @@
 //! `asperity export`: pictures, animations and numbers out of a recording.
 
+#[cfg(feature = "rerun")]
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Instant,
+};
+
+#[cfg(feature = "rerun")]
+use asperity::{
+    math::number::{bytes, counted, seconds},
+    observe::rerun::RecordedFrames,
+    observe::{Export, Format, Observer as _, Overwrite, PrintSize, RunContext, Table},
+};
+
 use super::args::ExportArgs;
+#[cfg(feature = "rerun")]
+use super::args::ExportAs;
 use super::failure::Failure;
 
 /// Writes what was asked for.
 #[cfg(feature = "rerun")]
 pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
-    use std::path::PathBuf;
-    use std::time::Instant;
-
-    use asperity::math::number::{bytes, counted, seconds};
-    use asperity::observe::rerun::RecordedFrames;
-    use asperity::observe::{
-        Export, Format, Observer as _, Overwrite, PrintSize, RunContext, Table, picture_names,
-    };
-    use miette::miette;
-
-    use super::args::ExportAs;
-
-    let names = picture_names();
-    if let Some(unknown) = args
-        .show
-        .iter()
-        .find(|name| !names.contains(&name.as_str()))
-    {
-        return Err(Failure::input(miette!(
-            help = format!("there are {}", names.join(", ")),
-            "--show {unknown}: no picture of that name"
-        )));
-    }
+    refuse_unknown_pictures(&args.show)?;
     let started = Instant::now();
     let read = RecordedFrames::read(&args.file);
-    let frames = read.map_err(|error| Failure::input(miette!("{error}")))?;
+    let frames = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
     let read_s = started.elapsed().as_secs_f64();
     let stem = args.file.file_stem().unwrap_or_default().to_string_lossy();
     let usual = || PathBuf::from(format!("{stem}_export"));
     let folder = args.out.clone().unwrap_or_else(usual);
-    let overwrite = Overwrite::from_force(args.force);
-    let formats: Vec<Format> = args
-        .formats
-        .iter()
-        .filter_map(|format| format.of_steps())
-        .collect();
-    let print = PrintSize {
-        width_mm: args.width_mm,
-        dpi: args.dpi,
-        font_pt: args.font_pt,
-    };
     let context = RunContext {
-        scene: std::sync::Arc::clone(&frames.scene),
+        scene: Arc::clone(&frames.scene),
         scene_toml: frames.scene_toml.clone(),
         plan_text: String::new(),
         program: frames.program.clone(),
         began: asperity::observe::Began::FromScene,
     };
-    let mut export = Export::create(&folder, overwrite, &formats)?.of(&args.show, print);
-    export.begin(&context)?;
-    let (whole, shown) = (frames.whole(), frames.shown());
-    let mut next = 0;
-    for step in shown {
-        // A still has all that the run's own export has; the shear and the roughness are in every second picture.
-        let as_still = step >= next && whole.binary_search(&step).is_ok();
-        if as_still {
-            next = step + args.every;
-        }
-        if let Some(frame) = frames.frame(step) {
-            export.take(&frame, as_still)?;
-        }
-    }
-    let mut written = export.finish()?.bytes;
-    if args.formats.contains(&ExportAs::Csv) {
-        let mut table = Table::create(&folder.join("table.csv"), overwrite)?;
-        table.begin(&context)?;
-        for frame in frames.steps() {
-            table.frame(&std::sync::Arc::new(frame))?;
-        }
-        written += table.finish()?.bytes;
-    }
+    let written =
+        pictures(args, &frames, &folder, &context)? + table(args, &frames, &folder, &context)?;
     let all_s = started.elapsed().as_secs_f64();
     let text = format!(
         "{}: {} of {} with pictures read in {}; {} written in {}\n",
@@ -89,6 +51,74 @@ pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
     );
     super::scenes::print(&text)?;
     Ok(0)
+}
+
+#[cfg(feature = "rerun")]
+fn refuse_unknown_pictures(asked: &[String]) -> Result<(), Failure> {
+    let names = asperity::observe::picture_names();
+    match asked.iter().find(|name| !names.contains(&name.as_str())) {
+        Some(unknown) => Err(Failure::input(miette::miette!(
+            help = format!("there are {}", names.join(", ")),
+            "--show {unknown}: no picture of that name"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Writes the pictures, animations and fields; bytes.
+#[cfg(feature = "rerun")]
+fn pictures(
+    args: &ExportArgs,
+    frames: &RecordedFrames,
+    folder: &Path,
+    context: &RunContext,
+) -> Result<u64, Failure> {
+    let formats: Vec<Format> = args
+        .formats
+        .iter()
+        .filter_map(|format| format.of_steps())
+        .collect();
+    let print = PrintSize {
+        width_mm: args.width_mm,
+        dpi: args.dpi,
+        font_pt: args.font_pt,
+    };
+    let overwrite = Overwrite::from_force(args.force);
+    let mut export = Export::create(folder, overwrite, &formats)?.of(&args.show, print);
+    export.begin(context)?;
+    let (whole, shown) = (frames.whole(), frames.shown());
+    let mut next = 0;
+    for step in shown {
+        // A still has all that the run's own export has; the shear and the roughness are in every second picture.
+        let as_still = step >= next && whole.binary_search(&step).is_ok();
+        if as_still {
+            next = step + args.every;
+        }
+        if let Some(frame) = frames.frame(step) {
+            export.take(&frame, as_still)?;
+        }
+    }
+    Ok(export.finish()?.bytes)
+}
+
+/// Writes the scalars of every step where a table is asked for; bytes.
+#[cfg(feature = "rerun")]
+fn table(
+    args: &ExportArgs,
+    frames: &RecordedFrames,
+    folder: &Path,
+    context: &RunContext,
+) -> Result<u64, Failure> {
+    if !args.formats.contains(&ExportAs::Csv) {
+        return Ok(0);
+    }
+    let overwrite = Overwrite::from_force(args.force);
+    let mut table = Table::create(&folder.join("table.csv"), overwrite)?;
+    table.begin(context)?;
+    for frame in frames.steps() {
+        table.frame(&Arc::new(frame))?;
+    }
+    Ok(table.finish()?.bytes)
 }
 
 /// Without the recorder nothing can be read.
