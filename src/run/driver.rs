@@ -12,11 +12,12 @@ use super::checkpoint::Checkpoint;
 use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
 use super::settled::Gather;
 use super::shared::{Ending, SharedStatus, lock};
-use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind, SetBy};
 use crate::scene::{Event, Scene};
-use crate::sim::{Frame, Knob, LubricationRegime, SimError, Stage, State, Stats, Unsolved};
+use crate::sim::{
+    Frame, Knob, LubricationRegime, SimError, Simulation, Stage, StepError, Unsolved,
+};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
@@ -37,6 +38,9 @@ pub(super) struct Done {
     pub(super) turned_by_hand: usize,
     pub(super) unconverged: u64,
 }
+
+/// Makes one time step: [`Simulation::step`], or in tests one that fails on purpose.
+pub(super) type MakeStep = Box<dyn FnMut(&mut Simulation) -> Result<(), StepError> + Send>;
 
 /// The loop's own state, on the simulation's thread.
 pub(super) struct Driver {
@@ -127,11 +131,12 @@ impl Driver {
     }
 
     /// The whole run, from opening the outputs to closing them.
-    pub(super) fn run<S: Stepper>(
+    pub(super) fn run(
         mut self,
         context: &RunContext,
         name: &str,
-        make: impl FnOnce(&Scene) -> Result<S, SimError>,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError>,
+        mut make_step: MakeStep,
     ) -> Outcome {
         let started = Instant::now();
         // Outputs first: a path that cannot be written must not cost a start-up.
@@ -149,15 +154,14 @@ impl Driver {
             match make(&context.scene) {
                 Err(error) => End::NotStarted(error),
                 Ok(mut sim) => {
-                    let end = sim.inside(|sim| self.drive(sim));
+                    let end = sim.inside(|sim| self.drive(sim, &mut make_step));
                     steps = sim.passage_steps();
                     steps_per_s = self
                         .passage_began
                         .filter(|_| steps > 1)
                         .map(|began| (steps - 1) as f64 / began.elapsed().as_secs_f64().max(1e-9));
                     summary = (steps > 0).then(|| sim.summary());
-                    let stats = sim.stats();
-                    checkpoint = sim.save().map(|sim| self.checkpoint(context, sim, stats));
+                    checkpoint = Some(self.checkpoint(context, &sim));
                     end
                 }
             }
@@ -194,20 +198,20 @@ impl Driver {
         }
     }
 
-    fn checkpoint(&self, context: &RunContext, sim: State, stats: Stats) -> Box<Checkpoint> {
+    fn checkpoint(&self, context: &RunContext, sim: &Simulation) -> Box<Checkpoint> {
         Box::new(Checkpoint {
             program: context.program.clone(),
             scene: context.scene_toml.clone(),
             n_events_played: self.n_events_played,
             n_unconverged: self.n_unconverged,
             n_turned_by_hand: self.n_turned_by_hand,
-            stats,
-            sim,
+            stats: *sim.stats(),
+            sim: sim.save(),
         })
     }
 
     /// Steps until something ends the run.
-    fn drive<S: Stepper>(&mut self, sim: &mut S) -> End {
+    fn drive(&mut self, sim: &mut Simulation, make_step: &mut MakeStep) -> End {
         if self.has_ended(sim) {
             // Taken up where all that is asked for had been done.
             return End::Done;
@@ -218,7 +222,7 @@ impl Driver {
                 return end;
             }
             self.play_script(sim);
-            if let Err(error) = sim.step() {
+            if let Err(error) = make_step(sim) {
                 return End::Stalled(error);
             }
             self.made += 1;
@@ -237,7 +241,7 @@ impl Driver {
         }
     }
 
-    fn has_ended<S: Stepper>(&self, sim: &S) -> bool {
+    fn has_ended(&self, sim: &Simulation) -> bool {
         match self.ending {
             Ending::Passages => sim.is_done(),
             Ending::Steps(steps) => sim.passage_steps() >= steps,
@@ -246,7 +250,7 @@ impl Driver {
     }
 
     /// Does what was done at this place in the run that is repeated.
-    fn repeat_turns<S: Stepper>(&mut self, sim: &mut S) {
+    fn repeat_turns(&mut self, sim: &mut Simulation) {
         while self
             .turns
             .front()
@@ -259,7 +263,7 @@ impl Driver {
     }
 
     /// Takes all commands that wait; while paused, waits for them.
-    fn obey<S: Stepper>(&mut self, sim: &mut S) -> Option<End> {
+    fn obey(&mut self, sim: &mut Simulation) -> Option<End> {
         loop {
             let command = if self.pace == LoopState::Paused {
                 // All senders gone while paused: nobody can ever go on.
@@ -296,7 +300,7 @@ impl Driver {
     }
 
     /// What leaves the pace alone, and what a run that is repeated does again.
-    fn carry_out<S: Stepper>(&mut self, sim: &mut S, command: Command) {
+    fn carry_out(&mut self, sim: &mut Simulation, command: Command) {
         match command {
             Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
             Command::Follow(follow) => {
@@ -311,7 +315,7 @@ impl Driver {
         }
     }
 
-    fn log<S: Stepper>(&mut self, sim: &S, command: Command, by: SetBy) {
+    fn log(&mut self, sim: &Simulation, command: Command, by: SetBy) {
         self.applied.push(AppliedCommand {
             steps_made: self.made,
             by,
@@ -321,7 +325,7 @@ impl Driver {
         });
     }
 
-    fn set<S: Stepper>(&mut self, sim: &mut S, knob: Knob, value: f64, by: SetBy) {
+    fn set(&mut self, sim: &mut Simulation, knob: Knob, value: f64, by: SetBy) {
         match sim.set(knob, value) {
             Ok(()) => {
                 self.log(sim, Command::Set(knob, value), by);
@@ -342,7 +346,7 @@ impl Driver {
     }
 
     /// Applies the scripted events whose time has come, in the order of their times.
-    fn play_script<S: Stepper>(&mut self, sim: &mut S) {
+    fn play_script(&mut self, sim: &mut Simulation) {
         while let Some(event) = self.script.front() {
             // At t = 0 the passage begins; before that there is only the start-up.
             let has_begun = event.at_s == 0.0 || sim.stage() == Stage::Passage;
@@ -364,7 +368,7 @@ impl Driver {
         }
     }
 
-    fn judge_step<S: Stepper>(&mut self, sim: &S) {
+    fn judge_step(&mut self, sim: &Simulation) {
         let metrics = sim.metrics();
         // A start-up that did not converge is told too: what follows stands on it.
         if metrics.converged {

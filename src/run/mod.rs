@@ -18,7 +18,6 @@ mod replay;
 mod session;
 mod settled;
 mod shared;
-mod stepper;
 mod watcher;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
@@ -28,7 +27,6 @@ pub use replay::HandTurn;
 pub use session::{Request, RunError, Session};
 pub use settled::Settled;
 pub use shared::{Ending, Status};
-pub use stepper::Stepper;
 pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 
 use crate::sim::{Follow, Knob};

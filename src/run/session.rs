@@ -8,17 +8,16 @@ use thiserror::Error;
 
 use super::Command;
 use super::checkpoint::Checkpoint;
-use super::driver::{Done, Driver};
+use super::driver::{Done, Driver, MakeStep};
 use super::outcome::{AppliedCommand, Outcome};
 use super::replay::HandTurn;
 use super::settled::Settled;
 use super::shared::{Ending, SharedStatus, Status, lock};
-use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{Began, Latest, RunContext, SetBy};
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::sim::{SimError, Simulation};
+use crate::sim::{SimError, Simulation, StepError};
 
 /// What to run.
 #[derive(Debug)]
@@ -51,12 +50,23 @@ pub enum RunError {
 }
 
 /// What a run begins with.
-#[derive(Debug, Default)]
 struct Start {
     /// What had been done before.
     done: Done,
     began: Began,
     turns: Vec<(u64, Command)>,
+    make_step: MakeStep,
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self {
+            done: Done::default(),
+            began: Began::default(),
+            turns: Vec::new(),
+            make_step: Box::new(Simulation::step),
+        }
+    }
 }
 
 /// A running session.
@@ -76,7 +86,9 @@ impl Session {
     pub fn start(request: Request) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
-        Self::start_with(request, move |scene| Simulation::new(scene, plan, threads))
+        Self::spawn(request, Start::default(), move |scene| {
+            Simulation::new(scene, plan, threads)
+        })
     }
 
     /// Same, going on from a saved state. A state that does not fit ends the run before it starts
@@ -95,7 +107,7 @@ impl Session {
         let start = Start {
             done,
             began: Began::FromState,
-            turns: Vec::new(),
+            ..Start::default()
         };
         Self::spawn(request, start, move |scene| {
             checkpoint
@@ -108,15 +120,21 @@ impl Session {
         })
     }
 
-    /// Same with another simulation, made on the thread that will own it.
+    /// Same with a simulation made otherwise, on the thread that will own it, and steps made by `make_step`: how tests
+    /// put in what fails.
     ///
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
-    pub fn start_with<S: Stepper>(
+    pub fn start_with(
         request: Request,
-        make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError> + Send + 'static,
+        make_step: impl FnMut(&mut Simulation) -> Result<(), StepError> + Send + 'static,
     ) -> Result<Self, RunError> {
-        Self::spawn(request, Start::default(), make)
+        let start = Start {
+            make_step: Box::new(make_step),
+            ..Start::default()
+        };
+        Self::spawn(request, start, make)
     }
 
     /// Same as [`Session::start`], turning the knobs as they were turned in another run of the same scene.
@@ -151,10 +169,10 @@ impl Session {
         })
     }
 
-    fn spawn<S: Stepper>(
+    fn spawn(
         request: Request,
         start: Start,
-        make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError> + Send + 'static,
     ) -> Result<Self, RunError> {
         let (commands, inbox) = channel();
         let latest = Latest::default();
@@ -180,7 +198,7 @@ impl Session {
         let name = request.name;
         let thread = std::thread::Builder::new()
             .name("sim".to_owned())
-            .spawn(move || driver.run(&context, &name, make))
+            .spawn(move || driver.run(&context, &name, make, start.make_step))
             .map_err(|error| RunError::NoThread(error.to_string()))?;
         Ok(Self {
             commands,
