@@ -9,10 +9,14 @@
 //!    settled() <────────────────── one period of a passage that repeats, for replay and sweep
 //! Session::join <──────────────── Outcome
 //! ```
+//! Without threads the owner makes the turns of the same loop itself: [`Cooperative`].
 
 mod checkpoint;
+mod clock;
 mod companion;
+mod cooperative;
 mod driver;
+mod near_end;
 mod outcome;
 mod replay;
 mod session;
@@ -22,6 +26,9 @@ mod watcher;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use companion::{Companion, NoEstimate};
+pub use cooperative::Cooperative;
+pub use driver::Turn;
+pub use near_end::NearEnd;
 pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
 pub use replay::HandTurn;
 pub use session::{Request, RunError, Session};

@@ -1,20 +1,26 @@
 //! What the loop tells others: frames, events, status, failures.
 
-use std::time::Instant;
-
 use super::Driver;
-use crate::observe::{ObserveError, ObserverReport, RunEvent, RunEventKind};
+use crate::observe::{ObserveError, ObserverReport, RunContext, RunEvent, RunEventKind};
+use crate::run::clock::Clock;
 use crate::run::outcome::End;
 use crate::run::shared::{Ending, lock};
 use crate::run::watcher::Watcher;
 use crate::sim::{Simulation, Stage};
 
 impl Driver {
+    pub(in crate::run) fn begin_outputs(&mut self, context: &RunContext) {
+        for index in 0..self.watchers.len() {
+            let begun = self.watchers[index].begin(context);
+            self.note_output(begun);
+        }
+    }
+
     /// Gives the step to the screen, and to the outputs if it belongs to the results.
     pub(super) fn hand_out(&mut self, sim: &Simulation) {
         let frame = self.pool.fill(|frame| sim.fill(frame));
         if sim.stage() == Stage::Passage {
-            self.passage_began.get_or_insert_with(Instant::now);
+            self.passage_began.get_or_insert_with(Clock::start);
             for index in 0..self.watchers.len() {
                 let written = self.watchers[index].frame(&frame);
                 self.note_output(written);
@@ -63,7 +69,7 @@ impl Driver {
             .extend(self.watchers.iter().map(Watcher::status));
     }
 
-    pub(super) fn tell_failure(&self, end: &End) {
+    pub(in crate::run) fn tell_failure(&self, end: &End) {
         let failure = match end {
             End::Stalled(error) => error.to_string(),
             End::NotStarted(error) => error.to_string(),
