@@ -319,6 +319,7 @@ impl HeadlessArgs {
     }
 
     /// The same run with a key set, recorded to that file.
+    #[cfg(feature = "rerun")]
     pub(crate) fn with(&self, key: &str, value: &str, out: &std::path::Path) -> Self {
         let mut run = self.run.clone();
         run.scene.settings.push(format!("{key}={value}"));
