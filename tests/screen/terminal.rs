@@ -224,7 +224,7 @@ fn print_times_at(cols: u16, rows: u16) {
         terminal.wait("value", |screen| {
             let text = screen.contents();
             let mut lines = text.lines();
-            lines.any(|line| line.contains("S slide") && line.contains(shown))
+            lines.any(|line| line.contains("▸S") && line.contains(shown))
         });
         waits.push(pressed.elapsed());
         std::thread::sleep(Duration::from_millis(7 + press % 13));
