@@ -47,6 +47,7 @@ pub mod run;
 pub mod scene;
 pub mod sim;
 pub mod solve;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod study;
 pub mod sweep;
 #[cfg(feature = "tui")]

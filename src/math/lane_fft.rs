@@ -11,6 +11,7 @@
 
 use std::f64::consts::TAU;
 
+use super::fused::Fused as _;
 use super::lanes::{LANES, TILE, V};
 
 /// One buffer of lane transforms: real and imaginary parts apart.
@@ -182,14 +183,14 @@ fn butterfly_4(re: [V; 4], im: [V; 4], w: &[(f32, f32)]) -> ([V; 4], [V; 4]) {
         r0[l] = ac_r + bd_r;
         i0[l] = ac_i + bd_i;
         let (xr, xi) = (a_c_r - b_d_i, a_c_i + b_d_r);
-        r1[l] = xr.mul_add(c1, -(xi * s1));
-        i1[l] = xr.mul_add(s1, xi * c1);
+        r1[l] = xr.fused(c1, -(xi * s1));
+        i1[l] = xr.fused(s1, xi * c1);
         let (xr, xi) = (ac_r - bd_r, ac_i - bd_i);
-        r2[l] = xr.mul_add(c2, -(xi * s2));
-        i2[l] = xr.mul_add(s2, xi * c2);
+        r2[l] = xr.fused(c2, -(xi * s2));
+        i2[l] = xr.fused(s2, xi * c2);
         let (xr, xi) = (a_c_r + b_d_i, a_c_i - b_d_r);
-        r3[l] = xr.mul_add(c3, -(xi * s3));
-        i3[l] = xr.mul_add(s3, xi * c3);
+        r3[l] = xr.fused(c3, -(xi * s3));
+        i3[l] = xr.fused(s3, xi * c3);
     }
     ([V(r0), V(r1), V(r2), V(r3)], [V(i0), V(i1), V(i2), V(i3)])
 }
@@ -223,15 +224,15 @@ fn butterfly_3(re: [V; 3], im: [V; 3], w: &[(f32, f32)]) -> ([V; 3], [V; 3]) {
     for l in 0..LANES {
         let (sum_r, sum_i) = (br[l] + cr[l], bi[l] + ci[l]);
         let (turn_r, turn_i) = ((ci[l] - bi[l]) * SIN_60, (br[l] - cr[l]) * SIN_60);
-        let (mid_r, mid_i) = (sum_r.mul_add(-0.5, ar[l]), sum_i.mul_add(-0.5, ai[l]));
+        let (mid_r, mid_i) = (sum_r.fused(-0.5, ar[l]), sum_i.fused(-0.5, ai[l]));
         r0[l] = ar[l] + sum_r;
         i0[l] = ai[l] + sum_i;
         let (xr, xi) = (mid_r + turn_r, mid_i + turn_i);
-        r1[l] = xr.mul_add(c1, -(xi * s1));
-        i1[l] = xr.mul_add(s1, xi * c1);
+        r1[l] = xr.fused(c1, -(xi * s1));
+        i1[l] = xr.fused(s1, xi * c1);
         let (xr, xi) = (mid_r - turn_r, mid_i - turn_i);
-        r2[l] = xr.mul_add(c2, -(xi * s2));
-        i2[l] = xr.mul_add(s2, xi * c2);
+        r2[l] = xr.fused(c2, -(xi * s2));
+        i2[l] = xr.fused(s2, xi * c2);
     }
     ([V(r0), V(r1), V(r2)], [V(i0), V(i1), V(i2)])
 }

@@ -8,6 +8,8 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
+use super::fused::Fused as _;
+
 /// Number of lanes.
 pub(crate) const LANES: usize = 16;
 
@@ -41,7 +43,7 @@ impl V {
     pub(crate) fn fma(self, b: Self, c: Self) -> Self {
         let mut out = self;
         for l in 0..LANES {
-            out.0[l] = self.0[l].mul_add(b.0[l], c.0[l]);
+            out.0[l] = self.0[l].fused(b.0[l], c.0[l]);
         }
         out
     }
@@ -51,7 +53,7 @@ impl V {
     pub(crate) fn fnma(self, b: Self, c: Self) -> Self {
         let mut out = self;
         for l in 0..LANES {
-            out.0[l] = (-self.0[l]).mul_add(b.0[l], c.0[l]);
+            out.0[l] = (-self.0[l]).fused(b.0[l], c.0[l]);
         }
         out
     }

@@ -4,6 +4,7 @@ pub mod elementary;
 pub mod elliptic;
 mod even_transform;
 pub mod filter;
+pub(crate) mod fused;
 pub mod grid;
 mod halfway;
 pub mod kernel_symbol;

@@ -9,7 +9,9 @@
 //! * `rerun::Recorder` (feature `rerun`): the recording. No other folder names that crate.
 
 pub(crate) mod cells;
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) mod chart;
+#[cfg(not(target_arch = "wasm32"))]
 mod export;
 mod latest;
 mod placed;
@@ -24,6 +26,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+#[cfg(not(target_arch = "wasm32"))]
 pub use export::{Export, Format, PrintSize, is_exported, picture_names};
 pub use latest::Latest;
 pub use placed::{Overwrite, is_free};

@@ -1,22 +1,22 @@
 //! The loop itself: commands, script, step, frames, in this order, on the simulation's thread.
 
+mod obeying;
 mod telling;
 
 use std::collections::VecDeque;
 use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex};
-use std::time::Instant;
 
 use super::Command;
 use super::checkpoint::Checkpoint;
+use super::clock::Clock;
 use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
 use super::settled::Gather;
 use super::shared::{Ending, SharedStatus, lock};
-use super::stepper::Stepper;
 use super::watcher::Watcher;
-use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind, SetBy};
+use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind};
 use crate::scene::{Event, Scene};
-use crate::sim::{Frame, Knob, LubricationRegime, SimError, Stage, State, Stats, Unsolved};
+use crate::sim::{Frame, LubricationRegime, SimError, Simulation, StepError, Unsolved};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
@@ -30,6 +30,26 @@ enum LoopState {
     OneStep,
 }
 
+/// What one turn of the loop came to.
+#[derive(Debug, Clone)]
+pub enum Turn {
+    /// A step was made and handed out.
+    Stepped,
+    /// Nothing: it is paused, and no command came.
+    Waited,
+    /// The run has ended.
+    Ended(End),
+}
+
+/// Whether the loop may wait for a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Waiting {
+    /// While paused it does.
+    Allowed,
+    /// It returns: its thread has other things to do.
+    Never,
+}
+
 /// What another run had done before this one goes on.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Done {
@@ -38,8 +58,12 @@ pub(super) struct Done {
     pub(super) unconverged: u64,
 }
 
+/// Makes one time step: [`Simulation::step`], or in tests one that fails on purpose.
+pub(super) type MakeStep = Box<dyn FnMut(&mut Simulation) -> Result<(), StepError> + Send>;
+
 /// The loop's own state, on the simulation's thread.
 pub(super) struct Driver {
+    make_step: MakeStep,
     ending: Ending,
     /// Steps of the whole run; `None`: it has no end.
     steps_planned: Option<u64>,
@@ -63,7 +87,7 @@ pub(super) struct Driver {
     n_events_played: usize,
     n_turned_by_hand: usize,
     /// When the first step of the passage was done.
-    passage_began: Option<Instant>,
+    passage_began: Option<Clock>,
 }
 
 impl Driver {
@@ -78,6 +102,7 @@ impl Driver {
         let mut script = events.to_vec();
         script.sort_by(|one, two| one.at_s.total_cmp(&two.at_s));
         Self {
+            make_step: Box::new(Simulation::step),
             ending,
             steps_planned: None,
             watchers,
@@ -120,6 +145,12 @@ impl Driver {
         self
     }
 
+    /// Steps otherwise.
+    pub(super) fn stepping_by(mut self, make_step: MakeStep) -> Self {
+        self.make_step = make_step;
+        self
+    }
+
     /// Does again what was done by hand in another run: each command with the steps made by then.
     pub(super) fn repeating(mut self, turns: Vec<(u64, Command)>) -> Self {
         self.turns = turns.into();
@@ -127,18 +158,15 @@ impl Driver {
     }
 
     /// The whole run, from opening the outputs to closing them.
-    pub(super) fn run<S: Stepper>(
+    pub(super) fn run(
         mut self,
         context: &RunContext,
         name: &str,
-        make: impl FnOnce(&Scene) -> Result<S, SimError>,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError>,
     ) -> Outcome {
-        let started = Instant::now();
+        let started = Clock::start();
         // Outputs first: a path that cannot be written must not cost a start-up.
-        for index in 0..self.watchers.len() {
-            let begun = self.watchers[index].begin(context);
-            self.note_output(begun);
-        }
+        self.begin_outputs(context);
         let mut summary = None;
         let mut steps = 0;
         let mut steps_per_s = None;
@@ -154,10 +182,9 @@ impl Driver {
                     steps_per_s = self
                         .passage_began
                         .filter(|_| steps > 1)
-                        .map(|began| (steps - 1) as f64 / began.elapsed().as_secs_f64().max(1e-9));
+                        .map(|began| (steps - 1) as f64 / began.elapsed_s().max(1e-9));
                     summary = (steps > 0).then(|| sim.summary());
-                    let stats = sim.stats();
-                    checkpoint = sim.save().map(|sim| self.checkpoint(context, sim, stats));
+                    checkpoint = Some(self.checkpoint(context, &sim));
                     end
                 }
             }
@@ -166,7 +193,7 @@ impl Driver {
         let stopped = matches!(end, End::Stopped) && self.ending != Ending::OnStop;
         self.tell_failure(&end);
         let reports = self.finish_outputs();
-        let wall_s = started.elapsed().as_secs_f64();
+        let wall_s = started.elapsed_s();
         if let Some(summary) = &mut summary {
             name.clone_into(&mut summary.scene);
             summary.wall_s = wall_s;
@@ -194,50 +221,58 @@ impl Driver {
         }
     }
 
-    fn checkpoint(&self, context: &RunContext, sim: State, stats: Stats) -> Box<Checkpoint> {
+    fn checkpoint(&self, context: &RunContext, sim: &Simulation) -> Box<Checkpoint> {
         Box::new(Checkpoint {
             program: context.program.clone(),
             scene: context.scene_toml.clone(),
             n_events_played: self.n_events_played,
             n_unconverged: self.n_unconverged,
             n_turned_by_hand: self.n_turned_by_hand,
-            stats,
-            sim,
+            stats: *sim.stats(),
+            sim: sim.save(),
         })
     }
 
     /// Steps until something ends the run.
-    fn drive<S: Stepper>(&mut self, sim: &mut S) -> End {
+    fn drive(&mut self, sim: &mut Simulation) -> End {
         if self.has_ended(sim) {
             // Taken up where all that is asked for had been done.
             return End::Done;
         }
         loop {
-            self.repeat_turns(sim);
-            if let Some(end) = self.obey(sim) {
+            if let Turn::Ended(end) = self.turn(sim, Waiting::Allowed) {
                 return end;
-            }
-            self.play_script(sim);
-            if let Err(error) = sim.step() {
-                return End::Stalled(error);
-            }
-            self.made += 1;
-            if self.pace == LoopState::OneStep {
-                self.pace = LoopState::Paused;
-            }
-            self.judge_step(sim);
-            self.hand_out(sim);
-            self.tell_status(sim);
-            if self.must_end_for_outputs() {
-                return End::OutputFailed;
-            }
-            if self.has_ended(sim) {
-                return End::Done;
             }
         }
     }
 
-    fn has_ended<S: Stepper>(&self, sim: &S) -> bool {
+    /// Commands, script, one step, its frame.
+    pub(super) fn turn(&mut self, sim: &mut Simulation, waiting: Waiting) -> Turn {
+        self.repeat_turns(sim);
+        if let Some(turn) = self.obey(sim, waiting) {
+            return turn;
+        }
+        self.play_script(sim);
+        if let Err(error) = (self.make_step)(sim) {
+            return Turn::Ended(End::Stalled(error));
+        }
+        self.made += 1;
+        if self.pace == LoopState::OneStep {
+            self.pace = LoopState::Paused;
+        }
+        self.judge_step(sim);
+        self.hand_out(sim);
+        self.tell_status(sim);
+        if self.must_end_for_outputs() {
+            return Turn::Ended(End::OutputFailed);
+        }
+        if self.has_ended(sim) {
+            return Turn::Ended(End::Done);
+        }
+        Turn::Stepped
+    }
+
+    fn has_ended(&self, sim: &Simulation) -> bool {
         match self.ending {
             Ending::Passages => sim.is_done(),
             Ending::Steps(steps) => sim.passage_steps() >= steps,
@@ -245,126 +280,7 @@ impl Driver {
         }
     }
 
-    /// Does what was done at this place in the run that is repeated.
-    fn repeat_turns<S: Stepper>(&mut self, sim: &mut S) {
-        while self
-            .turns
-            .front()
-            .is_some_and(|(made, _)| *made <= self.made)
-        {
-            if let Some((_, command)) = self.turns.pop_front() {
-                self.carry_out(sim, command);
-            }
-        }
-    }
-
-    /// Takes all commands that wait; while paused, waits for them.
-    fn obey<S: Stepper>(&mut self, sim: &mut S) -> Option<End> {
-        loop {
-            let command = if self.pace == LoopState::Paused {
-                // All senders gone while paused: nobody can ever go on.
-                self.inbox.recv().unwrap_or(Command::Stop)
-            } else {
-                match self.inbox.try_recv() {
-                    Ok(command) => command,
-                    Err(_) => return None,
-                }
-            };
-            match command {
-                Command::Stop => {
-                    self.log(sim, command, SetBy::Hand);
-                    return Some(End::Stopped);
-                }
-                Command::Pause => {
-                    self.pace = match self.pace {
-                        LoopState::Running => LoopState::Paused,
-                        LoopState::Paused | LoopState::OneStep => LoopState::Running,
-                    };
-                    self.log(sim, command, SetBy::Hand);
-                }
-                Command::StepOnce => {
-                    // Without a pause there is nothing to single-step; the next step comes anyway.
-                    if self.pace == LoopState::Paused {
-                        self.pace = LoopState::OneStep;
-                        self.log(sim, command, SetBy::Hand);
-                        return None;
-                    }
-                }
-                other => self.carry_out(sim, other),
-            }
-        }
-    }
-
-    /// What leaves the pace alone, and what a run that is repeated does again.
-    fn carry_out<S: Stepper>(&mut self, sim: &mut S, command: Command) {
-        match command {
-            Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
-            Command::Follow(follow) => {
-                sim.show_point(follow);
-                self.log(sim, Command::Follow(follow), SetBy::Hand);
-            }
-            Command::Say(text) => {
-                self.log(sim, Command::Say(text.clone()), SetBy::Hand);
-                self.announce(sim, RunEventKind::Caption(text));
-            }
-            Command::Pause | Command::StepOnce | Command::Stop => {}
-        }
-    }
-
-    fn log<S: Stepper>(&mut self, sim: &S, command: Command, by: SetBy) {
-        self.applied.push(AppliedCommand {
-            steps_made: self.made,
-            by,
-            step: sim.passage_steps(),
-            time_s: sim.time_s(),
-            command,
-        });
-    }
-
-    fn set<S: Stepper>(&mut self, sim: &mut S, knob: Knob, value: f64, by: SetBy) {
-        match sim.set(knob, value) {
-            Ok(()) => {
-                self.log(sim, Command::Set(knob, value), by);
-                self.n_turned_by_hand += usize::from(by == SetBy::Hand);
-                self.forget_settled();
-                let kind = RunEventKind::Set {
-                    key: knob.key().to_owned(),
-                    value,
-                    by,
-                    steps_made: self.made,
-                };
-                self.announce(sim, kind);
-            }
-            // Not done, but told: in words that a run that is repeated says again, as it plays its script again.
-            Err(error) if by == SetBy::Hand => self.carry_out(sim, Command::Say(error.to_string())),
-            Err(error) => self.announce(sim, RunEventKind::Caption(error.to_string())),
-        }
-    }
-
-    /// Applies the scripted events whose time has come, in the order of their times.
-    fn play_script<S: Stepper>(&mut self, sim: &mut S) {
-        while let Some(event) = self.script.front() {
-            // At t = 0 the passage begins; before that there is only the start-up.
-            let has_begun = event.at_s == 0.0 || sim.stage() == Stage::Passage;
-            if !has_begun || event.at_s > sim.time_s() {
-                return;
-            }
-            let Some(event) = self.script.pop_front() else {
-                return;
-            };
-            self.n_events_played += 1;
-            for (key, value) in &event.set {
-                if let Some(knob) = Knob::from_key(key) {
-                    self.set(sim, knob, *value, SetBy::Script);
-                }
-            }
-            if !event.caption.is_empty() {
-                self.announce(sim, RunEventKind::Caption(event.caption));
-            }
-        }
-    }
-
-    fn judge_step<S: Stepper>(&mut self, sim: &S) {
+    fn judge_step(&mut self, sim: &Simulation) {
         let metrics = sim.metrics();
         // A start-up that did not converge is told too: what follows stands on it.
         if metrics.converged {

@@ -9,26 +9,31 @@
 //!    settled() <────────────────── one period of a passage that repeats, for replay and sweep
 //! Session::join <──────────────── Outcome
 //! ```
+//! Without threads the owner makes the turns of the same loop itself: [`Cooperative`].
 
 mod checkpoint;
+mod clock;
 mod companion;
+mod cooperative;
 mod driver;
+mod near_end;
 mod outcome;
 mod replay;
 mod session;
 mod settled;
 mod shared;
-mod stepper;
 mod watcher;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use companion::{Companion, NoEstimate};
+pub use cooperative::Cooperative;
+pub use driver::Turn;
+pub use near_end::NearEnd;
 pub use outcome::{AppliedCommand, End, Outcome, Unconverged};
 pub use replay::HandTurn;
 pub use session::{Request, RunError, Session};
 pub use settled::Settled;
 pub use shared::{Ending, Status};
-pub use stepper::Stepper;
 pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 
 use crate::sim::{Follow, Knob};

@@ -1,24 +1,23 @@
 //! A run on a thread of its own.
 
-use std::sync::mpsc::{Sender, channel};
-use std::sync::{Arc, Mutex};
+use std::ops::Deref;
+use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use thiserror::Error;
 
 use super::Command;
 use super::checkpoint::Checkpoint;
-use super::driver::{Done, Driver};
+use super::driver::{Done, MakeStep};
+use super::near_end::{NearEnd, wired};
 use super::outcome::{AppliedCommand, Outcome};
 use super::replay::HandTurn;
-use super::settled::Settled;
-use super::shared::{Ending, SharedStatus, Status, lock};
-use super::stepper::Stepper;
+use super::shared::Ending;
 use super::watcher::Watcher;
-use crate::observe::{Began, Latest, RunContext, SetBy};
+use crate::observe::{Began, RunContext, SetBy};
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::sim::{SimError, Simulation};
+use crate::sim::{SimError, Simulation, StepError};
 
 /// What to run.
 #[derive(Debug)]
@@ -51,20 +50,31 @@ pub enum RunError {
 }
 
 /// What a run begins with.
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct Start {
     /// What had been done before.
     done: Done,
     began: Began,
     turns: Vec<(u64, Command)>,
+    /// What makes a step, where it is not the simulation itself.
+    make_step: Option<MakeStep>,
+}
+
+/// What outputs are told before the first frame.
+pub(super) fn context_of(request: &Request, began: Began) -> RunContext {
+    RunContext {
+        scene_toml: request.scene.to_toml(),
+        plan_text: request.plan.to_string(),
+        program: crate::files::PROGRAM.to_owned(),
+        began,
+        scene: Arc::clone(&request.scene),
+    }
 }
 
 /// A running session.
 #[derive(Debug)]
 pub struct Session {
-    commands: Sender<Command>,
-    latest: Latest,
-    shared: Arc<Mutex<SharedStatus>>,
+    near: NearEnd,
     thread: JoinHandle<Outcome>,
 }
 
@@ -76,7 +86,9 @@ impl Session {
     pub fn start(request: Request) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
-        Self::start_with(request, move |scene| Simulation::new(scene, plan, threads))
+        Self::spawn(request, Start::default(), move |scene| {
+            Simulation::new(scene, plan, threads)
+        })
     }
 
     /// Same, going on from a saved state. A state that does not fit ends the run before it starts
@@ -95,7 +107,7 @@ impl Session {
         let start = Start {
             done,
             began: Began::FromState,
-            turns: Vec::new(),
+            ..Start::default()
         };
         Self::spawn(request, start, move |scene| {
             checkpoint
@@ -108,15 +120,21 @@ impl Session {
         })
     }
 
-    /// Same with another simulation, made on the thread that will own it.
+    /// Same with a simulation made otherwise, on the thread that will own it, and steps made by `make_step`: how tests
+    /// put in what fails.
     ///
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
-    pub fn start_with<S: Stepper>(
+    pub fn start_with(
         request: Request,
-        make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError> + Send + 'static,
+        make_step: impl FnMut(&mut Simulation) -> Result<(), StepError> + Send + 'static,
     ) -> Result<Self, RunError> {
-        Self::spawn(request, Start::default(), make)
+        let start = Start {
+            make_step: Some(Box::new(make_step)),
+            ..Start::default()
+        };
+        Self::spawn(request, start, make)
     }
 
     /// Same as [`Session::start`], turning the knobs as they were turned in another run of the same scene.
@@ -151,76 +169,23 @@ impl Session {
         })
     }
 
-    fn spawn<S: Stepper>(
+    fn spawn(
         request: Request,
         start: Start,
-        make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError> + Send + 'static,
     ) -> Result<Self, RunError> {
-        let (commands, inbox) = channel();
-        let latest = Latest::default();
-        let shared = Arc::new(Mutex::new(SharedStatus::default()));
-        let driver = Driver::new(
-            request.ending,
-            request.watchers,
-            &request.scene.events,
-            inbox,
-            latest.clone(),
-            Arc::clone(&shared),
-        )
-        .planned(request.plan.steps)
-        .after(start.done)
-        .repeating(start.turns);
-        let context = RunContext {
-            scene_toml: request.scene.to_toml(),
-            plan_text: request.plan.to_string(),
-            program: crate::files::PROGRAM.to_owned(),
-            began: start.began,
-            scene: Arc::clone(&request.scene),
-        };
-        let name = request.name;
+        let context = context_of(&request, start.began);
+        let name = request.name.clone();
+        let (driver, near) = wired(request);
+        let mut driver = driver.after(start.done).repeating(start.turns);
+        if let Some(make_step) = start.make_step {
+            driver = driver.stepping_by(make_step);
+        }
         let thread = std::thread::Builder::new()
             .name("sim".to_owned())
             .spawn(move || driver.run(&context, &name, make))
             .map_err(|error| RunError::NoThread(error.to_string()))?;
-        Ok(Self {
-            commands,
-            latest,
-            shared,
-            thread,
-        })
-    }
-
-    /// Asks for something. A session that has ended hears nothing, which is no error.
-    pub fn send(&self, command: Command) {
-        let _ = self.commands.send(command);
-    }
-
-    /// A sender for others (a signal handler, a screen).
-    pub fn commands(&self) -> Sender<Command> {
-        self.commands.clone()
-    }
-
-    /// The newest frame.
-    pub fn latest(&self) -> Latest {
-        self.latest.clone()
-    }
-
-    /// Where the run is.
-    pub fn status(&self) -> Status {
-        lock(&self.shared).status.clone()
-    }
-
-    /// A way to ask for the status from elsewhere, once the session itself is given away.
-    pub fn status_reader(&self) -> impl Fn() -> Status + Send + 'static {
-        let shared = Arc::clone(&self.shared);
-        move || lock(&shared).status.clone()
-    }
-
-    /// A way to ask, from elsewhere, for the period of a passage that repeats: filled in live sessions
-    /// ([`Ending::OnStop`]), emptied when a knob is turned.
-    pub fn settled_reader(&self) -> impl Fn() -> Option<Arc<Settled>> + Send + 'static {
-        let shared = Arc::clone(&self.shared);
-        move || lock(&shared).settled.clone()
+        Ok(Self { near, thread })
     }
 
     /// Whether the run has ended, so that `join` returns at once.
@@ -240,5 +205,13 @@ impl Session {
                 .or_else(|| cause.downcast_ref::<&str>().map(|text| (*text).to_owned()));
             RunError::Panicked(text.unwrap_or_else(|| "no message".to_owned()))
         })
+    }
+}
+
+impl Deref for Session {
+    type Target = NearEnd;
+
+    fn deref(&self) -> &NearEnd {
+        &self.near
     }
 }

@@ -89,6 +89,7 @@ impl SmoothWork {
 ///
 /// # Errors
 /// [`SimError::Threads`] when they cannot be started.
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) fn thread_pool(threads: usize) -> Result<Arc<ThreadPool>, SimError> {
     ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -99,6 +100,23 @@ pub(super) fn thread_pool(threads: usize) -> Result<Arc<ThreadPool>, SimError> {
             threads,
             reason: error.to_string(),
         })
+}
+
+/// The one thread that there is, which all simulations share.
+///
+/// # Errors
+/// [`SimError::Threads`] when it cannot be had.
+#[cfg(target_arch = "wasm32")]
+pub(super) fn thread_pool(_threads: usize) -> Result<Arc<ThreadPool>, SimError> {
+    use std::sync::OnceLock;
+    static POOL: OnceLock<Result<Arc<ThreadPool>, String>> = OnceLock::new();
+    let made = || {
+        let builder = ThreadPoolBuilder::new().num_threads(1);
+        let pool = builder.use_current_thread().build();
+        pool.map(Arc::new).map_err(|error| error.to_string())
+    };
+    let pool = POOL.get_or_init(made).clone();
+    pool.map_err(|reason| SimError::Threads { threads: 1, reason })
 }
 
 /// Both surfaces, with room for what flows of those that yield.

@@ -21,6 +21,7 @@ mod folder;
 mod maps;
 mod path;
 mod path_keys;
+#[cfg(not(target_arch = "wasm32"))]
 mod plots;
 mod points;
 mod presets;
@@ -41,6 +42,7 @@ pub use columns::parquet_table;
 pub use error::SweepError;
 pub use folder::{Existing, Folder};
 pub use path::PathPoint;
+#[cfg(not(target_arch = "wasm32"))]
 pub use plots::draw;
 pub use points::{points, points_csv};
 pub use presets::{SweepPreset, all as presets, names as preset_names};

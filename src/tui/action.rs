@@ -2,10 +2,9 @@
 
 mod table;
 
-use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
-
 use crate::scene::Knob;
 use crate::tui::app::PanelKind;
+use crate::tui::event::{Chord, Key, Modifiers};
 
 pub use table::{KEYS, MOUSE};
 
@@ -107,19 +106,12 @@ pub enum Action {
     Plan,
     /// Another scene, lay, wave, oil, model.
     Scene,
+    /// Radii, moduli, load, speeds, oil, roughness, in numbers.
+    OperatingPoint,
     /// Run the scene that was put together, begin the chosen lesson, give the focused panel the screen.
     Enter,
     /// Close what lies over the screen, shrink the panel, forget the probe, return to the present.
     Close,
-}
-
-/// A key with its modifiers. Upper-case letters stand for themselves: no shift beside them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Chord {
-    /// Key.
-    pub code: KeyCode,
-    /// Control and alt for characters; shift too for named keys.
-    pub modifiers: KeyModifiers,
 }
 
 /// Part of the help screen.
@@ -153,7 +145,7 @@ impl Group {
 /// One row of the key table: keys that belong together.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
-    /// Each key and what it asks for.
+    /// Each key and what it asks for. Upper-case letters stand for themselves: no shift beside them.
     pub keys: &'static [(Chord, Action)],
     /// The keys as the help screen writes them.
     pub shown: &'static str,
@@ -163,51 +155,44 @@ pub struct Row {
     pub group: Group,
 }
 
-/// What a key event asks for.
-pub fn lookup(event: &KeyEvent) -> Option<Action> {
-    if event.kind == KeyEventKind::Release {
-        return None;
-    }
-    let chord = normal(event);
+/// What a key asks for.
+pub fn lookup(chord: Chord) -> Option<Action> {
+    let chord = normal(chord);
     KEYS.iter()
         .flat_map(|row| row.keys)
         .find(|(own, _)| *own == chord)
         .map(|(_, action)| *action)
 }
 
-/// What a key event asks for while a value is typed: letters are letters.
-pub fn lookup_typed(event: &KeyEvent) -> Option<Action> {
-    let chord = normal(event);
-    match chord.code {
-        _ if event.kind == KeyEventKind::Release => None,
-        KeyCode::Char(letter) if chord.modifiers.is_empty() => Some(Action::Letter(letter)),
-        KeyCode::Backspace => Some(Action::Erase),
-        KeyCode::Enter => Some(Action::Enter),
-        KeyCode::Esc => Some(Action::Close),
-        _ => lookup(event).filter(|action| matches!(action, Action::Quit | Action::Suspend)),
+/// What a key asks for while a value is typed: letters are letters.
+pub fn lookup_typed(chord: Chord) -> Option<Action> {
+    let chord = normal(chord);
+    match chord.key {
+        Key::Char(letter) if chord.held == Modifiers::NONE => Some(Action::Letter(letter)),
+        Key::Backspace => Some(Action::Erase),
+        Key::Enter => Some(Action::Enter),
+        Key::Esc => Some(Action::Close),
+        _ => lookup(chord).filter(|action| matches!(action, Action::Quit | Action::Suspend)),
     }
 }
 
 /// Shift is part of a character already; terminals disagree on whether they name it too.
-fn normal(event: &KeyEvent) -> Chord {
-    let mut modifiers =
-        event.modifiers & (KeyModifiers::SHIFT | KeyModifiers::CONTROL | KeyModifiers::ALT);
-    let mut code = event.code;
-    if let KeyCode::Char(letter) = code {
-        modifiers -= KeyModifiers::SHIFT;
-        if modifiers.contains(KeyModifiers::CONTROL) {
-            code = KeyCode::Char(letter.to_ascii_lowercase());
+fn normal(mut chord: Chord) -> Chord {
+    if let Key::Char(letter) = &mut chord.key {
+        chord.held.shift = false;
+        if chord.held.control {
+            *letter = letter.to_ascii_lowercase();
         }
     }
-    Chord { code, modifiers }
+    chord
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn press(code: KeyCode, modifiers: KeyModifiers) -> Option<Action> {
-        lookup(&KeyEvent::new(code, modifiers))
+    fn press(key: Key, held: Modifiers) -> Option<Action> {
+        lookup(Chord::new(key, held))
     }
 
     #[test]
@@ -217,12 +202,7 @@ mod tests {
             // Two columns on a screen of 80.
             assert!(row.help.chars().count() <= 29, "{}", row.help);
             for (chord, action) in row.keys {
-                assert_eq!(
-                    press(chord.code, chord.modifiers),
-                    Some(*action),
-                    "{}",
-                    row.shown
-                );
+                assert_eq!(lookup(*chord), Some(*action), "{}", row.shown);
             }
         }
     }
@@ -241,24 +221,21 @@ mod tests {
 
     #[test]
     fn terminals_that_name_shift_with_capitals_are_understood() {
-        let named = press(KeyCode::Char('H'), KeyModifiers::SHIFT);
+        let named = press(Key::Char('H'), Modifiers::SHIFT);
         assert_eq!(named, Some(Action::TurnFar(-1)));
-        let question = press(KeyCode::Char('?'), KeyModifiers::SHIFT);
+        let question = press(Key::Char('?'), Modifiers::SHIFT);
         assert_eq!(question, Some(Action::Help));
-        let control = press(KeyCode::Char('C'), KeyModifiers::CONTROL);
+        let control = press(Key::Char('C'), Modifiers::CONTROL);
         assert_eq!(control, Some(Action::Quit));
     }
 
     #[test]
-    fn digits_are_typical_values_and_releases_are_nothing() {
+    fn digits_are_typical_values() {
         assert_eq!(
-            press(KeyCode::Char('3'), KeyModifiers::NONE),
+            press(Key::Char('3'), Modifiers::NONE),
             Some(Action::Typical(2))
         );
-        assert_eq!(press(KeyCode::Char('0'), KeyModifiers::NONE), None);
-        let mut release = KeyEvent::new(KeyCode::Char('q'), KeyModifiers::NONE);
-        release.kind = KeyEventKind::Release;
-        assert_eq!(lookup(&release), None);
-        assert_eq!(press(KeyCode::Char('q'), KeyModifiers::ALT), None);
+        assert_eq!(press(Key::Char('0'), Modifiers::NONE), None);
+        assert_eq!(press(Key::Char('q'), Modifiers::ALT), None);
     }
 }

@@ -11,7 +11,9 @@
 //! of them new to this program; with its usual features 178 and 61, 164 CPU seconds, and did not build without the C
 //! library chafa. It cannot put letters on a picture, which the marks of a map are.
 
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) mod kitty;
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) mod sixel;
 
 use ratatui::layout::Rect;

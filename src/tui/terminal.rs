@@ -1,4 +1,7 @@
-//! The terminal itself: entered, left, and left again whatever happens.
+//! The terminal itself: entered, left, and left again whatever happens. The only place that names crossterm.
+
+mod canvas;
+mod show;
 
 use std::cell::Cell;
 use std::io::{self, Write, stdout};
@@ -11,13 +14,19 @@ use std::thread;
 use std::time::Duration;
 
 use crossterm::cursor::Show;
-use crossterm::event::{DisableMouseCapture, EnableMouseCapture, Event};
+use crossterm::event::{
+    self, DisableMouseCapture, EnableMouseCapture, KeyCode, KeyEvent, KeyEventKind, KeyModifiers,
+    MouseButton, MouseEvent, MouseEventKind,
+};
+use crossterm::execute;
 use crossterm::terminal::{
     Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
-use crossterm::{event, execute};
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
+
+use crate::tui::event::{Chord, Event, Key, Modifiers, Pointer, PointerAct};
+pub use show::explore;
 
 /// The terminal while the explorer has it; dropped, it is as it was.
 pub(super) struct Screen {
@@ -227,11 +236,96 @@ fn forward(sender: &Sender<Event>, ended: &AtomicBool) {
             Ok(false) => {}
             Ok(true) => {
                 let Ok(event) = event::read() else { return };
-                if sender.send(event).is_err() {
+                if understood(&event).is_some_and(|event| sender.send(event).is_err()) {
                     return;
                 }
             }
             Err(_) => return,
         }
+    }
+}
+
+/// The event in the screen's own words; `None`: it has none for it.
+fn understood(event: &event::Event) -> Option<Event> {
+    match event {
+        event::Event::Key(key) => chord(key).map(Event::Key),
+        event::Event::Mouse(mouse) => pointer(mouse).map(Event::Pointer),
+        event::Event::Resize(..) => Some(Event::Resize),
+        _ => None,
+    }
+}
+
+fn chord(event: &KeyEvent) -> Option<Chord> {
+    if event.kind == KeyEventKind::Release {
+        return None;
+    }
+    let key = match event.code {
+        KeyCode::Char(letter) => Key::Char(letter),
+        KeyCode::Up => Key::Up,
+        KeyCode::Down => Key::Down,
+        KeyCode::Left => Key::Left,
+        KeyCode::Right => Key::Right,
+        KeyCode::PageUp => Key::PageUp,
+        KeyCode::PageDown => Key::PageDown,
+        KeyCode::Home => Key::Home,
+        KeyCode::Tab => Key::Tab,
+        KeyCode::BackTab => Key::BackTab,
+        KeyCode::Enter => Key::Enter,
+        KeyCode::Esc => Key::Esc,
+        KeyCode::Backspace => Key::Backspace,
+        KeyCode::F(number) => Key::F(number),
+        _ => return None,
+    };
+    let is_held = |modifier| event.modifiers.contains(modifier);
+    Some(Chord {
+        key,
+        held: Modifiers {
+            shift: is_held(KeyModifiers::SHIFT),
+            control: is_held(KeyModifiers::CONTROL),
+            alt: is_held(KeyModifiers::ALT),
+        },
+    })
+}
+
+fn pointer(event: &MouseEvent) -> Option<Pointer> {
+    let act = match event.kind {
+        MouseEventKind::Down(MouseButton::Left) => PointerAct::Press,
+        MouseEventKind::Drag(MouseButton::Left) => PointerAct::Drag,
+        MouseEventKind::Down(MouseButton::Right) => PointerAct::SecondPress,
+        MouseEventKind::ScrollUp => PointerAct::WheelUp,
+        MouseEventKind::ScrollDown => PointerAct::WheelDown,
+        _ => return None,
+    };
+    Some(Pointer {
+        act,
+        column: event.column,
+        row: event.row,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn releases_and_middle_buttons_say_nothing() {
+        let mut key = KeyEvent::new(KeyCode::Char('q'), KeyModifiers::ALT);
+        let held = Chord::new(Key::Char('q'), Modifiers::ALT);
+        assert_eq!(chord(&key), Some(held));
+        key.kind = KeyEventKind::Release;
+        assert_eq!(chord(&key), None);
+        let mouse = |kind| {
+            let mouse = MouseEvent {
+                kind,
+                column: 3,
+                row: 4,
+                modifiers: KeyModifiers::NONE,
+            };
+            pointer(&mouse).map(|pointer| pointer.act)
+        };
+        let down = mouse(MouseEventKind::Down(MouseButton::Left));
+        assert_eq!(down, Some(PointerAct::Press));
+        assert_eq!(mouse(MouseEventKind::Down(MouseButton::Middle)), None);
+        assert_eq!(mouse(MouseEventKind::Moved), None);
     }
 }

@@ -16,9 +16,9 @@ use asperity::sim::{
 };
 use asperity::sweep::{CaseStart, CurvePoint, Found};
 use asperity::tui::app::{App, Effect, ErrandKind};
+use asperity::tui::event::{Pointer, PointerAct};
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use asperity::tui::{RecorderActivity, RecorderState, RunStatus, Setup, view};
-use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -452,11 +452,6 @@ pub(crate) fn found(slide_roll: f64, entrainment_m_s: f64, life: f64) -> Found {
     }
 }
 
-pub(crate) fn mouse(kind: MouseEventKind, column: u16, row: u16) -> MouseEvent {
-    MouseEvent {
-        kind,
-        column,
-        row,
-        modifiers: KeyModifiers::NONE,
-    }
+pub(crate) fn mouse(act: PointerAct, column: u16, row: u16) -> Pointer {
+    Pointer { act, column, row }
 }

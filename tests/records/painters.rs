@@ -16,10 +16,10 @@ use asperity::scene::{ContactKind, Override, Record, Scene};
 use asperity::sim::{Frame, Simulation};
 use asperity::tui::action::Action;
 use asperity::tui::app::{App, MapKind};
+use asperity::tui::event::{Pointer, PointerAct};
 use asperity::tui::pixels::Pixels;
 use asperity::tui::theme::{ColorDepth, Glyphs};
 use asperity::tui::view;
-use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 
 type Rgb = [u8; 3];
@@ -185,13 +185,12 @@ fn on_screen(app: &mut App, map: MapKind) -> Vec<([f64; 2], Rgb)> {
     let screen = Rect::new(0, 0, 160, 48);
     let picture = view::picture(app, screen, CELL).unwrap();
     let middles = picture.area.positions().map(|at| {
-        let pressed = MouseEvent {
-            kind: MouseEventKind::Down(MouseButton::Left),
+        let pressed = Pointer {
+            act: PointerAct::Press,
             column: at.x,
             row: at.y,
-            modifiers: KeyModifiers::NONE,
         };
-        let Some(Action::Probe(x, y)) = view::pointed(app, screen, &pressed) else {
+        let Some(Action::Probe(x, y)) = view::pointed(app, screen, pressed) else {
             panic!("the map is read where it is pressed")
         };
         let column = usize::from((at.x - picture.area.x) * CELL.0 + CELL.0 / 2);

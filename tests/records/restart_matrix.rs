@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::common::keeper::kept_request;
+use crate::common::keeper::{bits, kept_request};
 use crate::common::maps::{Shape, npy_f8};
 use crate::workspace::small;
 use asperity::plan::Plan;
@@ -145,11 +145,6 @@ pub(crate) fn cases(folder: &Path) -> Vec<Case> {
         }
     }
     cases
-}
-
-/// Every bit of a frame: Debug prints floats with as many digits as tell them apart, and the sign of zero.
-fn bits(frame: &Frame) -> String {
-    format!("{frame:?}")
 }
 
 /// The frames of a session, and how it ended.

@@ -15,8 +15,8 @@ use asperity::sim::Knob;
 use asperity::sweep::Along;
 use asperity::tui::action::Action;
 use asperity::tui::app::{App, Effect, ErrandKind, Leading};
+use asperity::tui::event::PointerAct;
 use asperity::tui::view;
-use crossterm::event::{MouseButton, MouseEventKind};
 use ratatui::layout::Rect;
 
 /// The run hears of a knob one step later than the screen, and until then it still tells of the orbit that the
@@ -325,9 +325,9 @@ fn the_material_point_is_chosen_by_body_depth_and_place() {
     assert!((x - 0.25).abs() < 0.06, "{x}");
     let screen = Rect::new(0, 0, 160, 48);
     let areas = view::Areas::of(screen, view::Banner::None).unwrap();
-    let down = MouseEventKind::Down(MouseButton::Left);
+    let down = PointerAct::Press;
     let (column, row) = (areas.point.x + areas.point.width / 2, areas.point.y + 3);
-    let action = view::pointed(&app, screen, &mouse(down, column, row));
+    let action = view::pointed(&app, screen, mouse(down, column, row));
     assert!(matches!(action, Some(Action::PutPoint(_))), "{action:?}");
 }
 
@@ -403,8 +403,8 @@ fn the_mouse_moves_sliders_and_reads_the_map() {
     let handle = |(x, y): &(u16, u16)| *y > 0 && drawn[(*x, *y)].symbol() == "●";
     let mut places = (0..48).flat_map(|y| (0..160).map(move |x| (x, y)));
     let (x, y) = places.find(handle).unwrap();
-    let down = MouseEventKind::Down(MouseButton::Left);
-    let action = view::pointed(&app, screen, &mouse(down, 2, y)).unwrap();
+    let down = PointerAct::Press;
+    let action = view::pointed(&app, screen, mouse(down, 2, y)).unwrap();
     let Action::Slide(0, fraction) = action else {
         panic!("{action:?}, handle at {x}, {y}");
     };
@@ -415,8 +415,8 @@ fn the_mouse_moves_sliders_and_reads_the_map() {
     };
     assert!(value <= -1.95, "{value}");
     // Dragging goes on with the same slider.
-    let drag = MouseEventKind::Drag(MouseButton::Left);
-    let action = view::pointed(&app, screen, &mouse(drag, 16, y + 3)).unwrap();
+    let drag = PointerAct::Drag;
+    let action = view::pointed(&app, screen, mouse(drag, 16, y + 3)).unwrap();
     assert!(matches!(action, Action::Slide(0, part) if part > 0.3));
     // The middle of the map, right of and above its scales, is the middle of the contact.
     let areas = view::Areas::of(screen, view::Banner::None).unwrap();
@@ -424,7 +424,7 @@ fn the_mouse_moves_sliders_and_reads_the_map() {
         areas.map.x + (areas.map.width - 8) / 2 + 2,
         areas.map.y + areas.map.height / 2 - 1,
     );
-    let action = view::pointed(&app, screen, &mouse(down, column, row)).unwrap();
+    let action = view::pointed(&app, screen, mouse(down, column, row)).unwrap();
     let Action::Probe(x, y) = action else {
         panic!("{action:?}");
     };

@@ -7,11 +7,11 @@ use asperity::scene::{Override, Scene};
 use asperity::sim::Knob;
 use asperity::tui::action::Action;
 use asperity::tui::app::{App, Leading};
-use crossterm::event::{MouseButton, MouseEventKind};
 use ratatui::layout::Rect;
 
 use super::numbers::Bench;
 use crate::common::tui_fixture::{State, mouse, plain, play, running, text};
+use asperity::tui::event::PointerAct;
 use asperity::tui::view;
 
 /// The fixture by hand: n = 1 + 2 · 2.2 · |S|/(1 − S/2), cycles 1/n; peaks and traction stay.
@@ -196,11 +196,11 @@ fn values_are_typed_in_the_unit_of_the_screen() {
 #[test]
 fn the_curve_and_the_last_line_can_be_pressed() {
     let mut app = running(plain());
-    let down = MouseEventKind::Down(MouseButton::Left);
+    let down = PointerAct::Press;
     let (mut went, mut keys) = (Vec::new(), Vec::new());
     let screen = Rect::new(0, 0, 160, 48);
     for (column, row) in (0..48).flat_map(|row| (0..160).map(move |column| (column, row))) {
-        match view::pointed(&app, screen, &mouse(down, column, row)) {
+        match view::pointed(&app, screen, mouse(down, column, row)) {
             Some(Action::GoTo(Knob::SlideRoll, value)) => went.push(value),
             Some(action) if row == 47 => keys.push(action),
             _ => {}

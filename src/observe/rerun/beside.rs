@@ -13,7 +13,8 @@ mod layout;
 
 use std::path::Path;
 
-use rerun::{Color, SeriesLines, TextDocument};
+use re_sdk_types::archetypes::{SeriesLines, TextDocument};
+use re_sdk_types::components::Color;
 
 use self::keyed::{KeyedRun, less};
 use super::RecordedFrames;

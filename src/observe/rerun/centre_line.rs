@@ -1,6 +1,7 @@
 //! The classic figure of lubrication: pressure and film along y = 0, Hertz's pressure behind them.
 
-use rerun::{LineStrips2D, Radius};
+use re_sdk_types::archetypes::LineStrips2D;
+use re_sdk_types::components::Radius;
 
 use super::colour::{GREY, ORANGE, SKY, faded};
 use super::gathered::LineStyle;

@@ -10,8 +10,9 @@
 //!             251     grey: above 1 µm, or steeper
 //! ```
 
-use rerun::components::{ImageBuffer, ImageFormat};
-use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
+use re_sdk_types::archetypes::{AnnotationContext, SegmentationImage};
+use re_sdk_types::components::{ImageBuffer, ImageFormat};
+use re_sdk_types::datatypes::{AnnotationInfo, ChannelDatatype, Rgba32};
 
 use super::colour::{GREY, WHITE};
 use super::geometry::Geometry;

@@ -1,7 +1,8 @@
 //! Maps of the contact plane seen from above: x to the right (rolling direction), y up, mm.
 
-use rerun::components::ImageFormat;
-use rerun::{AsComponents, ChannelDatatype};
+use re_sdk::AsComponents;
+use re_sdk_types::components::ImageFormat;
+use re_sdk_types::datatypes::ChannelDatatype;
 
 use super::classes;
 use super::colour::WHITE;

@@ -2,9 +2,10 @@
 
 use std::time::SystemTime;
 
-use rerun::log::Chunk;
-use rerun::time::TimePoint;
-use rerun::{TimeCell, TimeColumn};
+use re_sdk::TimeCell;
+use re_sdk::log::Chunk;
+use re_sdk::log::TimeColumn;
+use re_sdk::time::TimePoint;
 
 /// Timelines of every frame.
 pub(super) const STEP: &str = "step";

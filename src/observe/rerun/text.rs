@@ -2,8 +2,10 @@
 
 use std::fmt::Write as _;
 
-use rerun::components::MediaType;
-use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
+use re_sdk::AsComponents as _;
+use re_sdk_types::archetypes::{TextDocument, TextLog};
+use re_sdk_types::components::MediaType;
+use re_sdk_types::components::TextLogLevel;
 
 use super::note::Note;
 use super::picture::{Beyond, top};

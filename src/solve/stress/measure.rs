@@ -8,6 +8,7 @@
 //! asin by its square-root form with the eight-term polynomial of Abramowitz and Stegun (1964), 4.4.46 (2e-8). Sources: von Mises
 //! (1913); Tresca (1864), by Lode's angle.
 
+use crate::math::fused::Fused as _;
 use crate::math::lanes::{LANES, V};
 use crate::scene::StressMeasure;
 
@@ -51,9 +52,9 @@ pub(super) fn squared(
 #[inline(always)]
 fn mises(d1: f32, d2: f32, xy: f32, xz: f32, yz: f32) -> f32 {
     let d3 = d1 + d2;
-    let differences = d3.mul_add(d3, d2.mul_add(d2, d1 * d1));
-    let shears = yz.mul_add(yz, xz.mul_add(xz, xy * xy));
-    shears.mul_add(3.0, 0.5 * differences)
+    let differences = d3.fused(d3, d2.fused(d2, d1 * d1));
+    let shears = yz.fused(yz, xz.fused(xz, xy * xy));
+    shears.fused(3.0, 0.5 * differences)
 }
 
 /// In double precision: where two principal stresses meet (on the axis of a Hertz contact) the arc

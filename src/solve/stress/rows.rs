@@ -4,6 +4,7 @@
 
 use super::layer::Layer;
 use super::measure::{power_sum, squared};
+use crate::math::fused::Fused as _;
 use crate::math::lane_fft::Lanes;
 use crate::math::lanes::{LANES, TILE, V, transpose_tile};
 use crate::scene::StressMeasure;
@@ -113,7 +114,7 @@ pub(super) fn squares_of(
 fn signed_sum(n: V, t: V, sign: f32) -> V {
     let mut out = n;
     for l in 0..LANES {
-        out.0[l] = t.0[l].mul_add(sign, n.0[l]);
+        out.0[l] = t.0[l].fused(sign, n.0[l]);
     }
     out
 }

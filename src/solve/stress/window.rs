@@ -18,6 +18,7 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
+use crate::math::fused::Fused as _;
 use crate::math::quadrature::gauss_legendre;
 use crate::physics::stress_exact::{Directions, Harmonics, point_radial};
 
@@ -212,7 +213,7 @@ fn products(out: &mut ModeTable, along_x: &[f64; LOW], along_y: &[f64; LOW]) {
 #[inline(always)]
 fn add(sum: &mut ModeTable, kernel: f64, waves: &ModeTable) {
     for i in 0..LOW * LOW {
-        sum[i] = waves[i].mul_add(kernel, sum[i]);
+        sum[i] = waves[i].fused(kernel, sum[i]);
     }
 }
 

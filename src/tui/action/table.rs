@@ -1,29 +1,19 @@
 //! The key table itself.
 
-use crossterm::event::{KeyCode, KeyModifiers};
+use super::{Action, Group, Row};
+use crate::tui::event::{Chord, Key, Modifiers};
 
-use super::{Action, Chord, Group, Row};
-
-const fn key(code: KeyCode) -> Chord {
-    Chord {
-        code,
-        modifiers: KeyModifiers::NONE,
-    }
+const fn key(key: Key) -> Chord {
+    Chord::new(key, Modifiers::NONE)
 }
 const fn ch(letter: char) -> Chord {
-    key(KeyCode::Char(letter))
+    key(Key::Char(letter))
 }
-const fn shift(code: KeyCode) -> Chord {
-    Chord {
-        code,
-        modifiers: KeyModifiers::SHIFT,
-    }
+const fn shift(key: Key) -> Chord {
+    Chord::new(key, Modifiers::SHIFT)
 }
 const fn ctrl(letter: char) -> Chord {
-    Chord {
-        code: KeyCode::Char(letter),
-        modifiers: KeyModifiers::CONTROL,
-    }
+    Chord::new(Key::Char(letter), Modifiers::CONTROL)
 }
 const fn row(
     keys: &'static [(Chord, Action)],
@@ -43,9 +33,9 @@ const fn row(
 pub const KEYS: &[Row] = &[
     row(
         &[
-            (key(KeyCode::Up), Action::ChoosePrevious),
+            (key(Key::Up), Action::ChoosePrevious),
             (ch('k'), Action::ChoosePrevious),
-            (key(KeyCode::Down), Action::ChooseNext),
+            (key(Key::Down), Action::ChooseNext),
             (ch('j'), Action::ChooseNext),
         ],
         "↑↓ kj",
@@ -54,9 +44,9 @@ pub const KEYS: &[Row] = &[
     ),
     row(
         &[
-            (key(KeyCode::Left), Action::Turn(-1)),
+            (key(Key::Left), Action::Turn(-1)),
             (ch('h'), Action::Turn(-1)),
-            (key(KeyCode::Right), Action::Turn(1)),
+            (key(Key::Right), Action::Turn(1)),
             (ch('l'), Action::Turn(1)),
         ],
         "←→ hl",
@@ -65,12 +55,12 @@ pub const KEYS: &[Row] = &[
     ),
     row(
         &[
-            (shift(KeyCode::Left), Action::TurnFar(-1)),
+            (shift(Key::Left), Action::TurnFar(-1)),
             (ch('H'), Action::TurnFar(-1)),
-            (key(KeyCode::PageDown), Action::TurnFar(-1)),
-            (shift(KeyCode::Right), Action::TurnFar(1)),
+            (key(Key::PageDown), Action::TurnFar(-1)),
+            (shift(Key::Right), Action::TurnFar(1)),
             (ch('L'), Action::TurnFar(1)),
-            (key(KeyCode::PageUp), Action::TurnFar(1)),
+            (key(Key::PageUp), Action::TurnFar(1)),
         ],
         "⇧←→ HL",
         "in big steps",
@@ -101,7 +91,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[
             (ch('x'), Action::Home),
-            (key(KeyCode::Home), Action::Home),
+            (key(Key::Home), Action::Home),
             (ch('X'), Action::HomeAll),
         ],
         "x X",
@@ -149,16 +139,16 @@ pub const KEYS: &[Row] = &[
     ),
     row(
         &[
-            (key(KeyCode::Tab), Action::NextPanel(1)),
-            (key(KeyCode::BackTab), Action::NextPanel(4)),
-            (shift(KeyCode::BackTab), Action::NextPanel(4)),
+            (key(Key::Tab), Action::NextPanel(1)),
+            (key(Key::BackTab), Action::NextPanel(4)),
+            (shift(Key::BackTab), Action::NextPanel(4)),
         ],
         "Tab",
         "another panel",
         Group::Show,
     ),
     row(
-        &[(key(KeyCode::Enter), Action::Enter)],
+        &[(key(Key::Enter), Action::Enter)],
         "⏎",
         "panel whole; run; start",
         Group::Show,
@@ -232,9 +222,9 @@ pub const KEYS: &[Row] = &[
         Group::Show,
     ),
     row(
-        &[(ch('e'), Action::Scene)],
-        "e",
-        "change scene, lay, oil, model",
+        &[(ch('e'), Action::Scene), (ch('E'), Action::OperatingPoint)],
+        "e E",
+        "change scene; operating point",
         Group::Program,
     ),
     row(
@@ -262,13 +252,13 @@ pub const KEYS: &[Row] = &[
         Group::Program,
     ),
     row(
-        &[(ch('?'), Action::Help), (key(KeyCode::F(1)), Action::Help)],
+        &[(ch('?'), Action::Help), (key(Key::F(1)), Action::Help)],
         "?",
         "these keys",
         Group::Program,
     ),
     row(
-        &[(key(KeyCode::Esc), Action::Close)],
+        &[(key(Key::Esc), Action::Close)],
         "Esc",
         "close; back to the present",
         Group::Program,

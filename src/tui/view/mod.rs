@@ -7,6 +7,7 @@ mod chart;
 mod curve;
 mod digits;
 mod footer;
+mod forms;
 mod header;
 mod knobs;
 mod lesson_list;
@@ -16,7 +17,6 @@ mod overlay;
 mod point;
 mod status;
 
-use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Margin, Position, Rect};
@@ -27,6 +27,7 @@ use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, Overlay, PanelKind};
+use crate::tui::event::{Pointer, PointerAct};
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 pub use areas::{Areas, Banner, LEAST, PanelSpacing};
@@ -111,7 +112,7 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
         (Some(reason), _) => overlay::fault(app, reason, body, buffer),
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
-        (None, Overlay::Scene) => overlay::scene(app, body, buffer),
+        (None, Overlay::Scene) => forms::scene(app, body, buffer),
         (None, Overlay::Lessons) => lesson_list::lessons(app, body, buffer),
         (None, Overlay::None) => {}
     }
@@ -139,28 +140,27 @@ fn banner(caption: Option<&caption::Caption>, screen: Rect) -> Banner {
     })
 }
 
-/// What a mouse event asks for on a screen of that size.
-pub fn pointed(app: &App, screen: Rect, event: &MouseEvent) -> Option<Action> {
+/// What the pointer asks for on a screen of that size.
+pub fn pointed(app: &App, screen: Rect, pointer: Pointer) -> Option<Action> {
     let areas = areas_of(app, screen)?;
-    let at = Position::new(event.column, event.row);
+    let at = Position::new(pointer.column, pointer.row);
     if app.overlay != Overlay::None {
-        let closes = matches!(event.kind, MouseEventKind::Down(_));
+        let closes = matches!(pointer.act, PointerAct::Press | PointerAct::SecondPress);
         return closes.then_some(Action::Close);
     }
-    match event.kind {
-        MouseEventKind::Down(MouseButton::Left) => footer::pressed(app, &areas, at)
+    match pointer.act {
+        PointerAct::Press => footer::pressed(app, &areas, at)
             .or_else(|| knobs::pressed(app, &areas, at))
             .or_else(|| life::pressed(app, &areas, screen, at))
             .or_else(|| map::pressed(app, &areas, at))
             .or_else(|| point::pressed(&areas, at))
             .or_else(|| areas.panel_at(at).map(Action::Focus)),
-        MouseEventKind::Drag(MouseButton::Left) => knobs::dragged(app, &areas, at)
+        PointerAct::Drag => knobs::dragged(app, &areas, at)
             .or_else(|| map::pressed(app, &areas, at))
             .or_else(|| point::dragged(&areas, at)),
-        MouseEventKind::Down(MouseButton::Right) => Some(Action::Close),
-        MouseEventKind::ScrollUp => wheel(app, &areas, at, 1),
-        MouseEventKind::ScrollDown => wheel(app, &areas, at, -1),
-        _ => None,
+        PointerAct::SecondPress => Some(Action::Close),
+        PointerAct::WheelUp => wheel(app, &areas, at, 1),
+        PointerAct::WheelDown => wheel(app, &areas, at, -1),
     }
 }
 

@@ -18,6 +18,7 @@ use super::super::spec::{Loading, StressSpec, Symmetry};
 use super::super::window::LOW;
 use super::StressEngine;
 use super::load::{Half, Spectrum};
+use crate::math::fused::Fused as _;
 use crate::math::lane_fft::{Lanes, pack_pair};
 use crate::math::lanes::{C, LANES, V};
 use crate::physics::cycles::BodyId;
@@ -283,14 +284,14 @@ fn four_sums(e: &[V], columns: &[C], which: [usize; 4]) -> [C; 4] {
         let (c0, c1, c2, c3) = (&c[c0], &c[c1], &c[c2], &c[c3]);
         for l in 0..LANES {
             let e = e.0[l];
-            r0[l] = c0.re.0[l].mul_add(e, r0[l]);
-            i0[l] = c0.im.0[l].mul_add(e, i0[l]);
-            r1[l] = c1.re.0[l].mul_add(e, r1[l]);
-            i1[l] = c1.im.0[l].mul_add(e, i1[l]);
-            r2[l] = c2.re.0[l].mul_add(e, r2[l]);
-            i2[l] = c2.im.0[l].mul_add(e, i2[l]);
-            r3[l] = c3.re.0[l].mul_add(e, r3[l]);
-            i3[l] = c3.im.0[l].mul_add(e, i3[l]);
+            r0[l] = c0.re.0[l].fused(e, r0[l]);
+            i0[l] = c0.im.0[l].fused(e, i0[l]);
+            r1[l] = c1.re.0[l].fused(e, r1[l]);
+            i1[l] = c1.im.0[l].fused(e, i1[l]);
+            r2[l] = c2.re.0[l].fused(e, r2[l]);
+            i2[l] = c2.im.0[l].fused(e, i2[l]);
+            r3[l] = c3.re.0[l].fused(e, r3[l]);
+            i3[l] = c3.im.0[l].fused(e, i3[l]);
         }
     }
     [(r0, i0), (r1, i1), (r2, i2), (r3, i3)].map(|(re, im)| C {
