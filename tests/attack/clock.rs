@@ -6,7 +6,7 @@ use std::process::Command;
 use asperity::observe::rerun::Recorded;
 use re_chunk::Chunk;
 use re_log_encoding::DecoderApp;
-use re_sdk::external::re_log_types::LogMsg;
+use rerun::external::re_log_types::LogMsg;
 
 use super::child::Place;
 use super::faults::{Faults, all_outputs, args, lost, put_mine, refs};

@@ -25,7 +25,7 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use re_chunk::Chunk;
 use re_log_encoding::DecoderApp;
-use re_sdk::external::re_log_types::LogMsg;
+use rerun::external::re_log_types::LogMsg;
 
 const SIZE: (u16, u16) = (160, 48);
 
@@ -256,7 +256,7 @@ impl Written {
 /// The last scalars of every entity of a recording.
 fn last_scalars(path: &Path) -> BTreeMap<String, Vec<f64>> {
     let reader = std::io::BufReader::new(std::fs::File::open(path).unwrap());
-    let component = re_sdk_types::archetypes::Scalars::descriptor_scalars().component;
+    let component = rerun::Scalars::descriptor_scalars().component;
     let mut found: BTreeMap<String, (i64, Vec<f64>)> = BTreeMap::new();
     for message in DecoderApp::decode_eager(reader).unwrap() {
         let LogMsg::ArrowMsg(store, message) = message.unwrap() else {

@@ -15,9 +15,8 @@ const FLOORS: [&str; 14] = [
     "sweep", "study", "tui", "cli",
 ];
 /// Crates and the only folder that may name them.
-const ROOMS: [(&str, &str); 5] = [
-    ("re_sdk", "src/observe/rerun"),
-    ("re_sdk_types", "src/observe/rerun"),
+const ROOMS: [(&str, &str); 4] = [
+    ("rerun", "src/observe/rerun"),
     ("re_log_types", "src/observe/rerun"),
     ("ratatui", "src/tui"),
     ("crossterm", "src/tui/terminal"),
@@ -197,7 +196,7 @@ fn planted_faults_are_found() {
         assert!(found[0].contains("imports"), "{found:?}");
     }
     let foreign = [
-        ("src/observe/table.rs", "use re_sdk::RecordingStream;"),
+        ("src/observe/table.rs", "use rerun::RecordingStream;"),
         ("src/cli/mod.rs", "fn f() { ratatui::init(); }"),
         ("src/main.rs", "use crossterm;"),
         ("src/tui/view/mod.rs", "use crossterm::event;"),
@@ -228,10 +227,7 @@ fn what_is_allowed_passes() {
             "// see crate::tui::explore\nuse super::Frame;",
         ),
         ("src/lib.rs", "pub use crate::tui::explore;"),
-        (
-            "src/observe/rerun/stream.rs",
-            "use re_sdk::RecordingStream;",
-        ),
+        ("src/observe/rerun/stream.rs", "use rerun::RecordingStream;"),
         (
             "src/cli/outputs.rs",
             "use asperity::observe::rerun::Recorder;",

@@ -16,8 +16,8 @@ use asperity::scene::{Event, Record, Scene};
 use asperity::sim::{DamageBlock, Frame, Stage};
 use re_chunk::Chunk;
 use re_log_encoding::{DecoderApp, RawRrdManifest};
-use re_sdk::Loggable as _;
-use re_sdk::external::re_log_types::LogMsg;
+use rerun::Loggable as _;
+use rerun::external::re_log_types::LogMsg;
 
 /// Nodes per side: small, and enough for every view.
 const NODES: usize = 33;
@@ -94,7 +94,7 @@ impl Contents {
                 continue;
             }
             let steps = chunk.timelines()[&"step".into()].times_raw().to_vec();
-            let component = re_sdk_types::archetypes::Scalars::descriptor_scalars().component;
+            let component = rerun::Scalars::descriptor_scalars().component;
             let rows = chunk.iter_slices::<f64>(component);
             values.extend(steps.into_iter().zip(rows.map(<[f64]>::to_vec)));
         }
@@ -104,8 +104,8 @@ impl Contents {
     /// Bytes of an entity's pictures, by step.
     pub(super) fn pictures(&self, entity: &str) -> BTreeMap<i64, Vec<u8>> {
         let buffers = [
-            re_sdk_types::archetypes::DepthImage::descriptor_buffer(),
-            re_sdk_types::archetypes::SegmentationImage::descriptor_buffer(),
+            rerun::DepthImage::descriptor_buffer(),
+            rerun::SegmentationImage::descriptor_buffer(),
         ];
         let buffers = buffers.map(|buffer| buffer.component);
         let mut pictures = BTreeMap::new();
@@ -144,7 +144,7 @@ impl Contents {
 
     /// The upper end of an entity's colour range.
     pub(super) fn top(&self, entity: &str) -> f64 {
-        let component = re_sdk_types::archetypes::DepthImage::descriptor_depth_range().component;
+        let component = rerun::DepthImage::descriptor_depth_range().component;
         let of_entity = |chunk: &&Chunk| chunk.entity_path().to_string() == format!("/{entity}");
         let chunks = self.data.iter().filter(of_entity);
         let mut ranges = chunks.flat_map(|chunk| {
@@ -156,7 +156,7 @@ impl Contents {
 
     /// The upper ends of an entity's colour ranges, each with the step from which on it holds.
     fn tops(&self, entity: &str) -> Vec<(i64, f64)> {
-        let component = re_sdk_types::archetypes::DepthImage::descriptor_depth_range().component;
+        let component = rerun::DepthImage::descriptor_depth_range().component;
         let of_entity = |chunk: &&Chunk| chunk.entity_path().to_string() == format!("/{entity}");
         let mut tops = Vec::new();
         for chunk in self.data.iter().filter(of_entity) {
@@ -174,7 +174,7 @@ impl Contents {
 
     /// The highest point of an entity's curves in a step: heights count downwards.
     fn highest(&self, entity: &str, step: i64) -> f32 {
-        let component = re_sdk_types::archetypes::LineStrips2D::descriptor_strips().component;
+        let component = rerun::LineStrips2D::descriptor_strips().component;
         let of_entity = |chunk: &&Chunk| {
             chunk.entity_path().to_string() == format!("/{entity}") && !chunk.is_static()
         };
@@ -184,8 +184,7 @@ impl Contents {
             let Some(batch) = row.and_then(|row| chunk.component_batch_raw(component, row)) else {
                 continue;
             };
-            let strips =
-                re_sdk_types::components::LineStrip2D::from_arrow(&batch.unwrap()).unwrap();
+            let strips = rerun::components::LineStrip2D::from_arrow(&batch.unwrap()).unwrap();
             let heights = strips.iter().flat_map(|strip| &strip.0).map(|at| -at.0[1]);
             return heights.fold(0.0, f32::max);
         }
@@ -194,7 +193,7 @@ impl Contents {
 
     /// Labels of an entity, those of a row one after another.
     fn labels(&self, entity: &str) -> Vec<String> {
-        let component = re_sdk_types::archetypes::Points2D::descriptor_labels().component;
+        let component = rerun::Points2D::descriptor_labels().component;
         let of_entity = |chunk: &&Chunk| chunk.entity_path().to_string() == format!("/{entity}");
         let chunks = self.data.iter().filter(of_entity);
         let labels = chunks.flat_map(|chunk| {
@@ -207,7 +206,7 @@ impl Contents {
 
     /// Lines of the log.
     fn log(&self) -> Vec<String> {
-        let component = re_sdk_types::archetypes::TextLog::descriptor_text().component;
+        let component = rerun::TextLog::descriptor_text().component;
         let of_log = |chunk: &&Chunk| chunk.entity_path().to_string() == "/log";
         let chunks = self.data.iter().filter(of_log);
         let lines = chunks.flat_map(|chunk| {
@@ -233,7 +232,7 @@ impl Contents {
 
     /// All text of an entity, as the bytes hold it.
     fn text(&self, entity: &str) -> String {
-        let component = re_sdk_types::archetypes::TextDocument::descriptor_text().component;
+        let component = rerun::TextDocument::descriptor_text().component;
         let mut text = String::new();
         for chunk in &self.data {
             if chunk.entity_path().to_string() == format!("/{entity}") {
@@ -1065,7 +1064,7 @@ fn the_recording_has_a_name_and_properties() {
     let frames = frames(STEPS);
     record(&path, &every_step(), &frames);
     let contents = Contents::read(&path);
-    let component = re_sdk::RecordingInfo::descriptor_name().component;
+    let component = rerun::RecordingInfo::descriptor_name().component;
     let names = contents.data.iter().flat_map(|chunk| {
         let names = chunk.iter_slices::<String>(component);
         names.map(|name| name[0].to_string()).collect::<Vec<_>>()

@@ -13,8 +13,7 @@ mod layout;
 
 use std::path::Path;
 
-use re_sdk_types::archetypes::{SeriesLines, TextDocument};
-use re_sdk_types::components::Color;
+use rerun::{Color, SeriesLines, TextDocument};
 
 use self::keyed::{KeyedRun, less};
 use super::RecordedFrames;

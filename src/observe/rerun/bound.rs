@@ -10,10 +10,9 @@ use std::io::{BufReader, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use re_log_types::{LogMsg, StoreId};
-use re_sdk::external::re_log_encoding::{CrateVersion, DecoderApp, Encoder, EncodingOptions};
-use re_sdk::log::Chunk;
-use re_sdk::{ComponentIdentifier, EntityPath, SizeBytes as _};
-use re_sdk_types::archetypes::TextDocument;
+use rerun::external::re_log_encoding::{CrateVersion, DecoderApp, Encoder, EncodingOptions};
+use rerun::log::Chunk;
+use rerun::{ComponentIdentifier, EntityPath, SizeBytes as _, TextDocument};
 
 use super::moment::Moment;
 use super::scalars::SCALARS;

@@ -1,7 +1,6 @@
 //! The classic figure of lubrication: pressure and film along y = 0, Hertz's pressure behind them.
 
-use re_sdk_types::archetypes::LineStrips2D;
-use re_sdk_types::components::Radius;
+use rerun::{LineStrips2D, Radius};
 
 use super::colour::{GREY, ORANGE, SKY, faded};
 use super::gathered::LineStyle;

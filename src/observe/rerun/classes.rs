@@ -1,7 +1,6 @@
 //! What lies over a picture of the film in colours of its own: contact, and film above the range.
 
-use re_sdk_types::archetypes::{AnnotationContext, SegmentationImage};
-use re_sdk_types::datatypes::Rgba32;
+use rerun::{AnnotationContext, Rgba32, SegmentationImage};
 
 use crate::picture::{ABOVE, CONTACT, Look};
 

@@ -2,7 +2,7 @@
 //!
 //! Meshes take the colours of the viewer's maps from [`Ramp`]; lines use the palette of Okabe and Ito (2008).
 
-use re_sdk_types::components::Color;
+use rerun::Color;
 
 pub(super) use crate::picture::Ramp;
 

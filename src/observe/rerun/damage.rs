@@ -5,13 +5,9 @@
 //! material has crossed; what of it has not crossed yet is no number and is not drawn, and its share is told. Block
 //! and picture are stretched to one size, whose axes carry the lengths; a row for each of the solver's depths.
 
-use re_sdk::AsComponents;
-use re_sdk_types::archetypes::{AnnotationContext, DepthImage, Points2D};
-use re_sdk_types::archetypes::{Scalars, SegmentationImage};
-use re_sdk_types::components::Radius;
-use re_sdk_types::components::{ImageFormat, MagnificationFilter};
-use re_sdk_types::datatypes::ChannelDatatype;
-use re_sdk_types::datatypes::Rgba32;
+use rerun::components::{ImageFormat, MagnificationFilter};
+use rerun::{AnnotationContext, AsComponents, ChannelDatatype, DepthImage, Points2D, Radius};
+use rerun::{Rgba32, Scalars, SegmentationImage};
 
 use super::colour::{BACKGROUND, GREEN, WHITE, faded};
 use super::depths::Depths;

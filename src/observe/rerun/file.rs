@@ -13,9 +13,9 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use re_sdk::external::re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
-use re_sdk::log::LogMsg;
-use re_sdk::sink::{LogSink, SinkFlushError};
+use rerun::external::re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
+use rerun::log::LogMsg;
+use rerun::sink::{LogSink, SinkFlushError};
 
 use super::bound;
 use crate::observe::placed::Placed;

@@ -12,10 +12,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use re_log_types::LogMsg;
-use re_sdk::ComponentIdentifier;
-use re_sdk::external::re_log_encoding::DecoderApp;
-use re_sdk::log::Chunk;
-use re_sdk_types::archetypes::{DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument};
+use rerun::external::re_log_encoding::DecoderApp;
+use rerun::log::Chunk;
+use rerun::{
+    ComponentIdentifier, DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument,
+};
 
 use self::origin::origin;
 use super::moment::STEP;

@@ -5,13 +5,12 @@
 
 use std::sync::Arc;
 
-use re_sdk::external::arrow::array::{ArrayRef, FixedSizeListArray, Float32Array, ListArray};
-use re_sdk::external::arrow::array::{UInt8Array, UInt32Array};
-use re_sdk::external::arrow::buffer::{Buffer, OffsetBuffer, ScalarBuffer};
-use re_sdk::external::arrow::datatypes::{ArrowNativeType, DataType, Field};
-use re_sdk::log::{Chunk, ChunkError, ChunkId};
-use re_sdk::{ComponentDescriptor, EntityPath, SerializedComponentColumn};
-use re_sdk_types::archetypes::{LineStrips2D, Mesh3D};
+use rerun::external::arrow::array::{ArrayRef, FixedSizeListArray, Float32Array, ListArray};
+use rerun::external::arrow::array::{UInt8Array, UInt32Array};
+use rerun::external::arrow::buffer::{Buffer, OffsetBuffer, ScalarBuffer};
+use rerun::external::arrow::datatypes::{ArrowNativeType, DataType, Field};
+use rerun::log::{Chunk, ChunkError, ChunkId};
+use rerun::{ComponentDescriptor, EntityPath, LineStrips2D, Mesh3D, SerializedComponentColumn};
 
 use super::moment::{Moment, time_columns};
 use super::weight::Compression;
@@ -341,8 +340,7 @@ fn list(values: ArrayRef, ends: &[usize], nullable: Nullable) -> ListArray {
 
 #[cfg(test)]
 mod tests {
-    use re_sdk::AsComponents as _;
-    use re_sdk_types::archetypes::SegmentationImage;
+    use rerun::{AsComponents as _, SegmentationImage};
 
     use super::*;
 
@@ -370,7 +368,7 @@ mod tests {
         for (row, picture) in pictures.iter().enumerate() {
             let bytes: Vec<u8> = picture.iter().flat_map(|p| p.to_le_bytes()).collect();
             let theirs = SegmentationImage::update_fields()
-                .with_buffer(re_sdk_types::components::ImageBuffer::from(bytes))
+                .with_buffer(rerun::components::ImageBuffer::from(bytes))
                 .as_serialized_batches();
             let ours = chunk.component_batch_raw(component.component, row);
             let ours = ours.expect("a row").expect("a value");

@@ -10,9 +10,8 @@
 //!             251     grey: above 1 µm, or steeper
 //! ```
 
-use re_sdk_types::archetypes::{AnnotationContext, SegmentationImage};
-use re_sdk_types::components::{ImageBuffer, ImageFormat};
-use re_sdk_types::datatypes::{AnnotationInfo, ChannelDatatype, Rgba32};
+use rerun::components::{ImageBuffer, ImageFormat};
+use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
 
 use super::colour::{GREY, WHITE};
 use super::geometry::Geometry;

@@ -6,9 +6,8 @@
 //! the end), so its cost stays a small part of the file. A run that goes on beyond its scene's end gets a time axis of
 //! twice the length, and every other row, as often as it takes: the picture always shows all of it.
 
-use re_sdk_types::archetypes::SegmentationImage;
-use re_sdk_types::components::{ImageBuffer, ImageFormat};
-use re_sdk_types::datatypes::ChannelDatatype;
+use rerun::components::{ImageBuffer, ImageFormat};
+use rerun::{ChannelDatatype, SegmentationImage};
 
 use super::centre_line::line;
 use super::classes;

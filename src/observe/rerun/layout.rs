@@ -9,11 +9,11 @@ mod tabs;
 pub(super) mod views;
 
 use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
-use re_sdk::blueprint::components::{LoopMode, PanelState, PlayState};
-use re_sdk::blueprint::{
+use rerun::blueprint::components::{LoopMode, PanelState, PlayState};
+use rerun::blueprint::{
     Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, SelectionPanel, Tabs, TimePanel,
 };
-use re_sdk::{RecordingStream, RecordingStreamBuilder};
+use rerun::{RecordingStream, RecordingStreamBuilder};
 
 use self::views::{Property, Views};
 use super::moment::{SIMULATED_TIME, STEP, check_clock};

@@ -1,7 +1,7 @@
 //! Colour bars: images of the same colours and range as the picture beside them, so that they cannot differ from it.
 
-use re_sdk_types::components::ImageFormat;
-use re_sdk_types::datatypes::ChannelDatatype;
+use rerun::ChannelDatatype;
+use rerun::components::ImageFormat;
 
 use super::colour::{GREY, WHITE};
 use super::picture::{PixelField, log_styled, range, stored, styled};

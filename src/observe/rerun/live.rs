@@ -11,10 +11,10 @@ use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
 
-use re_sdk::external::re_uri::ProxyUri;
-use re_sdk::log::LogMsg;
-use re_sdk::sink::{GrpcSink, GrpcSinkConnectionState, LogSink, SinkFlushError};
-use re_sdk::{
+use rerun::external::re_uri::ProxyUri;
+use rerun::log::LogMsg;
+use rerun::sink::{GrpcSink, GrpcSinkConnectionState, LogSink, SinkFlushError};
+use rerun::{
     MemoryLimit, PlaybackBehavior, RecordingStream, RecordingStreamBuilder, ServerOptions,
 };
 

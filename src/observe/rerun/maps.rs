@@ -1,8 +1,7 @@
 //! Maps of the contact plane seen from above: x to the right (rolling direction), y up, mm.
 
-use re_sdk::AsComponents;
-use re_sdk_types::components::ImageFormat;
-use re_sdk_types::datatypes::ChannelDatatype;
+use rerun::components::ImageFormat;
+use rerun::{AsComponents, ChannelDatatype};
 
 use super::classes;
 use super::colour::WHITE;

@@ -8,7 +8,7 @@
 
 use std::io::{ErrorKind, Read};
 
-use re_sdk::external::re_log_encoding::external::lz4_flex;
+use rerun::external::re_log_encoding::external::lz4_flex;
 
 const FOUR_CC: &[u8] = b"RRF2";
 /// Bytes before the first message.

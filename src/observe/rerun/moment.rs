@@ -2,10 +2,9 @@
 
 use std::time::SystemTime;
 
-use re_sdk::TimeCell;
-use re_sdk::log::Chunk;
-use re_sdk::log::TimeColumn;
-use re_sdk::time::TimePoint;
+use rerun::log::Chunk;
+use rerun::time::TimePoint;
+use rerun::{TimeCell, TimeColumn};
 
 /// Timelines of every frame.
 pub(super) const STEP: &str = "step";

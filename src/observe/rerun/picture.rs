@@ -1,8 +1,7 @@
 //! What images hold: values in half precision, and where their pixels lie in a view.
 
-use re_sdk::AsComponents;
-use re_sdk_types::archetypes::{DepthImage, Transform3D};
-use re_sdk_types::components::{Colormap, ImageBuffer, MagnificationFilter};
+use rerun::components::{Colormap, ImageBuffer, MagnificationFilter};
+use rerun::{AsComponents, DepthImage, Transform3D};
 
 use super::stream::Stream;
 use crate::math::number::nice_ceiling;

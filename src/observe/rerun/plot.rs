@@ -3,8 +3,7 @@
 //! The viewer draws none of these, so they are lines and labels in the same view. The vertical axis
 //! of a view points down.
 
-use re_sdk_types::archetypes::{LineStrips2D, Points2D};
-use re_sdk_types::components::{Color, Radius};
+use rerun::{Color, LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREY, WHITE, faded, for_text};
 use super::stream::{Holds, Stream};

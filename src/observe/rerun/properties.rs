@@ -4,13 +4,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use re_sdk::external::arrow::array::{ArrayRef, Float64Array, StringArray};
-use re_sdk::log::{Chunk, PendingRow};
-use re_sdk::time::TimePoint;
-use re_sdk::{AsComponents as _, EntityPath, RecordingInfo};
-use re_sdk_types::AnyValues;
-use re_sdk_types::archetypes::{Scalars, SeriesLines, TextDocument};
-use re_sdk_types::components::Color;
+use rerun::external::arrow::array::{ArrayRef, Float64Array, StringArray};
+use rerun::log::{Chunk, PendingRow};
+use rerun::time::TimePoint;
+use rerun::{
+    AnyValues, AsComponents as _, Color, EntityPath, RecordingInfo, Scalars, SeriesLines,
+    TextDocument,
+};
 
 use super::bound::{self, RecordingEnd};
 use super::colour::curve;

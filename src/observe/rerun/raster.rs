@@ -7,9 +7,8 @@
 
 use std::cell::Cell;
 
-use re_sdk_types::archetypes::DepthImage;
-use re_sdk_types::components::ImageFormat;
-use re_sdk_types::datatypes::ChannelDatatype;
+use rerun::components::ImageFormat;
+use rerun::{ChannelDatatype, DepthImage};
 
 use super::legend::Legend;
 use super::picture::{Beyond, Field, PixelField, log_styled, range, store, stored, styled, top};

@@ -5,7 +5,7 @@ pub(super) mod views;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use re_sdk_types::components::TextLogLevel;
+use rerun::TextLogLevel;
 
 use self::views::ViewState;
 use super::file::RecordingFile;

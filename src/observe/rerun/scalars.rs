@@ -3,7 +3,7 @@
 //! Curves for people have their units and logarithms; a row has the numbers that they were made of, each under its
 //! name, so that a frame is read back to the bit ([`super::frames`]). What is not known is no number (NaN).
 
-use re_sdk_types::archetypes::{Scalars, SeriesLines};
+use rerun::{Scalars, SeriesLines};
 use serde_json::Value;
 
 use super::stream::Stream;

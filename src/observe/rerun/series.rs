@@ -3,9 +3,7 @@
 //! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second); what is
 //! not known yet is left out. Columns of a second are sent at once: row by row they would cost more than all pictures.
 
-use re_sdk::EntityPath;
-use re_sdk_types::archetypes::SeriesLines;
-use re_sdk_types::components::Color;
+use rerun::{Color, EntityPath, SeriesLines};
 
 use super::colour::curve::{BLUE, GREEN, GREY, OLIVE, ORANGE, PURPLE, SKY, VERMILION};
 use super::moment::Moment;

@@ -3,8 +3,7 @@
 //! To scale it is drawn in the 3-D view; here the rows that crowd below the surface, where pits start, have room
 //! ([`Depths`]), and each holds what the solver computed.
 
-use re_sdk_types::archetypes::{LineStrips2D, Points2D};
-use re_sdk_types::components::Radius;
+use rerun::{LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREEN, WHITE, faded};
 use super::depths::Depths;

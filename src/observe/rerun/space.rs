@@ -8,8 +8,7 @@
 mod fixed;
 mod hung;
 
-use re_sdk_types::archetypes::{Arrows3D, Points3D};
-use re_sdk_types::components::{Color, Radius};
+use rerun::{Arrows3D, Color, Points3D, Radius};
 
 use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, for_text, packed};
 use super::depths::Depths;

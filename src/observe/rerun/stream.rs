@@ -7,14 +7,14 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use re_log_types::LogMsg;
-use re_sdk::external::arrow::array::Array as _;
-use re_sdk::log::{Chunk, ChunkBatcherConfig, PendingRow};
-use re_sdk::sink::LogSink as _;
-use re_sdk::time::TimePoint;
-use re_sdk::{
-    AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, SerializedComponentBatch,
+use rerun::external::arrow::array::Array as _;
+use rerun::log::{Chunk, ChunkBatcherConfig, PendingRow};
+use rerun::sink::LogSink as _;
+use rerun::time::TimePoint;
+use rerun::{
+    AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars,
+    SerializedComponentBatch,
 };
-use re_sdk_types::archetypes::Scalars;
 
 use super::destination::Destination;
 use super::file::RecordingFile;

@@ -2,10 +2,8 @@
 
 use std::fmt::Write as _;
 
-use re_sdk::AsComponents as _;
-use re_sdk_types::archetypes::{TextDocument, TextLog};
-use re_sdk_types::components::MediaType;
-use re_sdk_types::components::TextLogLevel;
+use rerun::components::MediaType;
+use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
 
 use super::note::Note;
 use super::picture::{Beyond, top};

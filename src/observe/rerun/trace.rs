@@ -1,8 +1,7 @@
 //! What a material point has felt since it entered the contact, against where it was: one hump in
 //! pure rolling, a comb when the mating roughness slides over it, each peak numbered as it passes.
 
-use re_sdk_types::archetypes::Points2D;
-use re_sdk_types::components::Radius;
+use rerun::{Points2D, Radius};
 
 use super::centre_line::line;
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, YELLOW, faded};

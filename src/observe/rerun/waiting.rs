@@ -5,11 +5,10 @@
 
 use std::collections::HashMap;
 
-use re_sdk::external::arrow::array::Array as _;
-use re_sdk::log::{Chunk, ChunkError, PendingRow};
-use re_sdk::time::TimePoint;
-use re_sdk::{AsComponents, EntityPath};
-use re_sdk_types::archetypes::{DepthImage, SegmentationImage};
+use rerun::external::arrow::array::Array as _;
+use rerun::log::{Chunk, ChunkError, PendingRow};
+use rerun::time::TimePoint;
+use rerun::{AsComponents, DepthImage, EntityPath, SegmentationImage};
 
 use super::gathered::{Added, Images, LineStyle, Sheets, Strips};
 use super::moment::Moment;

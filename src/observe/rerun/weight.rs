@@ -4,8 +4,8 @@
 //! weight is its bytes times the share that compression leaves of such rows, measured at some of them, and what the file
 //! holds besides of every row. It is an upper estimate: in the finished file rows are compressed many together.
 
-use re_sdk::external::arrow::datatypes::{ArrowNativeType, ToByteSlice};
-use re_sdk::external::re_log_encoding::external::lz4_flex;
+use rerun::external::arrow::datatypes::{ArrowNativeType, ToByteSlice};
+use rerun::external::re_log_encoding::external::lz4_flex;
 
 /// Of a row besides its numbers: its name, three times, its part of a chunk and of the footer (19 to 25 were measured,
 /// and a chunk's 2.4 kB over the fewest rows that share one).

@@ -1,7 +1,7 @@
 //! The layout of runs that stand beside each other: what is alike has one size and one place in its row.
 
-use re_sdk::blueprint::{ContainerLike, Horizontal, Vertical};
-use re_sdk_types::blueprint::archetypes::PlotLegend;
+use rerun::blueprint::{ContainerLike, Horizontal, Vertical};
+use rerun::external::re_sdk_types::blueprint::archetypes::PlotLegend;
 
 use super::super::centre_line::CENTRE_LINE;
 use super::super::layout::views::Views;

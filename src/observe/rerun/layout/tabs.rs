@@ -1,8 +1,8 @@
 //! The tabs: the first is for an audience, the next for looking closer; what is used rarely comes last.
 
-use re_sdk::blueprint::components::Corner2D;
-use re_sdk::blueprint::{ContainerLike, Grid, Horizontal, TextLogView, Vertical};
-use re_sdk_types::blueprint::archetypes::PlotLegend;
+use rerun::blueprint::components::Corner2D;
+use rerun::blueprint::{ContainerLike, Grid, Horizontal, TextLogView, Vertical};
+use rerun::external::re_sdk_types::blueprint::archetypes::PlotLegend;
 
 use super::super::centre_line::CENTRE_LINE;
 use super::super::damage;

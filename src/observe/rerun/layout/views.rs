@@ -1,15 +1,14 @@
 //! Views and their properties, which the layout's stream carries apart.
 
-use re_sdk::AsComponents;
-use re_sdk::blueprint::components::{BackgroundKind, Corner2D, Enabled, VisualBounds2D as Bounds};
-use re_sdk::blueprint::{
+use rerun::blueprint::components::{BackgroundKind, Corner2D, Enabled, VisualBounds2D as Bounds};
+use rerun::blueprint::{
     ContainerLike, Spatial2DView, Spatial3DView, TextDocumentView, TimeSeriesView,
 };
-use re_sdk_types::blueprint::archetypes::{
+use rerun::datatypes::{Range1D, Range2D};
+use rerun::external::re_sdk_types::blueprint::archetypes::{
     Background, EyeControls3D, LineGrid3D, PlotLegend, TextDocumentFormat, VisualBounds2D,
 };
-use re_sdk_types::components::Color;
-use re_sdk_types::datatypes::{Range1D, Range2D};
+use rerun::{AsComponents, Color};
 
 use super::super::colour::BACKGROUND;
 use super::super::maps;

@@ -1,8 +1,6 @@
 //! What of the 3-D view never changes: triangles, smooth bodies, the cut, legends, labels.
 
-use re_sdk_types::archetypes::{LineStrips3D, Mesh3D, Points3D};
-use re_sdk_types::components::{AlbedoFactor, Color, Radius};
-use re_sdk_types::datatypes::Rgba32;
+use rerun::{AlbedoFactor, Color, LineStrips3D, Mesh3D, Points3D, Radius, Rgba32};
 
 use super::super::colour::{GREY, Ramp, WHITE, faded};
 use super::super::mesh::{MeshWindow, triangles};

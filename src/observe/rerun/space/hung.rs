@@ -1,8 +1,7 @@
 //! Body 1's damage map below the stress, to the same scale: one block of the surface, repeated over the length
 //! of the cut (a place 0 of the block, a crest, at x = 0). Colours as in the map: log10 D.
 
-use re_sdk_types::archetypes::{Mesh3D, Points3D};
-use re_sdk_types::components::{Color, Radius};
+use rerun::{Color, Mesh3D, Points3D, Radius};
 
 use super::super::colour::{BACKGROUND, Ramp, Tints, WHITE, packed};
 use super::super::damage::{DECADES, powers};

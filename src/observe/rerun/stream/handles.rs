@@ -1,6 +1,6 @@
 //! Names of what is logged often, given once.
 
-use re_sdk::EntityPath;
+use rerun::EntityPath;
 
 use super::super::gathered::LineStyle;
 use super::super::waiting::{ClassImage, Curves, LevelImage, Sheet};
