@@ -231,7 +231,12 @@ mod recorded {
             recorded.turns.is_empty(),
             "{name}: nothing was turned by hand"
         );
-        assert_eq!(recorded.last_step, steps as u64, "{name}");
+        // Every fourth step is recorded.
+        let last = recorded.last_step as usize;
+        assert!(
+            last + 4 > steps && last <= steps,
+            "{name}: {last} of {steps}"
+        );
         Scene::from_toml(&recorded.scene_toml).unwrap()
     }
 }
