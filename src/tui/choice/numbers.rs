@@ -123,9 +123,9 @@ impl Choice {
     pub(super) fn number_shown(self, scene: &Scene, units: Units) -> String {
         let Some(value) = self.number(scene) else {
             return match self {
-                Self::Radius(_) => "none: a line contact",
-                Self::Viscosity | Self::PressureViscosity => "none: dry",
-                _ => "none: smooth",
+                Self::Radius(_) => "a line contact",
+                Self::Viscosity | Self::PressureViscosity => "dry",
+                _ => "smooth",
             }
             .to_owned();
         };
