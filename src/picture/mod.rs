@@ -13,6 +13,7 @@
 //! rows are moments.
 
 pub mod interferogram;
+pub mod profile;
 pub mod ramp;
 mod scope;
 
