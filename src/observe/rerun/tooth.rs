@@ -48,8 +48,11 @@ struct PathCurve {
 
 impl ToothEntity {
     /// Sets up the picture of a scene that rides along a tooth; `None` of others.
-    pub(super) fn new(stream: &Stream, scene: &Scene) -> Result<Option<Self>, ObserveError> {
-        let Some(tooth) = scene.tooth else {
+    pub(super) fn new(
+        stream: &Stream,
+        scene: Option<&Scene>,
+    ) -> Result<Option<Self>, ObserveError> {
+        let Some((scene, tooth)) = scene.and_then(|scene| Some((scene, scene.tooth?))) else {
             return Ok(None);
         };
         let gears = tooth.gears();

@@ -175,17 +175,8 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
     }
     let mut line = title(theme, "m", app.map.name());
     if app.map == MapKind::Profile {
-        let frame = app.frame();
         let (area, _) = profile::rooms(inside(areas, areas.map));
-        let times = frame
-            .and_then(|frame| {
-                Some(profile::exaggeration(
-                    &profile::of(app, frame)?,
-                    frame,
-                    area,
-                ))
-            })
-            .unwrap_or(1.0);
+        let times = profile::exaggeration(app, area);
         let note = format!("y = 0, heights × {} ", sig(times, 2));
         let note = ascii_text(theme, &note);
         line.push_span(Span::styled(note, theme.style(Role::Dim)));

@@ -119,14 +119,10 @@ impl ViewState {
                 Profile::new(stream, geometry, (scene, first), &scope, below)
             })
             .transpose()?;
-        let tooth = scene
-            .map(|scene| ToothEntity::new(stream, scene))
-            .transpose()?;
+        let tooth = ToothEntity::new(stream, scene)?;
         let steps = expected_steps(scene, first);
         let budget = record.budget_mb * 1e6;
-        let step_s = scene.map_or(0.0, |scene| {
-            scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
-        });
+        let step_s = step_s(scene, first);
         let kymograph =
             |shown| KymographEntity::new(stream, geometry, shown, &ranges, steps, step_s, budget);
         let kymographs = [
@@ -150,7 +146,7 @@ impl ViewState {
             centre_line,
             profile,
             trace,
-            tooth: tooth.flatten(),
+            tooth,
             kymographs,
             damage: Damage::default(),
             damaged: scene
@@ -336,6 +332,13 @@ impl ViewState {
         }
         Ok(())
     }
+}
+
+/// Time of a step by the scene, s.
+fn step_s(scene: Option<&Scene>, first: &Frame) -> f64 {
+    scene.map_or(0.0, |scene| {
+        scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
+    })
 }
 
 /// Steps that the scene asks for.

@@ -29,8 +29,12 @@ pub(super) fn of<'a>(app: &App, frame: &'a Frame) -> Option<SurfaceProfile<'a>> 
     SurfaceProfile::new(frame, scale, x, &app.ranges())
 }
 
-/// How many times larger heights are drawn than lengths.
-pub(super) fn exaggeration(profile: &SurfaceProfile, frame: &Frame, area: Rect) -> f64 {
+/// How many times larger heights are drawn than lengths; 1 where nothing is drawn.
+pub(super) fn exaggeration(app: &App, area: Rect) -> f64 {
+    let frame = app.frame();
+    let Some((profile, frame)) = frame.and_then(|frame| Some((of(app, frame)?, frame))) else {
+        return 1.0;
+    };
     let length_m = (profile.x[1] - profile.x[0]) * frame.a_m / f64::from(area.width.max(1));
     // A cell is twice as high as it is wide.
     let height_m = 2.0 * profile.half_m() / (2.0 * f64::from(area.height.max(1)));
