@@ -6,7 +6,7 @@
 //! ## Floors
 //! Imports go downward only (`tests/house/main.rs` reads them):
 //!
-//! `files < math < physics < scene < plan < solve < sim < picture < observe < run < sweep < study < tui < cli/main`
+//! `files < math < physics < scene < plan < solve < sim < picture < observe < run < sweep < study < tui < web < cli/main`
 //!
 //! * [`files`]: plain files read, whole files written, digests, which program wrote them.
 //! * [`math`]: grids, fixed-order sums, planned FFTs, convolution. No contact words.
@@ -21,6 +21,7 @@
 //! * [`sweep`]: life maps and operating paths over many scenes, cases run beside the explorer.
 //! * [`study`]: error against run time, scaling.
 //! * `tui` (feature `tui`): the live screen. The engine never names it.
+//! * `web` (feature `web`, on wasm32): the same screen in a page.
 //!
 //! How to use and change the program: `guide`.
 
@@ -52,3 +53,5 @@ pub mod study;
 pub mod sweep;
 #[cfg(feature = "tui")]
 pub mod tui;
+#[cfg(all(feature = "web", target_arch = "wasm32"))]
+pub mod web;

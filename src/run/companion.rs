@@ -28,7 +28,8 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::outcome::{End, Outcome};
-use super::session::{Request, RunError, Session};
+use super::request::Request;
+use super::session::{RunError, Session};
 use super::shared::Ending;
 use crate::plan::{Plan, PlanError};
 use crate::scene::{ErrorSource, Order, Scene};

@@ -3,9 +3,9 @@
 
 use std::ops::Deref;
 
-use super::driver::{Driver, Turn, Waiting};
+use super::driver::{Driver, LoopTurn, PausedWait};
 use super::near_end::{NearEnd, wired};
-use super::session::{Request, context_of};
+use super::request::{Request, context_of};
 use crate::observe::Began;
 use crate::sim::{SimError, Simulation};
 
@@ -36,12 +36,12 @@ impl Cooperative {
     }
 
     /// Commands, then one step unless it is paused or has ended.
-    pub fn turn(&mut self) -> Turn {
+    pub fn turn(&mut self) -> LoopTurn {
         if self.has_ended {
-            return Turn::Waited;
+            return LoopTurn::Waited;
         }
-        let turn = self.driver.turn(&mut self.sim, Waiting::Never);
-        if let Turn::Ended(end) = &turn {
+        let turn = self.driver.turn(&mut self.sim, PausedWait::Never);
+        if let LoopTurn::Ended(end) = &turn {
             self.has_ended = true;
             self.driver.tell_failure(end);
         }

@@ -32,7 +32,7 @@ enum LoopState {
 
 /// What one turn of the loop came to.
 #[derive(Debug, Clone)]
-pub enum Turn {
+pub enum LoopTurn {
     /// A step was made and handed out.
     Stepped,
     /// Nothing: it is paused, and no command came.
@@ -43,7 +43,7 @@ pub enum Turn {
 
 /// Whether the loop may wait for a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Waiting {
+pub(super) enum PausedWait {
     /// While paused it does.
     Allowed,
     /// It returns: its thread has other things to do.
@@ -240,21 +240,21 @@ impl Driver {
             return End::Done;
         }
         loop {
-            if let Turn::Ended(end) = self.turn(sim, Waiting::Allowed) {
+            if let LoopTurn::Ended(end) = self.turn(sim, PausedWait::Allowed) {
                 return end;
             }
         }
     }
 
     /// Commands, script, one step, its frame.
-    pub(super) fn turn(&mut self, sim: &mut Simulation, waiting: Waiting) -> Turn {
+    pub(super) fn turn(&mut self, sim: &mut Simulation, waiting: PausedWait) -> LoopTurn {
         self.repeat_turns(sim);
         if let Some(turn) = self.obey(sim, waiting) {
             return turn;
         }
         self.play_script(sim);
         if let Err(error) = (self.make_step)(sim) {
-            return Turn::Ended(End::Stalled(error));
+            return LoopTurn::Ended(End::Stalled(error));
         }
         self.made += 1;
         if self.pace == LoopState::OneStep {
@@ -264,12 +264,12 @@ impl Driver {
         self.hand_out(sim);
         self.tell_status(sim);
         if self.must_end_for_outputs() {
-            return Turn::Ended(End::OutputFailed);
+            return LoopTurn::Ended(End::OutputFailed);
         }
         if self.has_ended(sim) {
-            return Turn::Ended(End::Done);
+            return LoopTurn::Ended(End::Done);
         }
-        Turn::Stepped
+        LoopTurn::Stepped
     }
 
     fn has_ended(&self, sim: &Simulation) -> bool {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use super::Command;
 use super::driver::Driver;
-use super::session::Request;
+use super::request::Request;
 use super::settled::Settled;
 use super::shared::{SharedStatus, Status, lock};
 use crate::observe::Latest;

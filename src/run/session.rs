@@ -1,7 +1,6 @@
 //! A run on a thread of its own.
 
 use std::ops::Deref;
-use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use thiserror::Error;
@@ -12,29 +11,10 @@ use super::driver::{Done, MakeStep};
 use super::near_end::{NearEnd, wired};
 use super::outcome::{AppliedCommand, Outcome};
 use super::replay::HandTurn;
-use super::shared::Ending;
-use super::watcher::Watcher;
-use crate::observe::{Began, RunContext, SetBy};
-use crate::plan::Plan;
+use super::request::{Request, context_of};
+use crate::observe::{Began, SetBy};
 use crate::scene::Scene;
 use crate::sim::{SimError, Simulation, StepError};
-
-/// What to run.
-#[derive(Debug)]
-pub struct Request {
-    /// Preset or file, for the summary.
-    pub name: String,
-    /// The scene.
-    pub scene: Arc<Scene>,
-    /// Its plan.
-    pub plan: Plan,
-    /// Worker threads of the solver.
-    pub threads: usize,
-    /// Outputs.
-    pub watchers: Vec<Watcher>,
-    /// When to end.
-    pub ending: Ending,
-}
 
 /// A session that could not be started or came to grief.
 #[derive(Debug, Clone, Error)]
@@ -58,17 +38,6 @@ struct Start {
     turns: Vec<(u64, Command)>,
     /// What makes a step, where it is not the simulation itself.
     make_step: Option<MakeStep>,
-}
-
-/// What outputs are told before the first frame.
-pub(super) fn context_of(request: &Request, began: Began) -> RunContext {
-    RunContext {
-        scene_toml: request.scene.to_toml(),
-        plan_text: request.plan.to_string(),
-        program: crate::files::PROGRAM.to_owned(),
-        began,
-        scene: Arc::clone(&request.scene),
-    }
 }
 
 /// A running session.

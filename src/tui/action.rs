@@ -4,7 +4,7 @@ mod table;
 
 use crate::scene::Knob;
 use crate::tui::app::PanelKind;
-use crate::tui::event::{Chord, Key, Modifiers};
+use crate::tui::event::{Chord, KeyName, Modifiers};
 
 pub use table::{KEYS, MOUSE};
 
@@ -168,17 +168,17 @@ pub fn lookup(chord: Chord) -> Option<Action> {
 pub fn lookup_typed(chord: Chord) -> Option<Action> {
     let chord = normal(chord);
     match chord.key {
-        Key::Char(letter) if chord.held == Modifiers::NONE => Some(Action::Letter(letter)),
-        Key::Backspace => Some(Action::Erase),
-        Key::Enter => Some(Action::Enter),
-        Key::Esc => Some(Action::Close),
+        KeyName::Char(letter) if chord.held == Modifiers::NONE => Some(Action::Letter(letter)),
+        KeyName::Backspace => Some(Action::Erase),
+        KeyName::Enter => Some(Action::Enter),
+        KeyName::Esc => Some(Action::Close),
         _ => lookup(chord).filter(|action| matches!(action, Action::Quit | Action::Suspend)),
     }
 }
 
 /// Shift is part of a character already; terminals disagree on whether they name it too.
 fn normal(mut chord: Chord) -> Chord {
-    if let Key::Char(letter) = &mut chord.key {
+    if let KeyName::Char(letter) = &mut chord.key {
         chord.held.shift = false;
         if chord.held.control {
             *letter = letter.to_ascii_lowercase();
@@ -191,7 +191,7 @@ fn normal(mut chord: Chord) -> Chord {
 mod tests {
     use super::*;
 
-    fn press(key: Key, held: Modifiers) -> Option<Action> {
+    fn press(key: KeyName, held: Modifiers) -> Option<Action> {
         lookup(Chord::new(key, held))
     }
 
@@ -221,21 +221,21 @@ mod tests {
 
     #[test]
     fn terminals_that_name_shift_with_capitals_are_understood() {
-        let named = press(Key::Char('H'), Modifiers::SHIFT);
+        let named = press(KeyName::Char('H'), Modifiers::SHIFT);
         assert_eq!(named, Some(Action::TurnFar(-1)));
-        let question = press(Key::Char('?'), Modifiers::SHIFT);
+        let question = press(KeyName::Char('?'), Modifiers::SHIFT);
         assert_eq!(question, Some(Action::Help));
-        let control = press(Key::Char('C'), Modifiers::CONTROL);
+        let control = press(KeyName::Char('C'), Modifiers::CONTROL);
         assert_eq!(control, Some(Action::Quit));
     }
 
     #[test]
     fn digits_are_typical_values() {
         assert_eq!(
-            press(Key::Char('3'), Modifiers::NONE),
+            press(KeyName::Char('3'), Modifiers::NONE),
             Some(Action::Typical(2))
         );
-        assert_eq!(press(Key::Char('0'), Modifiers::NONE), None);
-        assert_eq!(press(Key::Char('q'), Modifiers::ALT), None);
+        assert_eq!(press(KeyName::Char('0'), Modifiers::NONE), None);
+        assert_eq!(press(KeyName::Char('q'), Modifiers::ALT), None);
     }
 }

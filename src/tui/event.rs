@@ -2,7 +2,7 @@
 
 /// A key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Key {
+pub enum KeyName {
     /// One that writes a character.
     Char(char),
     /// Up.
@@ -72,14 +72,14 @@ impl Modifiers {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Chord {
     /// Key.
-    pub key: Key,
+    pub key: KeyName,
     /// Held beside it.
     pub held: Modifiers,
 }
 
 impl Chord {
     /// A key with those held beside it.
-    pub const fn new(key: Key, held: Modifiers) -> Self {
+    pub const fn new(key: KeyName, held: Modifiers) -> Self {
         Self { key, held }
     }
 }
@@ -112,7 +112,7 @@ pub struct Pointer {
 
 /// What a person does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Event {
+pub enum ScreenEvent {
     /// Presses a key.
     Key(Chord),
     /// Points.

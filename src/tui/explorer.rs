@@ -1,5 +1,6 @@
 //! What stands between the screen and the run, whoever draws the one and steps the other.
 
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, TryRecvError};
 use std::time::Duration;
@@ -8,7 +9,8 @@ use ratatui::layout::Rect;
 
 use super::action::{lookup, lookup_typed};
 use super::app::{App, Effect, ErrandKind};
-use super::event::Event;
+use super::event::ScreenEvent;
+use super::lessons::Lesson;
 use super::theme::Theme;
 use super::view;
 use super::wiring::{Health, Wiring};
@@ -64,9 +66,16 @@ impl Explorer {
     }
 
     /// Begins the lesson that was asked for.
-    pub fn teach(&mut self) -> Control {
-        let own = self.wiring.lesson.take();
-        let effects = own.map_or_else(Vec::new, |lesson| self.app.teach(lesson));
+    pub fn teach_asked(&mut self) -> Control {
+        match self.wiring.lesson.take() {
+            Some(lesson) => self.teach(lesson),
+            None => Control::Go,
+        }
+    }
+
+    /// Begins a lesson.
+    pub fn teach(&mut self, lesson: Arc<Lesson>) -> Control {
+        let effects = self.app.teach(lesson);
         self.carry_out(effects)
     }
 
@@ -94,12 +103,12 @@ impl Explorer {
     }
 
     /// Takes what a person does on a screen of that size.
-    pub fn take_event(&mut self, event: Event, screen: Rect) -> Control {
+    pub fn take_event(&mut self, event: ScreenEvent, screen: Rect) -> Control {
         let action = match event {
-            Event::Key(chord) if self.app.is_typing() => lookup_typed(chord),
-            Event::Key(chord) => lookup(chord),
-            Event::Pointer(pointer) => view::pointed(&self.app, screen, pointer),
-            Event::Resize => None,
+            ScreenEvent::Key(chord) if self.app.is_typing() => lookup_typed(chord),
+            ScreenEvent::Key(chord) => lookup(chord),
+            ScreenEvent::Pointer(pointer) => view::pointed(&self.app, screen, pointer),
+            ScreenEvent::Resize => None,
         };
         match action {
             Some(action) => {

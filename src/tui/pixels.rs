@@ -28,6 +28,8 @@ pub enum Pixels {
     Sixel,
     /// By kitty's graphics protocol.
     Kitty,
+    /// In the pixels of a page.
+    Page,
 }
 
 impl Pixels {
@@ -62,6 +64,8 @@ impl Pixels {
             Self::Blocks => Self::Sixel,
             Self::Sixel => Self::Kitty,
             Self::Kitty => Self::Blocks,
+            // A page has no other.
+            Self::Page => Self::Page,
         }
     }
 
@@ -71,6 +75,7 @@ impl Pixels {
             Self::Blocks => "half blocks",
             Self::Sixel => "sixels",
             Self::Kitty => "kitty's pixels",
+            Self::Page => "the page's pixels",
         }
     }
 }

@@ -25,7 +25,7 @@ use crossterm::terminal::{
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 
-use crate::tui::event::{Chord, Event, Key, Modifiers, Pointer, PointerAct};
+use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct, ScreenEvent};
 pub use show::explore;
 
 /// The terminal while the explorer has it; dropped, it is as it was.
@@ -203,7 +203,7 @@ impl Drop for Panics {
 /// return, and then it is this thread that hangs, not the screen.
 pub(super) struct Input {
     /// What came.
-    pub(super) events: Receiver<Event>,
+    pub(super) events: Receiver<ScreenEvent>,
     ended: Arc<AtomicBool>,
 }
 
@@ -230,7 +230,7 @@ impl Drop for Input {
 }
 
 /// Ends (and with it the channel) when nobody listens any more or the terminal fails.
-fn forward(sender: &Sender<Event>, ended: &AtomicBool) {
+fn forward(sender: &Sender<ScreenEvent>, ended: &AtomicBool) {
     while !ended.load(Ordering::Relaxed) {
         match event::poll(Duration::from_millis(50)) {
             Ok(false) => {}
@@ -246,11 +246,11 @@ fn forward(sender: &Sender<Event>, ended: &AtomicBool) {
 }
 
 /// The event in the screen's own words; `None`: it has none for it.
-fn understood(event: &event::Event) -> Option<Event> {
+fn understood(event: &event::Event) -> Option<ScreenEvent> {
     match event {
-        event::Event::Key(key) => chord(key).map(Event::Key),
-        event::Event::Mouse(mouse) => pointer(mouse).map(Event::Pointer),
-        event::Event::Resize(..) => Some(Event::Resize),
+        event::Event::Key(key) => chord(key).map(ScreenEvent::Key),
+        event::Event::Mouse(mouse) => pointer(mouse).map(ScreenEvent::Pointer),
+        event::Event::Resize(..) => Some(ScreenEvent::Resize),
         _ => None,
     }
 }
@@ -260,20 +260,20 @@ fn chord(event: &KeyEvent) -> Option<Chord> {
         return None;
     }
     let key = match event.code {
-        KeyCode::Char(letter) => Key::Char(letter),
-        KeyCode::Up => Key::Up,
-        KeyCode::Down => Key::Down,
-        KeyCode::Left => Key::Left,
-        KeyCode::Right => Key::Right,
-        KeyCode::PageUp => Key::PageUp,
-        KeyCode::PageDown => Key::PageDown,
-        KeyCode::Home => Key::Home,
-        KeyCode::Tab => Key::Tab,
-        KeyCode::BackTab => Key::BackTab,
-        KeyCode::Enter => Key::Enter,
-        KeyCode::Esc => Key::Esc,
-        KeyCode::Backspace => Key::Backspace,
-        KeyCode::F(number) => Key::F(number),
+        KeyCode::Char(letter) => KeyName::Char(letter),
+        KeyCode::Up => KeyName::Up,
+        KeyCode::Down => KeyName::Down,
+        KeyCode::Left => KeyName::Left,
+        KeyCode::Right => KeyName::Right,
+        KeyCode::PageUp => KeyName::PageUp,
+        KeyCode::PageDown => KeyName::PageDown,
+        KeyCode::Home => KeyName::Home,
+        KeyCode::Tab => KeyName::Tab,
+        KeyCode::BackTab => KeyName::BackTab,
+        KeyCode::Enter => KeyName::Enter,
+        KeyCode::Esc => KeyName::Esc,
+        KeyCode::Backspace => KeyName::Backspace,
+        KeyCode::F(number) => KeyName::F(number),
         _ => return None,
     };
     let is_held = |modifier| event.modifiers.contains(modifier);
@@ -310,7 +310,7 @@ mod tests {
     #[test]
     fn releases_and_middle_buttons_say_nothing() {
         let mut key = KeyEvent::new(KeyCode::Char('q'), KeyModifiers::ALT);
-        let held = Chord::new(Key::Char('q'), Modifiers::ALT);
+        let held = Chord::new(KeyName::Char('q'), Modifiers::ALT);
         assert_eq!(chord(&key), Some(held));
         key.kind = KeyEventKind::Release;
         assert_eq!(chord(&key), None);

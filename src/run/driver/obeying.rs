@@ -2,7 +2,7 @@
 
 use std::sync::mpsc::TryRecvError;
 
-use super::{Driver, LoopState, Turn, Waiting};
+use super::{Driver, LoopState, LoopTurn, PausedWait};
 use crate::observe::{RunEventKind, SetBy};
 use crate::run::Command;
 use crate::run::outcome::{AppliedCommand, End};
@@ -24,10 +24,10 @@ impl Driver {
 
     /// Takes all commands that wait; while paused, waits for them where it may. Gives what the turn came to when no step
     /// follows.
-    pub(super) fn obey(&mut self, sim: &mut Simulation, waiting: Waiting) -> Option<Turn> {
+    pub(super) fn obey(&mut self, sim: &mut Simulation, waiting: PausedWait) -> Option<LoopTurn> {
         loop {
             let is_paused = self.pace == LoopState::Paused;
-            let command = if is_paused && waiting == Waiting::Allowed {
+            let command = if is_paused && waiting == PausedWait::Allowed {
                 self.inbox.recv().map_err(|_| TryRecvError::Disconnected)
             } else {
                 self.inbox.try_recv()
@@ -35,14 +35,14 @@ impl Driver {
             let command = match command {
                 Ok(command) => command,
                 Err(_) if !is_paused => return None,
-                Err(TryRecvError::Empty) => return Some(Turn::Waited),
+                Err(TryRecvError::Empty) => return Some(LoopTurn::Waited),
                 // All senders gone while paused: nobody can ever go on.
                 Err(TryRecvError::Disconnected) => Command::Stop,
             };
             match command {
                 Command::Stop => {
                     self.log(sim, command, SetBy::Hand);
-                    return Some(Turn::Ended(End::Stopped));
+                    return Some(LoopTurn::Ended(End::Stopped));
                 }
                 Command::Pause => {
                     self.pace = match self.pace {

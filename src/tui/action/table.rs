@@ -1,19 +1,19 @@
 //! The key table itself.
 
 use super::{Action, Group, Row};
-use crate::tui::event::{Chord, Key, Modifiers};
+use crate::tui::event::{Chord, KeyName, Modifiers};
 
-const fn key(key: Key) -> Chord {
+const fn key(key: KeyName) -> Chord {
     Chord::new(key, Modifiers::NONE)
 }
 const fn ch(letter: char) -> Chord {
-    key(Key::Char(letter))
+    key(KeyName::Char(letter))
 }
-const fn shift(key: Key) -> Chord {
+const fn shift(key: KeyName) -> Chord {
     Chord::new(key, Modifiers::SHIFT)
 }
 const fn ctrl(letter: char) -> Chord {
-    Chord::new(Key::Char(letter), Modifiers::CONTROL)
+    Chord::new(KeyName::Char(letter), Modifiers::CONTROL)
 }
 const fn row(
     keys: &'static [(Chord, Action)],
@@ -33,9 +33,9 @@ const fn row(
 pub const KEYS: &[Row] = &[
     row(
         &[
-            (key(Key::Up), Action::ChoosePrevious),
+            (key(KeyName::Up), Action::ChoosePrevious),
             (ch('k'), Action::ChoosePrevious),
-            (key(Key::Down), Action::ChooseNext),
+            (key(KeyName::Down), Action::ChooseNext),
             (ch('j'), Action::ChooseNext),
         ],
         "↑↓ kj",
@@ -44,9 +44,9 @@ pub const KEYS: &[Row] = &[
     ),
     row(
         &[
-            (key(Key::Left), Action::Turn(-1)),
+            (key(KeyName::Left), Action::Turn(-1)),
             (ch('h'), Action::Turn(-1)),
-            (key(Key::Right), Action::Turn(1)),
+            (key(KeyName::Right), Action::Turn(1)),
             (ch('l'), Action::Turn(1)),
         ],
         "←→ hl",
@@ -55,12 +55,12 @@ pub const KEYS: &[Row] = &[
     ),
     row(
         &[
-            (shift(Key::Left), Action::TurnFar(-1)),
+            (shift(KeyName::Left), Action::TurnFar(-1)),
             (ch('H'), Action::TurnFar(-1)),
-            (key(Key::PageDown), Action::TurnFar(-1)),
-            (shift(Key::Right), Action::TurnFar(1)),
+            (key(KeyName::PageDown), Action::TurnFar(-1)),
+            (shift(KeyName::Right), Action::TurnFar(1)),
             (ch('L'), Action::TurnFar(1)),
-            (key(Key::PageUp), Action::TurnFar(1)),
+            (key(KeyName::PageUp), Action::TurnFar(1)),
         ],
         "⇧←→ HL",
         "in big steps",
@@ -91,7 +91,7 @@ pub const KEYS: &[Row] = &[
     row(
         &[
             (ch('x'), Action::Home),
-            (key(Key::Home), Action::Home),
+            (key(KeyName::Home), Action::Home),
             (ch('X'), Action::HomeAll),
         ],
         "x X",
@@ -139,16 +139,16 @@ pub const KEYS: &[Row] = &[
     ),
     row(
         &[
-            (key(Key::Tab), Action::NextPanel(1)),
-            (key(Key::BackTab), Action::NextPanel(4)),
-            (shift(Key::BackTab), Action::NextPanel(4)),
+            (key(KeyName::Tab), Action::NextPanel(1)),
+            (key(KeyName::BackTab), Action::NextPanel(4)),
+            (shift(KeyName::BackTab), Action::NextPanel(4)),
         ],
         "Tab",
         "another panel",
         Group::Show,
     ),
     row(
-        &[(key(Key::Enter), Action::Enter)],
+        &[(key(KeyName::Enter), Action::Enter)],
         "⏎",
         "panel whole; run; start",
         Group::Show,
@@ -252,13 +252,13 @@ pub const KEYS: &[Row] = &[
         Group::Program,
     ),
     row(
-        &[(ch('?'), Action::Help), (key(Key::F(1)), Action::Help)],
+        &[(ch('?'), Action::Help), (key(KeyName::F(1)), Action::Help)],
         "?",
         "these keys",
         Group::Program,
     ),
     row(
-        &[(key(Key::Esc), Action::Close)],
+        &[(key(KeyName::Esc), Action::Close)],
         "Esc",
         "close; back to the present",
         Group::Program,

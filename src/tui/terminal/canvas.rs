@@ -58,7 +58,7 @@ impl Canvas {
         match app.pixels() {
             Pixels::Sixel => out.write_all(&sixel::encode(&picture))?,
             Pixels::Kitty => out.write_all(&kitty::encode(&picture))?,
-            Pixels::Blocks => {}
+            Pixels::Blocks | Pixels::Page => {}
         }
         let letters = area.positions().filter_map(|at| {
             let cell = &screen[at];

@@ -12,7 +12,7 @@ use ratatui::layout::Rect;
 use super::canvas::Canvas;
 use super::{Input, Panics, Screen};
 use crate::run::Command;
-use crate::tui::event::Event;
+use crate::tui::event::ScreenEvent;
 use crate::tui::explorer::{Control, Explorer};
 use crate::tui::pixels::Pixels;
 use crate::tui::theme::{Capabilities, Contrast, Theme};
@@ -51,7 +51,7 @@ pub fn explore(wiring: Wiring) -> Result<(), TuiError> {
             panics: &panics,
             canvas: Canvas::default(),
         };
-        let control = show.explorer.teach();
+        let control = show.explorer.teach_asked();
         let shown = show.follow(control).and_then(|_| show.go_on(&input));
         show.explorer.finish_writing();
         shown
@@ -135,8 +135,8 @@ impl Show<'_> {
         self.canvas.show(app, drawn.buffer)
     }
 
-    fn take_event(&mut self, event: Event) -> io::Result<Control> {
-        if event == Event::Resize {
+    fn take_event(&mut self, event: ScreenEvent) -> io::Result<Control> {
+        if event == ScreenEvent::Resize {
             self.canvas.forget();
         }
         let size = self.stage.terminal.size()?;

@@ -1,0 +1,277 @@
+//! The page's state: the explorer and the run behind it.
+
+use std::cell::RefCell;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::cells::changed;
+use super::link::{Link, NODES, on_nodes, written};
+use super::rows::Rows;
+use crate::math::number::sig;
+use crate::run::{Cooperative, Ending, LoopTurn, NearEnd, Request, Watcher};
+use crate::scene::{Knob, Scene};
+use crate::tui::event::ScreenEvent;
+use crate::tui::pixels::Pixels;
+use crate::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
+use crate::tui::{Control, Explorer, Health, RunStatus, Setup, Shown, Wiring, view};
+
+/// Most pixels of a picture: each is a colour computed anew.
+const MOST_PIXELS: usize = 160_000;
+
+/// A run and its rows.
+struct Run {
+    session: Cooperative,
+    rows: Rows,
+}
+
+/// Files to save: name and text.
+type Files = Rc<RefCell<Vec<(String, String)>>>;
+
+/// The page's state.
+pub(super) struct Page {
+    explorer: Explorer,
+    run: Rc<RefCell<Run>>,
+    files: Files,
+    nodes: usize,
+    shown: Buffer,
+    cell: (u16, u16),
+    last: Duration,
+    has_quit: bool,
+}
+
+impl Page {
+    /// Opens what a link asks for.
+    pub(super) fn open(link: Link) -> Result<Self, String> {
+        let nodes = link.nodes.unwrap_or(NODES);
+        let files = Files::default();
+        let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
+        let run = Rc::new(RefCell::new(run));
+        let mut wiring = wiring(&run.borrow().session, setup, &files);
+        wiring.lesson = link.lesson;
+        let (place, kept) = (Rc::clone(&run), Rc::clone(&files));
+        wiring.rebuild = Some(Box::new(move |scene, name| {
+            let (next, setup) = start(scene, name, nodes, Ending::OnStop)?;
+            let wiring = self::wiring(&next.session, setup, &kept);
+            place.replace(next);
+            Ok(wiring)
+        }));
+        let mut theme = Theme::new(Capabilities {
+            depth: ColorDepth::True,
+            glyphs: Glyphs::Unicode,
+        });
+        theme.contrast = link.contrast;
+        let mut explorer = Explorer::new(wiring, theme);
+        explorer.app.set_pixels(Pixels::Page);
+        // Nothing comes of it that a page would have to do.
+        let _ = explorer.teach_asked();
+        Ok(Self {
+            explorer,
+            run,
+            files,
+            nodes,
+            shown: Buffer::default(),
+            cell: (8, 16),
+            last: Duration::ZERO,
+            has_quit: false,
+        })
+    }
+
+    /// Another size: all cells are drawn anew.
+    pub(super) fn resize(&mut self, columns: u16, rows: u16, cell: (u16, u16)) {
+        self.shown = Buffer::empty(Rect::new(0, 0, columns, rows));
+        self.cell = cell;
+    }
+
+    /// Takes what a person does.
+    pub(super) fn take(&mut self, event: ScreenEvent) {
+        let control = self.explorer.take_event(event, self.shown.area);
+        self.has_quit |= control == Control::Stop;
+    }
+
+    /// One step; whether there was one to make.
+    pub(super) fn step(&mut self) -> bool {
+        matches!(self.run.borrow_mut().session.turn(), LoopTurn::Stepped)
+    }
+
+    /// The news of the run, and the cells that changed; whether it goes on.
+    pub(super) fn draw(&mut self, now_ms: f64) -> (bool, Vec<u8>) {
+        let now = Duration::from_secs_f64((1e-3 * now_ms).clamp(0.0, 1e9));
+        self.explorer.app.tick(now);
+        let wall = now.saturating_sub(self.last);
+        self.last = now;
+        let control = self.explorer.take_news(wall, None);
+        self.has_quit |= control == Control::Stop;
+        let area = self.shown.area;
+        let mut next = Buffer::empty(area);
+        view::render(&self.explorer.app, area, &mut next);
+        let picture = view::picture_area(&self.explorer.app, area).unwrap_or_default();
+        let bytes = changed(&self.shown, &next, picture);
+        self.shown = next;
+        (!self.has_quit, bytes)
+    }
+
+    /// The map's pixels.
+    pub(super) fn picture(&self) -> Vec<u8> {
+        let app = &self.explorer.app;
+        let Some(room) = view::picture_area(app, self.shown.area) else {
+            return Vec::new();
+        };
+        let (mut width, mut height) = self.cell;
+        let cells = usize::from(room.width) * usize::from(room.height);
+        while cells * usize::from(width) * usize::from(height) > MOST_PIXELS && width > 2 {
+            (width, height) = (width / 2, height / 2);
+        }
+        let cell = (width.max(1), height.max(1));
+        let Some(picture) = view::picture(app, self.shown.area, cell) else {
+            return Vec::new();
+        };
+        let area = picture.area;
+        let places = [area.x, area.y, area.width, area.height].map(u32::from);
+        let sizes = [picture.width as u32, picture.height as u32];
+        let head = places.into_iter().chain(sizes);
+        let mut bytes: Vec<u8> = head.flat_map(u32::to_le_bytes).collect();
+        bytes.extend(picture.rgba);
+        bytes
+    }
+
+    /// Life, where the knobs are, and what to know before trusting it, in words.
+    pub(super) fn spoken(&self) -> String {
+        let app = &self.explorer.app;
+        let mut words = String::new();
+        // Writing to a string cannot fail.
+        let _ = match app.life() {
+            Some(life) => write!(
+                words,
+                "Relative life {}, band {} to {}, {}.",
+                sig(life.life_relative, 3),
+                sig(life.life_relative_low, 2),
+                sig(life.life_relative_high, 2),
+                if life.settled {
+                    "settled"
+                } else {
+                    "still moving"
+                }
+            ),
+            None => write!(words, "No simulated life yet."),
+        };
+        let _ = write!(
+            words,
+            " S {}, load {}.",
+            sig(app.target(Knob::SlideRoll), 3),
+            sig(app.load_n(), 3)
+        );
+        let cautions = app.frame().map(|frame| frame.cautions());
+        for caution in cautions.iter().flatten() {
+            let _ = write!(words, " {}.", caution.text);
+        }
+        words
+    }
+
+    /// The link to what is shown now.
+    pub(super) fn link(&self) -> String {
+        written(&self.explorer.app, self.nodes)
+    }
+
+    /// The table of the run's last steps.
+    pub(super) fn table(&self) -> String {
+        self.run.borrow().rows.csv()
+    }
+
+    /// The scene as it now is.
+    pub(super) fn scene(&self) -> String {
+        self.explorer.app.scene_toml()
+    }
+
+    /// A file to save.
+    pub(super) fn saved(&mut self) -> Vec<u8> {
+        let file = self.files.borrow_mut().pop();
+        file.map_or_else(Vec::new, |(name, text)| {
+            format!("{name}\n{text}").into_bytes()
+        })
+    }
+}
+
+/// A run of so many steps without a screen: its table, and a last line with the counters of its work.
+pub(super) fn measured(link: Link, steps: u64) -> Result<String, String> {
+    let nodes = link.nodes.unwrap_or(NODES);
+    let (mut run, _) = start(&link.scene, &link.name, nodes, Ending::Steps(steps))?;
+    loop {
+        match run.session.turn() {
+            LoopTurn::Stepped => {}
+            LoopTurn::Waited | LoopTurn::Ended(_) => break,
+        }
+    }
+    let counters = run.session.sim().stats();
+    let counters = serde_json::to_string(counters).map_err(|e| e.to_string())?;
+    Ok(format!("{}{counters}", run.rows.csv()))
+}
+
+fn start(scene: &Scene, name: &str, nodes: usize, ending: Ending) -> Result<(Run, Setup), String> {
+    let (scene, plan) = on_nodes(scene, nodes)?;
+    let scene = Arc::new(scene);
+    let setup = Setup {
+        scene: Arc::clone(&scene),
+        name: name.to_owned(),
+        load_n: plan.force_n,
+        half_width_m: plan.hertz.a_m,
+        p_hertz_pa: plan.hertz.p_max_pa,
+        plan_text: plan.to_string(),
+        left_out: plan.left_out.clone(),
+    };
+    let rows = Rows::default();
+    let request = Request {
+        name: name.to_owned(),
+        scene,
+        plan,
+        threads: 1,
+        watchers: vec![Watcher::new("table", Box::new(rows.clone()), 1)],
+        ending,
+    };
+    let session = Cooperative::start(request).map_err(|error| error.to_string())?;
+    Ok((Run { session, rows }, setup))
+}
+
+fn wiring(session: &NearEnd, setup: Setup, files: &Files) -> Wiring {
+    let status = session.status_reader();
+    let (saves, writes) = (Rc::clone(files), Rc::clone(files));
+    let name = setup.name.replace('/', "-");
+    let file = format!("{name}.toml");
+    Wiring {
+        setup,
+        frames: session.latest(),
+        commands: session.commands(),
+        status: Box::new(move || RunStatus {
+            health: status().failure.map_or(Health::Running, Health::Failed),
+            recorder: None,
+        }),
+        settled: Box::new(session.settled_reader()),
+        start_sweep: None,
+        interrupt: Arc::new(AtomicBool::new(false)),
+        toggle_recording: None,
+        open_viewer: None,
+        rebuild: None,
+        save_scene: Some(Box::new(move |toml| {
+            saves.borrow_mut().push((file.clone(), toml.to_owned()));
+            Ok(PathBuf::from(&file))
+        })),
+        write_shown: Some(Box::new(move |shown: Shown| {
+            let mut files = writes.borrow_mut();
+            files.push((format!("{name}.toml"), shown.scene_toml));
+            let tables = shown.tables.into_iter();
+            files.extend(tables.map(|(file, text)| (format!("{name}-{file}"), text)));
+            let (answer, heard) = channel();
+            // Who asked has gone away only if the page has.
+            let _ = answer.send(Ok("tables and scene go to the downloads".to_owned()));
+            heard
+        })),
+        lesson: None,
+    }
+}
