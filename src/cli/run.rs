@@ -10,7 +10,7 @@ use asperity::run::{Checkpoint, Command, Companion, End, Ending, Outcome, Reques
 use asperity::scene::Scene;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::{HeadlessArgs, RunArgs};
+use super::args::HeadlessArgs;
 use super::failure::{Failure, tell};
 use super::names::Names;
 use super::outputs::{Outputs, RecorderPace};
