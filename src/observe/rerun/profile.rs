@@ -36,7 +36,7 @@ const PIXELS: [usize; 2] = [80, 36];
 const COLUMNS: usize = 192;
 
 /// The picture of both surfaces.
-pub(super) struct Profile {
+pub(super) struct ProfileEntity {
     geometry: Geometry,
     scale: ProfileScale,
     ranges: Ranges,
@@ -50,7 +50,7 @@ pub(super) struct Profile {
     shown_m_s: Option<[f64; 2]>,
 }
 
-impl Profile {
+impl ProfileEntity {
     /// Sets up the picture above a trace, where there is one.
     pub(super) fn new(
         stream: &Stream,
@@ -304,8 +304,8 @@ mod tests {
 
     #[test]
     fn bodies_say_where_they_go() {
-        assert_eq!(moves(1, 1.5), "body 1: 1.5 m/s →");
-        assert_eq!(moves(2, -0.25), "← body 2: 0.25 m/s");
+        assert_eq!(moves(1, 1.5), "body 1: 1.50 m/s →");
+        assert_eq!(moves(2, -0.25), "← body 2: 0.250 m/s");
         assert_eq!(moves(2, 0.0), "body 2 stands");
     }
 }
