@@ -255,7 +255,7 @@ fn life(views: &mut Views) -> ContainerLike {
     let left = Vertical::new([
         life_series(views),
         views.named(
-            "Factors, log10",
+            "log10",
             &["life/log10_factors", "life/log10_factors/load"],
             &["cycles", "peaks", "traction", "load"],
         ),
