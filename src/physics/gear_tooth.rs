@@ -17,28 +17,28 @@ const POINTS: u32 = 14;
 /// Depth of a tooth in modules.
 const DEPTH: f64 = 2.25;
 
-type Place = [f64; 2];
+type GearPoint = [f64; 2];
 
 impl GearTeeth {
     /// Direction in which the contact goes.
-    fn along(&self) -> Place {
+    fn along(&self) -> GearPoint {
         let angle = self.working_angle_rad();
         [angle.cos(), angle.sin()]
     }
 
     /// The contact at `place_m` from T1, from the pitch point, m.
-    pub fn contact(&self, line: &LineOfAction, place_m: f64) -> Place {
+    pub fn contact(&self, line: &LineOfAction, place_m: f64) -> GearPoint {
         self.along().map(|part| (place_m - line.c) * part)
     }
 
     /// Centre of gear 0 (pinion) or 1 (wheel), m.
-    fn centre(&self, gear: usize) -> Place {
+    fn centre(&self, gear: usize) -> GearPoint {
         let pitch_m = self.base_radii_m()[gear] / self.working_angle_rad().cos();
         [0.0, if gear == 0 { -pitch_m } else { pitch_m }]
     }
 
     /// A point of the flank in contact with that radius of curvature, m.
-    fn flank(&self, line: &LineOfAction, gear: usize, rho_m: f64, place_m: f64) -> Place {
+    fn flank(&self, line: &LineOfAction, gear: usize, rho_m: f64, place_m: f64) -> GearPoint {
         let base_m = self.base_radii_m()[gear];
         // Where it is when it is in contact, and how far its gear has still to turn from there.
         let (met_m, turns) = if gear == 0 {
@@ -57,13 +57,13 @@ impl GearTeeth {
         gear: usize,
         place_m: f64,
         beside: i32,
-    ) -> Vec<Place> {
+    ) -> Vec<GearPoint> {
         let (centre, base_m) = (self.centre(gear), self.base_radii_m()[gear]);
         let tip_m = 0.5 * self.tip_diameters_m[gear];
         let root_m = (tip_m - DEPTH * self.module_m).max(0.2 * tip_m);
         let rho_of = |radius_m: f64| (radius_m * radius_m - base_m * base_m).max(0.0).sqrt();
         let (first, last) = (rho_of(root_m), rho_of(tip_m));
-        let one: Vec<Place> = (0..POINTS)
+        let one: Vec<GearPoint> = (0..POINTS)
             .map(|k| first + (last - first) * f64::from(k) / f64::from(POINTS - 1))
             .map(|rho_m| self.flank(line, gear, rho_m, place_m))
             .collect();
@@ -73,13 +73,13 @@ impl GearTeeth {
         let up = if gear == 0 { 1.0 } else { -1.0 };
         let turn = -up * (place_m - line.c) / base_m;
         let axis = turned([0.0, up], [0.0; 2], quarter + turn);
-        let mirrored = |at: &Place| mirror(*at, centre, axis);
-        let foot = |at: &Place| {
+        let mirrored = |at: &GearPoint| mirror(*at, centre, axis);
+        let foot = |at: &GearPoint| {
             let [x, y] = [at[0] - centre[0], at[1] - centre[1]];
             let share = (root_m / x.hypot(y)).min(1.0);
             [centre[0] + share * x, centre[1] + share * y]
         };
-        let mut tooth: Vec<Place> = one.first().map(foot).into_iter().collect();
+        let mut tooth: Vec<GearPoint> = one.first().map(foot).into_iter().collect();
         tooth.extend(&one);
         tooth.extend(one.iter().rev().map(mirrored));
         tooth.extend(one.first().map(|at| foot(&mirrored(at))));
@@ -99,14 +99,14 @@ impl GearTeeth {
 }
 
 /// Turned about a centre, counter-clockwise.
-fn turned(at: Place, centre: Place, angle: f64) -> Place {
+fn turned(at: GearPoint, centre: GearPoint, angle: f64) -> GearPoint {
     let [x, y] = [at[0] - centre[0], at[1] - centre[1]];
     let (sin, cos) = angle.sin_cos();
     [centre[0] + cos * x - sin * y, centre[1] + sin * x + cos * y]
 }
 
 /// Mirrored in the line through a centre along a unit vector.
-fn mirror(at: Place, centre: Place, axis: Place) -> Place {
+fn mirror(at: GearPoint, centre: GearPoint, axis: GearPoint) -> GearPoint {
     let [x, y] = [at[0] - centre[0], at[1] - centre[1]];
     let along = 2.0 * (x * axis[0] + y * axis[1]);
     [
@@ -132,7 +132,7 @@ mod tests {
         (gear, gear.line_of_action().unwrap())
     }
 
-    fn distance(a: Place, b: Place) -> f64 {
+    fn distance(a: GearPoint, b: GearPoint) -> f64 {
         (a[0] - b[0]).hypot(a[1] - b[1])
     }
 
@@ -189,7 +189,7 @@ mod tests {
                 let outline = gear.outline(&line, body, s, 0);
                 let n = outline.len();
                 let centre = gear.centre(body);
-                let angle = |at: Place| (at[1] - centre[1]).atan2(at[0] - centre[0]);
+                let angle = |at: GearPoint| (at[1] - centre[1]).atan2(at[0] - centre[0]);
                 // At equal radii, flank and back, all within the tip circle.
                 for i in 0..n / 2 {
                     let [one, two] = [outline[i], outline[n - 1 - i]];

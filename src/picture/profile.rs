@@ -176,7 +176,8 @@ impl<'a> SurfaceProfile<'a> {
 
     /// Height of the middle of a row of so many, m.
     fn height_m(&self, row: usize, rows: usize) -> f64 {
-        self.scale.half_m * (1.0 - (2.0 * row as f64 + 1.0) / rows as f64)
+        let pixel_m = 2.0 * self.scale.half_m / rows as f64;
+        self.scale.half_m - (row as f64 + 0.5) * pixel_m
     }
 
     /// Effective stress in a column at a row of so many, Pa; in the gap that of the nearer surface.

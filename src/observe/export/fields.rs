@@ -1,25 +1,10 @@
 //! The arrays of a step, for every format that holds arrays: named as the frame's fields, units in the names, SI.
 
-use std::borrow::Cow;
 use std::io::{Result, Write};
 
-use super::netcdf::NetCdf;
+use super::netcdf::{ArrayValues, FieldArray, NetCdf};
 use super::npz::Npz;
 use crate::sim::{CATALOGUE, Frame};
-
-/// Numbers of an array.
-pub(super) enum ArrayValues<'a> {
-    F32(&'a [f32]),
-    F64(Cow<'a, [f64]>),
-    U8(&'a [u8]),
-}
-
-/// An array: its name, its axes from the slowest to the fastest, and its numbers.
-pub(super) struct FieldArray<'a> {
-    pub(super) name: &'static str,
-    pub(super) axes: &'static [&'static str],
-    pub(super) values: ArrayValues<'a>,
-}
 
 /// All arrays of a frame: every scalar that is known, the nodes, the fields, the slice.
 fn arrays(frame: &Frame) -> Vec<FieldArray<'_>> {

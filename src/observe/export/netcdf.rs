@@ -8,9 +8,8 @@
 //! specifications. The crate `netcdf3` was read in its place: it calls itself experimental, and the 90 lines below are all
 //! that fields need.
 
+use std::borrow::Cow;
 use std::io::{Error, ErrorKind, Result};
-
-use super::fields::{ArrayValues, FieldArray};
 
 const DIMENSIONS: u32 = 0x0a;
 const VARIABLES: u32 = 0x0b;
@@ -20,6 +19,20 @@ const CHAR: u32 = 2;
 const FLOAT: u32 = 5;
 const DOUBLE: u32 = 6;
 const FILL: u8 = 0x81;
+
+/// Numbers of an array.
+pub(super) enum ArrayValues<'a> {
+    F32(&'a [f32]),
+    F64(Cow<'a, [f64]>),
+    U8(&'a [u8]),
+}
+
+/// An array: its name, its axes from the slowest to the fastest, and its numbers.
+pub(super) struct FieldArray<'a> {
+    pub(super) name: &'static str,
+    pub(super) axes: &'static [&'static str],
+    pub(super) values: ArrayValues<'a>,
+}
 
 /// A file in the making.
 #[derive(Debug, Default)]
@@ -59,8 +72,8 @@ impl NetCdf {
             None => head.extend([0; 8]),
         }
         let (kind, count, mut values): (u32, usize, Vec<u8>) = match &array.values {
-            ArrayValues::F32(all) => (FLOAT, all.len(), big_endian(all, |v| v.to_be_bytes())),
-            ArrayValues::F64(all) => (DOUBLE, all.len(), big_endian(all, |v| v.to_be_bytes())),
+            ArrayValues::F32(all) => (FLOAT, all.len(), big_endian(all, f32::to_be_bytes)),
+            ArrayValues::F64(all) => (DOUBLE, all.len(), big_endian(all, f64::to_be_bytes)),
             ArrayValues::U8(all) => (BYTE, all.len(), all.to_vec()),
         };
         if count != expected {

@@ -150,7 +150,7 @@ mod tests {
     #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::picture::CONTACT;
-    use crate::sim::MaterialPoint;
+    use crate::sim::{MaterialPoint, Metrics};
 
     #[test]
     fn gap_contact_and_point_are_where_they_belong() {
@@ -170,6 +170,10 @@ mod tests {
             roughness_2_m: row([0.0; 5]),
             pressure_pa: row([0.0, 1e9, 1e9, 1e9, 0.0]),
             contact: [0, 0, 1, 0, 0].repeat(3),
+            metrics: Metrics {
+                h_mean_m: 4e-7,
+                ..Metrics::default()
+            },
             material_point: Some(MaterialPoint {
                 body: 2,
                 x_m: 1e-3,

@@ -133,7 +133,7 @@ fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     lower.push(views.plot(centre, &[CENTRE_LINE], &shown.centre_line, Margin::Ticks));
     lower_shares.push(1.0);
     let last = if shown.life {
-        life_series(views)
+        life_series(views, "Life, log10 (grey: band)")
     } else {
         pressure_series(views)
     };
@@ -168,12 +168,9 @@ pub(in super::super) fn stress(
     Some(views.plot(&title, &contents, shown.slice.as_ref()?, Margin::Legend))
 }
 
-fn life_series(views: &mut Views) -> ContainerLike {
+fn life_series(views: &mut Views, title: &str) -> ContainerLike {
     // The title says it.
-    views.single(
-        "Life, log10 (grey: band, green: what the mesh costs)",
-        "life/log10_relative",
-    )
+    views.single(title, "life/log10_relative")
 }
 
 fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
@@ -253,9 +250,12 @@ fn point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
 
 fn life(views: &mut Views) -> ContainerLike {
     let left = Vertical::new([
-        life_series(views),
+        life_series(
+            views,
+            "Life, log10 (grey: band, green: what the mesh costs)",
+        ),
         views.named(
-            "Factors, log10",
+            "log10",
             &["life/log10_factors", "life/log10_factors/load"],
             &["cycles", "peaks", "traction", "load"],
         ),

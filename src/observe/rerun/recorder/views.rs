@@ -9,7 +9,7 @@ use super::super::layout::{self, ShownViews};
 use super::super::maps::{self, Maps};
 use super::super::over_log::OverLog;
 use super::super::picture::Beyond;
-use super::super::profile::Profile;
+use super::super::profile::ProfileEntity;
 use super::super::raster::RasterEntity;
 use super::super::scalars;
 use super::super::series::Series;
@@ -43,7 +43,7 @@ pub(in super::super) struct ViewState {
     over_log: Option<OverLog>,
     space: Option<Space>,
     centre_line: CentreLine,
-    profile: Option<Profile>,
+    profile: Option<ProfileEntity>,
     trace: Option<TraceEntity>,
     tooth: Option<ToothEntity>,
     pub(in super::super) kymographs: [KymographEntity; 2],
@@ -116,7 +116,7 @@ impl ViewState {
         let profile = scene
             .map(|scene| {
                 let below = trace.as_ref().map(TraceEntity::plot);
-                Profile::new(stream, geometry, (scene, first), &scope, below)
+                ProfileEntity::new(stream, geometry, (scene, first), &scope, below)
             })
             .transpose()?;
         let tooth = ToothEntity::new(stream, scene)?;
@@ -222,7 +222,7 @@ impl ViewState {
             slice: self.slice.as_ref().map(|slice| slice.plot().clone()),
             over_log: self.over_log.as_ref().map(|slice| slice.plot().clone()),
             trace: self.trace.as_ref().map(|trace| trace.plot().clone()),
-            profile: self.profile.as_ref().map(Profile::bounds),
+            profile: self.profile.as_ref().map(ProfileEntity::bounds),
             tooth: self.tooth.as_ref().map(ToothEntity::plots),
             kymograph: self.kymographs[0].plot().clone(),
             camera: self.space.as_ref().map(Space::camera),
