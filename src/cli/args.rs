@@ -6,11 +6,12 @@ mod sweep_texts;
 
 use std::path::PathBuf;
 
+use asperity::observe::Format;
 use asperity::scene::{Knob, presets};
 use asperity::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
-pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs, ExportAs};
+pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs};
 
 pub(crate) use self::study::{StudyArgs, StudyKind};
 use self::sweep_texts::{SWEEP_ABOUT, SWEEP_EXAMPLES};
@@ -242,7 +243,7 @@ pub(crate) struct RunArgs {
         default_value = "npz",
         requires = "export"
     )]
-    pub(crate) export_as: Vec<ExportAs>,
+    pub(crate) export_as: Vec<Format>,
     /// Export every N-th step
     #[arg(long, value_name = "N", default_value_t = 16, requires = "export",
         value_parser = clap::value_parser!(u64).range(1..))]
@@ -344,7 +345,7 @@ impl RunArgs {
             out: None,
             table: None,
             export: None,
-            export_as: vec![ExportAs::Npz],
+            export_as: vec![Format::Npz],
             export_every: 16,
             summary: None,
             threads: None,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::math::number::{GPA, counted, sig};
 use asperity::observe::Overwrite;
-use asperity::observe::rerun::{self, ComparedBy, RecordedFrames, RunBeside};
+use asperity::observe::rerun::{ComparedBy, RecordedFrames, RunBeside, compare as side_by_side};
 
 use super::args::{BesideValues, CompareArgs, CompareBy, HeadlessArgs};
 use super::failure::Failure;
@@ -100,7 +100,7 @@ fn put_together(
         CompareBy::Time => ComparedBy::Time,
         CompareBy::Place => ComparedBy::Place,
     };
-    let beside = rerun::compare(&runs, out, Overwrite::from_force(force), by)?;
+    let beside = side_by_side(&runs, out, Overwrite::from_force(force), by)?;
     let text = format!(
         "{}: {} side by side at {}, pictures at most {} of a step apart; pressures differ by {} GPa at most\n",
         out.display(),

@@ -13,7 +13,6 @@ use asperity::{
 };
 
 use super::args::ExportArgs;
-use super::args::ExportAs;
 use super::failure::Failure;
 
 /// Writes what was asked for.
@@ -67,18 +66,13 @@ fn pictures(
     folder: &Path,
     context: &RunContext,
 ) -> Result<u64, Failure> {
-    let formats: Vec<Format> = args
-        .formats
-        .iter()
-        .filter_map(|format| format.of_steps())
-        .collect();
     let print = PrintSize {
         width_mm: args.width_mm,
         dpi: args.dpi,
         font_pt: args.font_pt,
     };
     let overwrite = Overwrite::from_force(args.force);
-    let mut export = Export::create(folder, overwrite, &formats)?.of(&args.show, print);
+    let mut export = Export::create(folder, overwrite, &args.formats)?.of(&args.show, print);
     export.begin(context)?;
     let (whole, shown) = (frames.whole(), frames.shown());
     let mut next = 0;
@@ -102,7 +96,7 @@ fn table(
     folder: &Path,
     context: &RunContext,
 ) -> Result<u64, Failure> {
-    if !args.formats.contains(&ExportAs::Csv) {
+    if !args.formats.contains(&Format::Csv) {
         return Ok(0);
     }
     let overwrite = Overwrite::from_force(args.force);

@@ -89,15 +89,13 @@ impl Outputs {
                 .push(Watcher::new(name, Box::new(table), 1));
         }
         if let Some(folder) = &args.export {
-            let formats = args.export_as.iter().filter_map(|format| format.of_steps());
-            let formats: Vec<Format> = formats.collect();
-            if formats.len() < args.export_as.len() {
+            if args.export_as.contains(&Format::Csv) {
                 return Err(Failure::input(miette::miette!(
                     help = "--table FILE.csv writes every scalar of every step",
                     "--export-as csv: a run has its own table"
                 )));
             }
-            let export = Export::create(folder, overwrite, &formats)?;
+            let export = Export::create(folder, overwrite, &args.export_as)?;
             let name = folder.display().to_string();
             let queue = Queue::spawn("export", FILES_WAITING, pace.when_full(), Box::new(export))?;
             let every = args.export_every;

@@ -45,7 +45,7 @@ pub(crate) struct ExportArgs {
         value_delimiter = ',',
         default_value = "gif"
     )]
-    pub(crate) formats: Vec<ExportAs>,
+    pub(crate) formats: Vec<Format>,
     /// Folder to write to [default: ./NAME_export]
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
@@ -75,43 +75,6 @@ fn within<const LEAST: u32, const MOST: u32>(text: &str) -> Result<f64, String> 
     let fits = (f64::from(LEAST)..=f64::from(MOST)).contains(&value);
     fits.then_some(value)
         .ok_or_else(|| format!("allowed: {LEAST} to {MOST}"))
-}
-
-/// What is exported of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum ExportAs {
-    /// Fields as numpy archives
-    Npz,
-    /// All fields as NetCDF
-    Nc,
-    /// Maps and centre line as pictures
-    Png,
-    /// The same as papers print them: sized in mm, axes and text as vectors, no title
-    Svg,
-    /// The same as PDF
-    Pdf,
-    /// All steps one after another
-    Gif,
-    /// The same as animated PNG, in all colours
-    Apng,
-    /// Every scalar of every step (of a recording; a run has --table)
-    Csv,
-}
-
-impl ExportAs {
-    /// What a step is written as; `None`: steps share a table.
-    pub(crate) fn of_steps(self) -> Option<Format> {
-        match self {
-            Self::Npz => Some(Format::Npz),
-            Self::Nc => Some(Format::NetCdf),
-            Self::Png => Some(Format::Png),
-            Self::Svg => Some(Format::Svg),
-            Self::Pdf => Some(Format::Pdf),
-            Self::Gif => Some(Format::Gif),
-            Self::Apng => Some(Format::Apng),
-            Self::Csv => None,
-        }
-    }
 }
 
 /// The values of a key that `--beside` names.

@@ -29,23 +29,26 @@ use super::{
 };
 use crate::sim::{Frame, Stage};
 
-/// What is written of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What is written of a step; the words are the command line's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Format {
-    /// All fields as a numpy archive.
+    /// Fields as numpy archives
     Npz,
-    /// All fields as NetCDF.
+    /// All fields as NetCDF
+    #[value(name = "nc")]
     NetCdf,
-    /// Maps and centre line as pictures.
+    /// Maps and centre line as pictures
     Png,
-    /// The same as papers print them, axes and text as vectors.
+    /// The same as papers print them: sized in mm, axes and text as vectors, no title
     Svg,
-    /// The same as PDF.
+    /// The same as PDF
     Pdf,
-    /// All steps one after another.
+    /// All steps one after another
     Gif,
-    /// The same in all colours, as animated PNG.
+    /// The same as animated PNG, in all colours
     Apng,
+    /// Every scalar of every step (of a recording; a run has --table)
+    Csv,
 }
 
 impl Format {
@@ -58,6 +61,7 @@ impl Format {
             Self::Pdf => "pdf",
             Self::Gif => "gif",
             Self::Apng => "apng",
+            Self::Csv => "csv",
         }
     }
 
@@ -168,7 +172,7 @@ impl Export {
             self.bytes += match format {
                 Format::Npz | Format::NetCdf => self.write(frame, format)?,
                 Format::Png | Format::Svg | Format::Pdf => self.draw(frame, format)?,
-                Format::Gif | Format::Apng => 0,
+                Format::Gif | Format::Apng | Format::Csv => 0,
             };
         }
         if self.formats.iter().any(|format| format.moves()) {
