@@ -22,59 +22,19 @@ mod common;
 
 use std::process::{ExitCode, Termination as _};
 
-use asperity::plan::Plan;
-use asperity::run::{Request, RunError, Session, Stepper};
-use asperity::scene::Scene;
-use asperity::sim::{Frame, Knob, Metrics, SimError, Simulation, Stage, StepError, Summary};
+use asperity::run::{Request, RunError, Session};
+use asperity::sim::Simulation;
 
 /// Steps of the passage that go well.
 const GOOD: u64 = 39;
 
-struct Breaking(Simulation);
-
-impl Breaking {
-    fn new(scene: &Scene, plan: Plan, threads: usize) -> Result<Self, SimError> {
-        Simulation::new(scene, plan, threads).map(Self)
-    }
-}
-
-impl Stepper for Breaking {
-    fn step(&mut self) -> Result<(), StepError> {
-        assert!(self.0.passage_steps() < GOOD, "a fault put in on purpose");
-        self.0.step()
-    }
-    fn set(&mut self, knob: Knob, value: f64) -> Result<(), SimError> {
-        self.0.set(knob, value)
-    }
-    fn fill(&self, frame: &mut Frame) {
-        self.0.fill(frame);
-    }
-    fn metrics(&self) -> &Metrics {
-        self.0.metrics()
-    }
-    fn stage(&self) -> Stage {
-        self.0.stage()
-    }
-    fn progress(&self) -> f64 {
-        self.0.progress()
-    }
-    fn passage_steps(&self) -> u64 {
-        self.0.passage_steps()
-    }
-    fn time_s(&self) -> f64 {
-        self.0.time_s()
-    }
-    fn is_done(&self) -> bool {
-        self.0.is_done()
-    }
-    fn summary(&self) -> Summary {
-        self.0.summary()
-    }
-}
-
 fn breaking(request: Request) -> Result<Session, RunError> {
     let (plan, threads) = (request.plan.clone(), request.threads);
-    Session::start_with(request, move |scene| Breaking::new(scene, plan, threads))
+    let make = move |scene: &_| Simulation::new(scene, plan, threads);
+    Session::start_with(request, make, |sim| {
+        assert!(sim.passage_steps() < GOOD, "a fault put in on purpose");
+        sim.step()
+    })
 }
 
 fn main() -> ExitCode {

@@ -1,15 +1,22 @@
-//! A warm step allocates nothing: everything is made by `Simulation::new`.
+//! What the allocator is asked for: nothing in a warm step, since everything is made by `Simulation::new`; and a session that
+//! has ended holds nothing.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::alloc::System;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use asperity::plan::Plan;
+use asperity::run::{Command, Ending, Request, Session};
 use asperity::scene::{Override, Scene};
 use asperity::sim::{Frame, Knob, Simulation};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// The counter counts the whole process: one test at a time.
+static ALONE: Mutex<()> = Mutex::new(());
 
 /// A simulation in its passage, all stages on, both bodies' damage maps begun: 120 steps take a point of the slower
 /// one from inlet to outlet.
@@ -47,9 +54,9 @@ fn calls(
     })
 }
 
-/// One test, because the counter counts the whole process.
 #[test]
 fn a_warm_step_allocates_nothing() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     // The counter counts.
     let region = Region::new(ALLOCATOR);
     let planted = std::hint::black_box(vec![1_u8; 100]);
@@ -90,4 +97,53 @@ fn a_warm_step_allocates_nothing() {
     let n = calls(&mut again, steps, |_, _| {});
     println!("restored: {n} calls");
     assert_eq!(n, 0);
+}
+
+/// Bytes that are held now.
+fn held() -> usize {
+    let stats = ALLOCATOR.stats();
+    stats
+        .bytes_allocated
+        .saturating_sub(stats.bytes_deallocated)
+}
+
+/// Sessions as the explorer has them, one after the other: bytes that are held after each.
+#[test]
+fn a_session_that_has_ended_holds_nothing() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let sets = [
+        "grid.nodes=33",
+        "stress.depths=8",
+        "record=none",
+        "body_1.surface.kind=smooth",
+        "body_2.surface.kind=smooth",
+    ];
+    let sets: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
+    let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
+    let mut after = Vec::new();
+    for _ in 0..12 {
+        let session = Session::start(Request {
+            name: String::new(),
+            scene: scene.clone().into(),
+            plan: Plan::new(&scene).unwrap(),
+            threads: 2,
+            watchers: Vec::new(),
+            ending: Ending::OnStop,
+        })
+        .unwrap();
+        while session.status().steps < 3 {
+            assert!(!session.is_finished());
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        session.send(Command::Stop);
+        let outcome = session.join().unwrap();
+        assert!(outcome.checkpoint.is_some());
+        drop(outcome);
+        // Threads of its pool end by themselves.
+        std::thread::sleep(Duration::from_millis(20));
+        after.push(held());
+    }
+    println!("bytes held: {after:?}");
+    let (warm, last) = (after[2] as f64, after[11] as f64);
+    assert!(last <= 1.03 * warm, "{warm} {last}");
 }

@@ -133,8 +133,8 @@ Examples:
   asperity export passage.rrd --as csv                     every scalar of every step
 
 Pictures: pressure, film, interferogram, traction, roughness_1, roughness_2, effective_stress, tau_xz, centre_line,
-damage_1, damage_2. Numbers are in SI; fields have the half precision (0.05 %) of the recording, scalars all their
-digits. For Python: assets/asperity.py reads a recording into numpy.")]
+profile, damage_1, damage_2. Numbers are in SI; fields have the half precision (0.05 %) of the recording, scalars all
+their digits. For Python: assets/asperity.py reads a recording into numpy.")]
     Export(ExportArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
@@ -319,6 +319,7 @@ impl HeadlessArgs {
     }
 
     /// The same run with a key set, recorded to that file.
+    #[cfg(feature = "rerun")]
     pub(crate) fn with(&self, key: &str, value: &str, out: &std::path::Path) -> Self {
         let mut run = self.run.clone();
         run.scene.settings.push(format!("{key}={value}"));

@@ -3,7 +3,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{BesideValues, CompareArgs, HeadlessArgs};
+use asperity::math::number::{GPA, counted, sig};
+use asperity::observe::Overwrite;
+use asperity::observe::rerun::{self, ComparedBy, RecordedFrames, RunBeside};
+
+use super::args::{BesideValues, CompareArgs, CompareBy, HeadlessArgs};
 use super::failure::Failure;
 
 /// Runs a scene once for each value and puts the recordings side by side.
@@ -16,7 +20,7 @@ pub(crate) fn run(
     let stem = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
     let usual = || PathBuf::from(format!("{stem}_beside.rrd"));
     let out = args.run.out.clone().unwrap_or_else(usual);
-    asperity::observe::Overwrite::from_force(args.run.force).check(&out)?;
+    Overwrite::from_force(args.run.force).check(&out)?;
     let parts = parts_of(&out, beside.values.len());
     let mut code = 0;
     let mut outcome = Ok(());
@@ -77,17 +81,12 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<u8, Failure> {
     Ok(0)
 }
 
-#[cfg(feature = "rerun")]
 fn put_together(
     named: &[(String, PathBuf)],
     out: &Path,
     force: bool,
-    by: super::args::CompareBy,
+    by: CompareBy,
 ) -> Result<(), Failure> {
-    use asperity::math::number::{GPA, counted, sig};
-    use asperity::observe::Overwrite;
-    use asperity::observe::rerun::{ComparedBy, RecordedFrames, RunBeside, compare};
-
     let mut runs = Vec::with_capacity(named.len());
     for (name, path) in named {
         let frames = RecordedFrames::read(path)
@@ -98,10 +97,10 @@ fn put_together(
         });
     }
     let by = match by {
-        super::args::CompareBy::Time => ComparedBy::Time,
-        super::args::CompareBy::Place => ComparedBy::Place,
+        CompareBy::Time => ComparedBy::Time,
+        CompareBy::Place => ComparedBy::Place,
     };
-    let beside = compare(&runs, out, Overwrite::from_force(force), by)?;
+    let beside = rerun::compare(&runs, out, Overwrite::from_force(force), by)?;
     let text = format!(
         "{}: {} side by side at {}, pictures at most {} of a step apart; pressures differ by {} GPa at most\n",
         out.display(),
@@ -112,17 +111,4 @@ fn put_together(
     );
     super::scenes::print(&text)?;
     Ok(())
-}
-
-#[cfg(not(feature = "rerun"))]
-fn put_together(
-    _named: &[(String, PathBuf)],
-    _out: &Path,
-    _force: bool,
-    _by: super::args::CompareBy,
-) -> Result<(), Failure> {
-    Err(Failure::input(miette::miette!(
-        help = "use a build with the default features",
-        "this program was built without the feature rerun, so it reads no recordings"
-    )))
 }

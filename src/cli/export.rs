@@ -1,13 +1,11 @@
 //! `asperity export`: pictures, animations and numbers out of a recording.
 
-#[cfg(feature = "rerun")]
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
     time::Instant,
 };
 
-#[cfg(feature = "rerun")]
 use asperity::{
     math::number::{bytes, counted, seconds},
     observe::rerun::RecordedFrames,
@@ -15,12 +13,10 @@ use asperity::{
 };
 
 use super::args::ExportArgs;
-#[cfg(feature = "rerun")]
 use super::args::ExportAs;
 use super::failure::Failure;
 
 /// Writes what was asked for.
-#[cfg(feature = "rerun")]
 pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
     refuse_unknown_pictures(&args.show)?;
     let started = Instant::now();
@@ -53,7 +49,6 @@ pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
     Ok(0)
 }
 
-#[cfg(feature = "rerun")]
 fn refuse_unknown_pictures(asked: &[String]) -> Result<(), Failure> {
     let names = asperity::observe::picture_names();
     match asked.iter().find(|name| !names.contains(&name.as_str())) {
@@ -66,7 +61,6 @@ fn refuse_unknown_pictures(asked: &[String]) -> Result<(), Failure> {
 }
 
 /// Writes the pictures, animations and fields; bytes.
-#[cfg(feature = "rerun")]
 fn pictures(
     args: &ExportArgs,
     frames: &RecordedFrames,
@@ -102,7 +96,6 @@ fn pictures(
 }
 
 /// Writes the scalars of every step where a table is asked for; bytes.
-#[cfg(feature = "rerun")]
 fn table(
     args: &ExportArgs,
     frames: &RecordedFrames,
@@ -119,13 +112,4 @@ fn table(
         table.frame(&Arc::new(frame))?;
     }
     Ok(table.finish()?.bytes)
-}
-
-/// Without the recorder nothing can be read.
-#[cfg(not(feature = "rerun"))]
-pub(crate) fn export(_args: &ExportArgs) -> Result<u8, Failure> {
-    Err(Failure::input(miette::miette!(
-        help = "use a build with the default features",
-        "this program was built without the feature rerun, so it reads no recordings"
-    )))
 }

@@ -24,6 +24,15 @@ impl Failure {
         Self::new(1, &report.into())
     }
 
+    /// What a build without the recorder does not do.
+    #[cfg(not(feature = "rerun"))]
+    pub(crate) fn without_recorder(what: &str) -> Self {
+        Self::input(miette::miette!(
+            help = "use a build with the default features",
+            "this program was built without the feature rerun, so it {what}"
+        ))
+    }
+
     /// A run that broke off: exit code 3.
     pub(crate) fn stalled(report: impl Into<Report>) -> Self {
         Self::new(3, &report.into())

@@ -2,9 +2,11 @@
 //! converge; 3 it stalled; 4 an output failed; 5 it was stopped before its end.
 
 mod args;
+#[cfg(feature = "rerun")]
 mod beside;
 #[cfg(feature = "tui")]
 mod explore;
+#[cfg(feature = "rerun")]
 mod export;
 mod failure;
 mod live;
@@ -59,8 +61,14 @@ fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> 
         Some(CliCommand::Scenes { name }) => scenes::scenes(name.as_deref()),
         Some(CliCommand::Study(args)) => study::study(&args),
         Some(CliCommand::Sweep(args)) => sweep::sweep(&args),
+        #[cfg(feature = "rerun")]
         Some(CliCommand::Compare(args)) => beside::compare(&args),
+        #[cfg(feature = "rerun")]
         Some(CliCommand::Export(args)) => export::export(&args),
+        #[cfg(not(feature = "rerun"))]
+        Some(CliCommand::Compare(_) | CliCommand::Export(_)) => {
+            Err(Failure::without_recorder("reads no recordings"))
+        }
         Some(CliCommand::View { file }) => view::view(&file),
     }
 }

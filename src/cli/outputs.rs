@@ -199,10 +199,7 @@ impl Outputs {
     #[expect(clippy::unused_self, reason = "same form as with the feature rerun")]
     fn open_live(&mut self, args: &RunArgs, _scene: &Scene) -> Result<(), Failure> {
         if args.connect.is_some() || args.spawn || args.serve.is_some() {
-            return Err(Failure::input(miette::miette!(
-                help = "use a build with the default features",
-                "this program was built without the feature rerun, so it shows nothing to viewers"
-            )));
+            return Err(Failure::without_recorder("shows nothing to viewers"));
         }
         Ok(())
     }

@@ -117,8 +117,5 @@ fn judge_length(path: &Path, prepared: &Prepared, steps: u64) -> Result<(), Fail
 /// Without the recorder nothing can be read.
 #[cfg(not(feature = "rerun"))]
 pub(crate) fn read(_path: &Path, _args: &RunArgs) -> Result<Repetition, Failure> {
-    Err(Failure::input(miette::miette!(
-        help = "use a build with the default features",
-        "this program was built without the feature rerun, so it reads no recordings"
-    )))
+    Err(Failure::without_recorder("reads no recordings"))
 }

@@ -10,13 +10,13 @@ use asperity::run::{Checkpoint, Command, Companion, End, Ending, Outcome, Reques
 use asperity::scene::Scene;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::{HeadlessArgs, RunArgs};
+use super::args::HeadlessArgs;
 use super::failure::{Failure, tell};
 use super::names::Names;
 use super::outputs::{Outputs, RecorderPace};
 use super::repeat::{self, Repetition};
 use super::signals::stop_on_signals;
-use super::{beside, report, scenes};
+use super::{report, scenes};
 
 /// Estimated time from which a progress bar is worth its line, s.
 const WORTH_A_BAR_S: f64 = 2.0;
@@ -25,20 +25,22 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// Runs a scene and writes what was asked for.
 pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
-    if let Some(values) = &headless.beside {
-        return beside::run(headless, values, run);
-    }
     let args = &headless.run;
-    refuse_recording_without_recorder(args)?;
+    #[cfg(feature = "rerun")]
+    if let Some(values) = &headless.beside {
+        return super::beside::run(headless, values, run);
+    }
+    #[cfg(not(feature = "rerun"))]
+    if args.out.is_some() || headless.beside.is_some() {
+        return Err(Failure::without_recorder("writes no recordings"));
+    }
     let repetition = headless
         .from
         .as_deref()
         .map(|path| repeat::read(path, args))
         .transpose()?;
     let is_plain = repetition.as_ref().is_none_or(Repetition::is_plain);
-    let broken_off = repetition
-        .as_ref()
-        .is_some_and(|repeated| repeated.broken_off);
+    let broken_off = repetition.as_ref().is_some_and(|run| run.broken_off);
     let (prepared, turns, last_step) = match repetition {
         None => (scenes::prepare(args)?, Vec::new(), 0),
         Some(repeated) => (repeated.prepared, repeated.turns, repeated.last_step),
@@ -49,14 +51,9 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     let plan = prepared.plan;
     let estimate_s = plan.cost.time_s;
     // All that is read is read before anything is written.
-    let saved = headless
-        .from_state
-        .as_deref()
-        .map(|path| Checkpoint::read_for(path, &prepared.scene))
-        .transpose()?;
-    if let Some(saved) = &saved {
-        tell_of_the_past(saved);
-    }
+    let state = headless.from_state.as_deref();
+    let saved = state.map(|path| Checkpoint::read_for(path, &prepared.scene));
+    let saved = saved.transpose()?.inspect(tell_of_the_past);
     let names = Names::of(args, &prepared.scene, &path);
     names.with_states(headless).check()?;
     let overwrite = Overwrite::from_force(args.force);
@@ -97,10 +94,8 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     note_in_recording(&outcome, recorded.then_some(path.as_path()));
     tell_where_stopped(&outcome);
     // The state first: it is what a run that cannot tell its results is taken up from.
-    let saved = headless
-        .save_state
-        .as_deref()
-        .map_or(Ok(()), |path| save_state(&outcome, path, overwrite));
+    let state = headless.save_state.as_deref();
+    let saved = state.map_or(Ok(()), |path| save_state(&outcome, path, overwrite));
     let code = conclude(&prepared.scene, &outcome, Some(&errors), outputs)?;
     saved?;
     Ok(code)
@@ -197,16 +192,6 @@ pub(crate) fn conclude(
     }
     written?;
     Ok(outcome.exit_code())
-}
-
-fn refuse_recording_without_recorder(args: &RunArgs) -> Result<(), Failure> {
-    if args.out.is_some() && !cfg!(feature = "rerun") {
-        return Err(Failure::input(miette::miette!(
-            help = "omit --out, or use a build with the default features",
-            "this program was built without the feature rerun, so it writes no recordings"
-        )));
-    }
-    Ok(())
 }
 
 fn wait(session: &Session, estimate_s: f64, interrupt: &AtomicBool, what: &str) {

@@ -23,7 +23,12 @@ pub fn sig(value: f64, digits: i32) -> String {
 
 /// A number on an axis: three figures at most, and no zeros that say nothing.
 pub fn tick(value: f64) -> String {
-    let text = sig(value, 3);
+    trimmed(value, 3)
+}
+
+/// `value` to at most so many significant figures, without zeros that say nothing.
+pub fn trimmed(value: f64, digits: i32) -> String {
+    let text = sig(value, digits);
     let (digits, power) = text
         .find('e')
         .map_or((text.as_str(), ""), |at| text.split_at(at));

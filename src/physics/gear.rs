@@ -36,9 +36,9 @@ pub enum LoadSharing {
     Trapezoid,
 }
 
-/// A pair of spur gears.
+/// The teeth of a pair of spur gears.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GearPair {
+pub struct GearTeeth {
     /// Teeth of pinion and wheel.
     pub teeth: [u32; 2],
     /// Module, m.
@@ -49,6 +49,13 @@ pub struct GearPair {
     pub centre_distance_m: f64,
     /// Tip diameters, m.
     pub tip_diameters_m: [f64; 2],
+}
+
+/// A pair of spur gears under load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearPair {
+    /// Their teeth.
+    pub gears: GearTeeth,
     /// Face width, m.
     pub face_width_m: f64,
     /// Torque of the pinion, N m.
@@ -109,7 +116,10 @@ impl Mesh {
     }
 }
 
-impl GearPair {
+impl GearTeeth {
+    /// What [`GearTeeth::line_of_action`] asks for, in words.
+    pub const MESHING: &'static str = "teeth that mesh: base circles apart, tips between them and the tangent points, contact ratio 1 to 2";
+
     /// Base radii, m.
     pub fn base_radii_m(&self) -> [f64; 2] {
         let per_tooth = 0.5 * self.module_m * self.pressure_angle_rad.cos();
@@ -147,19 +157,21 @@ impl GearPair {
         })
     }
 
-    /// Contact ratio; `None` as [`GearPair::line_of_action`].
+    /// Contact ratio; `None` as [`GearTeeth::line_of_action`].
     pub fn contact_ratio(&self) -> Option<f64> {
         let line = self.line_of_action()?;
         Some((line.e - line.a) / self.base_pitch_m())
     }
+}
 
+impl GearPair {
     /// The contact at `place_m` from T1, between A and E.
     pub fn at(&self, line: &LineOfAction, place_m: f64) -> Mesh {
         let radii_m = [place_m, line.length - place_m];
-        let [z_1, z_2] = self.teeth.map(f64::from);
+        let [z_1, z_2] = self.gears.teeth.map(f64::from);
         let speeds = [self.speed_rad_s, self.speed_rad_s * z_1 / z_2];
         let share = self.share(line, place_m);
-        let force = self.torque_n_m / self.base_radii_m()[0];
+        let force = self.torque_n_m / self.gears.base_radii_m()[0];
         Mesh {
             place_m,
             radii_m,
@@ -192,11 +204,13 @@ mod tests {
     /// FZG type C, ISO 14635-1: a = 91.5 mm, z 16/24, m 4.5 mm, α = 20°.
     fn fzg(tip_diameters_m: [f64; 2]) -> GearPair {
         GearPair {
-            teeth: [16, 24],
-            module_m: 4.5e-3,
-            pressure_angle_rad: 20_f64.to_radians(),
-            centre_distance_m: 91.5e-3,
-            tip_diameters_m,
+            gears: GearTeeth {
+                teeth: [16, 24],
+                module_m: 4.5e-3,
+                pressure_angle_rad: 20_f64.to_radians(),
+                centre_distance_m: 91.5e-3,
+                tip_diameters_m,
+            },
             face_width_m: 14e-3,
             torque_n_m: 200.0,
             speed_rad_s: 1500.0 * PI / 30.0,
@@ -207,25 +221,27 @@ mod tests {
     #[test]
     fn fzg_type_c_has_its_published_geometry() {
         let gear = fzg([82.46e-3, 118.36e-3]);
-        assert!((gear.working_angle_rad().to_degrees() - 22.44).abs() < 0.005);
+        assert!((gear.gears.working_angle_rad().to_degrees() - 22.44).abs() < 0.005);
         // Working pitch diameters 73.2 and 109.8 mm.
         let pitch = gear
+            .gears
             .base_radii_m()
-            .map(|r| 2.0 * r / gear.working_angle_rad().cos());
+            .map(|r| 2.0 * r / gear.gears.working_angle_rad().cos());
         assert!((pitch[0] - 73.2e-3).abs() < 1e-8 && (pitch[1] - 109.8e-3).abs() < 1e-8);
         // The centre distance is that of profile shifts 0.1817 and 0.1715: inv α_w = inv α + 2 tan α Σx/Σz.
         let inv = |angle: f64| angle.tan() - angle;
-        let shift = (inv(gear.working_angle_rad()) - inv(gear.pressure_angle_rad)) * 40.0
-            / (2.0 * gear.pressure_angle_rad.tan());
+        let shift = (inv(gear.gears.working_angle_rad()) - inv(gear.gears.pressure_angle_rad))
+            * 40.0
+            / (2.0 * gear.gears.pressure_angle_rad.tan());
         assert!((shift - (0.1817 + 0.1715)).abs() < 2e-4, "{shift}");
         // Contact ratio 1.44 with tips of 82.46 and 118.36 mm; 1.46 without their shortening.
-        assert!((gear.contact_ratio().unwrap() - 1.44).abs() < 0.01);
+        assert!((gear.gears.contact_ratio().unwrap() - 1.44).abs() < 0.01);
     }
 
     #[test]
     fn full_length_teeth_give_the_lengths_of_the_literature() {
         // Tips m(z + 2 + 2x): AB/AC/AD/AE = 6.14/9.68/13.28/19.43 mm, T1T2 = 34.93 mm.
-        let line = fzg([82.635e-3, 118.544e-3]).line_of_action().unwrap();
+        let line = fzg([82.635e-3, 118.544e-3]).gears.line_of_action().unwrap();
         for (got, mm) in [
             (line.b - line.a, 6.14),
             (line.c - line.a, 9.68),
@@ -240,7 +256,7 @@ mod tests {
     #[test]
     fn the_pitch_point_rolls_at_1347_mpa() {
         let gear = fzg([82.46e-3, 118.36e-3]);
-        let line = gear.line_of_action().unwrap();
+        let line = gear.gears.line_of_action().unwrap();
         let mesh = gear.at(&line, line.c);
         assert!(mesh.slide_roll().abs() < 1e-12);
         assert!((mesh.radius_m() - 8.38e-3).abs() < 0.01e-3);
@@ -254,7 +270,7 @@ mod tests {
     #[test]
     fn curvatures_and_speeds_are_those_of_the_involute() {
         let gear = fzg([82.46e-3, 118.36e-3]);
-        let line = gear.line_of_action().unwrap();
+        let line = gear.gears.line_of_action().unwrap();
         for k in 0..=10 {
             let place = line.a + (line.e - line.a) * f64::from(k) / 10.0;
             let mesh = gear.at(&line, place);
@@ -275,8 +291,8 @@ mod tests {
                 load_sharing,
                 ..fzg([82.46e-3, 118.36e-3])
             };
-            let line = gear.line_of_action().unwrap();
-            let pitch = gear.base_pitch_m();
+            let line = gear.gears.line_of_action().unwrap();
+            let pitch = gear.gears.base_pitch_m();
             for k in 1..10 {
                 let place = line.a + (line.b - line.a) * f64::from(k) / 10.0;
                 let both = gear.at(&line, place).share + gear.at(&line, place + pitch).share;
@@ -288,21 +304,21 @@ mod tests {
 
     #[test]
     fn teeth_that_do_not_mesh_are_refused() {
-        let good = fzg([82.46e-3, 118.36e-3]);
+        let good = fzg([82.46e-3, 118.36e-3]).gears;
         for bad in [
-            GearPair {
+            GearTeeth {
                 centre_distance_m: 80e-3,
                 ..good
             },
-            GearPair {
+            GearTeeth {
                 tip_diameters_m: [60e-3, 118.36e-3],
                 ..good
             },
-            GearPair {
+            GearTeeth {
                 tip_diameters_m: [82.46e-3, 150e-3],
                 ..good
             },
-            GearPair {
+            GearTeeth {
                 tip_diameters_m: [75e-3, 110e-3],
                 ..good
             },

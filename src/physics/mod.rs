@@ -8,6 +8,7 @@ pub mod film_regression;
 pub mod film_ripple;
 pub mod fluid;
 pub mod gear;
+pub mod gear_tooth;
 pub mod groups;
 pub mod height_map;
 pub mod hertz;

@@ -46,12 +46,6 @@ impl Waviness {
         let factor = |k: f64| if k > 0.0 { 0.5_f64.sqrt() } else { 1.0 };
         factor(self.kx) * factor(self.ky)
     }
-
-    /// Crests per length that pass a point at relative speed 1 along x.
-    pub fn crest_density_x(&self) -> f64 {
-        let (c, s) = self.direction;
-        (self.kx * c).abs().max((self.ky * s).abs()) / TAU
-    }
 }
 
 #[cfg(test)]
@@ -66,6 +60,5 @@ mod tests {
         assert!((transverse.rms() - 0.5_f64.sqrt()).abs() < 1e-15);
         let product = Waviness::new(0.5, 0.25, 0.0, 0.0);
         assert!((product.rms() - 0.5).abs() < 1e-15);
-        assert!((product.crest_density_x() - 2.0).abs() < 1e-12);
     }
 }

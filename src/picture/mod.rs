@@ -9,10 +9,10 @@
 //!                                                └──> tui               half blocks, pixels
 //! ```
 //! A [`Look`] says what a value's colour is: the map and its range ([`Ranges`]: what can come, not what came), what stands
-//! for values above it, what marks contact, and how the legend is written. It is that of a picture over time too, where
-//! rows are moments.
+//! for values above it, what marks contact, and how the legend is written; also of a picture over time.
 
 pub mod interferogram;
+pub mod profile;
 pub mod ramp;
 mod scope;
 

@@ -163,6 +163,7 @@ impl Checkpoint {
             numerics,
             stress,
             life,
+            tooth: _,
             record: _,
             events,
         } = scene;

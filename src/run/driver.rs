@@ -13,11 +13,10 @@ use super::clock::Clock;
 use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
 use super::settled::Gather;
 use super::shared::{Ending, SharedStatus, lock};
-use super::stepper::Stepper;
 use super::watcher::Watcher;
 use crate::observe::{FramePool, Latest, ObserveError, RunContext, RunEventKind};
 use crate::scene::{Event, Scene};
-use crate::sim::{Frame, LubricationRegime, SimError, State, Stats, Unsolved};
+use crate::sim::{Frame, LubricationRegime, SimError, Simulation, StepError, Unsolved};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
@@ -59,8 +58,12 @@ pub(super) struct Done {
     pub(super) unconverged: u64,
 }
 
+/// Makes one time step: [`Simulation::step`], or in tests one that fails on purpose.
+pub(super) type MakeStep = Box<dyn FnMut(&mut Simulation) -> Result<(), StepError> + Send>;
+
 /// The loop's own state, on the simulation's thread.
 pub(super) struct Driver {
+    make_step: MakeStep,
     ending: Ending,
     /// Steps of the whole run; `None`: it has no end.
     steps_planned: Option<u64>,
@@ -99,6 +102,7 @@ impl Driver {
         let mut script = events.to_vec();
         script.sort_by(|one, two| one.at_s.total_cmp(&two.at_s));
         Self {
+            make_step: Box::new(Simulation::step),
             ending,
             steps_planned: None,
             watchers,
@@ -141,6 +145,12 @@ impl Driver {
         self
     }
 
+    /// Steps otherwise.
+    pub(super) fn stepping_by(mut self, make_step: MakeStep) -> Self {
+        self.make_step = make_step;
+        self
+    }
+
     /// Does again what was done by hand in another run: each command with the steps made by then.
     pub(super) fn repeating(mut self, turns: Vec<(u64, Command)>) -> Self {
         self.turns = turns.into();
@@ -148,11 +158,11 @@ impl Driver {
     }
 
     /// The whole run, from opening the outputs to closing them.
-    pub(super) fn run<S: Stepper>(
+    pub(super) fn run(
         mut self,
         context: &RunContext,
         name: &str,
-        make: impl FnOnce(&Scene) -> Result<S, SimError>,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError>,
     ) -> Outcome {
         let started = Clock::start();
         // Outputs first: a path that cannot be written must not cost a start-up.
@@ -174,8 +184,7 @@ impl Driver {
                         .filter(|_| steps > 1)
                         .map(|began| (steps - 1) as f64 / began.elapsed_s().max(1e-9));
                     summary = (steps > 0).then(|| sim.summary());
-                    let stats = sim.stats();
-                    checkpoint = sim.save().map(|sim| self.checkpoint(context, sim, stats));
+                    checkpoint = Some(self.checkpoint(context, &sim));
                     end
                 }
             }
@@ -212,20 +221,20 @@ impl Driver {
         }
     }
 
-    fn checkpoint(&self, context: &RunContext, sim: State, stats: Stats) -> Box<Checkpoint> {
+    fn checkpoint(&self, context: &RunContext, sim: &Simulation) -> Box<Checkpoint> {
         Box::new(Checkpoint {
             program: context.program.clone(),
             scene: context.scene_toml.clone(),
             n_events_played: self.n_events_played,
             n_unconverged: self.n_unconverged,
             n_turned_by_hand: self.n_turned_by_hand,
-            stats,
-            sim,
+            stats: *sim.stats(),
+            sim: sim.save(),
         })
     }
 
     /// Steps until something ends the run.
-    fn drive<S: Stepper>(&mut self, sim: &mut S) -> End {
+    fn drive(&mut self, sim: &mut Simulation) -> End {
         if self.has_ended(sim) {
             // Taken up where all that is asked for had been done.
             return End::Done;
@@ -238,13 +247,13 @@ impl Driver {
     }
 
     /// Commands, script, one step, its frame.
-    pub(super) fn turn<S: Stepper>(&mut self, sim: &mut S, waiting: PausedWait) -> LoopTurn {
+    pub(super) fn turn(&mut self, sim: &mut Simulation, waiting: PausedWait) -> LoopTurn {
         self.repeat_turns(sim);
         if let Some(turn) = self.obey(sim, waiting) {
             return turn;
         }
         self.play_script(sim);
-        if let Err(error) = sim.step() {
+        if let Err(error) = (self.make_step)(sim) {
             return LoopTurn::Ended(End::Stalled(error));
         }
         self.made += 1;
@@ -263,7 +272,7 @@ impl Driver {
         LoopTurn::Stepped
     }
 
-    fn has_ended<S: Stepper>(&self, sim: &S) -> bool {
+    fn has_ended(&self, sim: &Simulation) -> bool {
         match self.ending {
             Ending::Passages => sim.is_done(),
             Ending::Steps(steps) => sim.passage_steps() >= steps,
@@ -271,7 +280,7 @@ impl Driver {
         }
     }
 
-    fn judge_step<S: Stepper>(&mut self, sim: &S) {
+    fn judge_step(&mut self, sim: &Simulation) {
         let metrics = sim.metrics();
         // A start-up that did not converge is told too: what follows stands on it.
         if metrics.converged {

@@ -23,7 +23,6 @@ mod request;
 mod session;
 mod settled;
 mod shared;
-mod stepper;
 mod watcher;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
@@ -37,7 +36,6 @@ pub use request::Request;
 pub use session::{RunError, Session};
 pub use settled::Settled;
 pub use shared::{Ending, Status};
-pub use stepper::Stepper;
 pub use watcher::{Activity, Switch, Watcher, WatcherStatus};
 
 use crate::sim::{Follow, Knob};

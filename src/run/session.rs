@@ -7,15 +7,14 @@ use thiserror::Error;
 
 use super::Command;
 use super::checkpoint::Checkpoint;
-use super::driver::Done;
+use super::driver::{Done, MakeStep};
 use super::near_end::{NearEnd, wired};
 use super::outcome::{AppliedCommand, Outcome};
 use super::replay::HandTurn;
 use super::request::{Request, context_of};
-use super::stepper::Stepper;
 use crate::observe::{Began, SetBy};
 use crate::scene::Scene;
-use crate::sim::{SimError, Simulation};
+use crate::sim::{SimError, Simulation, StepError};
 
 /// A session that could not be started or came to grief.
 #[derive(Debug, Clone, Error)]
@@ -31,12 +30,14 @@ pub enum RunError {
 }
 
 /// What a run begins with.
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct Start {
     /// What had been done before.
     done: Done,
     began: Began,
     turns: Vec<(u64, Command)>,
+    /// What makes a step, where it is not the simulation itself.
+    make_step: Option<MakeStep>,
 }
 
 /// A running session.
@@ -54,7 +55,9 @@ impl Session {
     pub fn start(request: Request) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
-        Self::start_with(request, move |scene| Simulation::new(scene, plan, threads))
+        Self::spawn(request, Start::default(), move |scene| {
+            Simulation::new(scene, plan, threads)
+        })
     }
 
     /// Same, going on from a saved state. A state that does not fit ends the run before it starts
@@ -73,7 +76,7 @@ impl Session {
         let start = Start {
             done,
             began: Began::FromState,
-            turns: Vec::new(),
+            ..Start::default()
         };
         Self::spawn(request, start, move |scene| {
             checkpoint
@@ -86,15 +89,21 @@ impl Session {
         })
     }
 
-    /// Same with another simulation, made on the thread that will own it.
+    /// Same with a simulation made otherwise, on the thread that will own it, and steps made by `make_step`: how tests
+    /// put in what fails.
     ///
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
-    pub fn start_with<S: Stepper>(
+    pub fn start_with(
         request: Request,
-        make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError> + Send + 'static,
+        make_step: impl FnMut(&mut Simulation) -> Result<(), StepError> + Send + 'static,
     ) -> Result<Self, RunError> {
-        Self::spawn(request, Start::default(), make)
+        let start = Start {
+            make_step: Some(Box::new(make_step)),
+            ..Start::default()
+        };
+        Self::spawn(request, start, make)
     }
 
     /// Same as [`Session::start`], turning the knobs as they were turned in another run of the same scene.
@@ -129,15 +138,18 @@ impl Session {
         })
     }
 
-    fn spawn<S: Stepper>(
+    fn spawn(
         request: Request,
         start: Start,
-        make: impl FnOnce(&Scene) -> Result<S, SimError> + Send + 'static,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError> + Send + 'static,
     ) -> Result<Self, RunError> {
         let context = context_of(&request, start.began);
         let name = request.name.clone();
         let (driver, near) = wired(request);
-        let driver = driver.after(start.done).repeating(start.turns);
+        let mut driver = driver.after(start.done).repeating(start.turns);
+        if let Some(make_step) = start.make_step {
+            driver = driver.stepping_by(make_step);
+        }
         let thread = std::thread::Builder::new()
             .name("sim".to_owned())
             .spawn(move || driver.run(&context, &name, make))

@@ -19,7 +19,7 @@ pub struct Settled {
     pub frames: Vec<Arc<Frame>>,
     /// The period, s; 0 with a single frame.
     pub period_s: f64,
-    /// State of the simulation at the last frame, to start others from; `None`: it cannot be saved.
+    /// State of the simulation at the last frame, to start others from; `None` where no simulation made the frames.
     pub state: Option<State>,
 }
 

@@ -8,6 +8,7 @@ use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
 use super::model::{Event, Scene, Surface};
 use super::shape::{check_carried, check_force, check_hardness, check_load, check_shape};
+use crate::physics::gear::GearTeeth;
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
 pub(super) fn check_table(table: &mut Table) -> Result<(), SceneError> {
@@ -226,6 +227,15 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
     }
     if let Some(life) = &scene.life {
         super::life::check_calibration(life)?;
+    }
+    if let Some(tooth) = &scene.tooth
+        && tooth.gears().line_of_action().is_none()
+    {
+        return Err(SceneError::value(
+            "tooth.centre_distance_m",
+            format!("{} m", short(tooth.centre_distance_m)),
+            GearTeeth::MESHING,
+        ));
     }
     scene
         .events

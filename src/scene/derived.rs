@@ -288,6 +288,7 @@ fn exact_sin_cos(angle_deg: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::waviness::Waviness;
 
     fn sinusoid(
         wavelength_x_m: f64,
@@ -337,6 +338,33 @@ mod tests {
             assert!((rq / expected - 1.0).abs() < 1e-12);
             assert!((surface.rq_m() / expected - 1.0).abs() < 1e-15);
         }
+    }
+
+    /// Crests along x as they are met: upcrossings of the level on a streamline, counted.
+    #[test]
+    fn crests_are_upcrossings_along_x() {
+        let inf = f64::INFINITY;
+        for (wx, wy, angle) in [
+            (1e-4, inf, 0.0),
+            (1e-4, inf, 60.0),
+            (inf, 1e-4, 90.0),
+            (1e-4, 2e-4, 0.0),
+            (1e-4, 2e-4, 30.0),
+            (1e-4, 1e-4, 45.0),
+            (1e-4, 3e-4, 60.0),
+        ] {
+            let wave = Waviness::new(wx, wy, f64::to_radians(angle), 0.0);
+            let (length_m, step_m) = (0.02, 5e-7);
+            let heights: Vec<f64> = (0..(length_m / step_m) as usize)
+                .map(|i| wave.shape(step_m * i as f64, 1.3e-5))
+                .collect();
+            let pairs = heights.windows(2);
+            let met = pairs.filter(|pair| pair[0] < 0.0 && pair[1] >= 0.0).count() as f64;
+            let told = sinusoid(wx, wy, angle, 0.0).crests_per_m() * length_m;
+            assert!((met - told).abs() < 2.0, "{wx} {wy} {angle}: {met} {told}");
+        }
+        assert_eq!(sinusoid(inf, 1e-4, 0.0, 0.0).crests_per_m(), 0.0);
+        assert_eq!(sinusoid(1e-4, inf, 90.0, 0.0).crests_per_m(), 0.0);
     }
 
     #[test]

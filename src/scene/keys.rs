@@ -183,6 +183,21 @@ pub const SECTIONS: &[Section] = &[
         keys: super::life_keys::LIFE,
     },
     Section {
+        path: "tooth",
+        need: Optional("the contact rides on no tooth"),
+        doc: "Where on a gear's tooth the contact is while events move it along: shown beside it, changes no result. Contact begins at t = 0.",
+        keys: &[
+            key("pinion_teeth", "", Integer(5, 1000), Required, "teeth of the pinion, which is body 1 and drives"),
+            key("wheel_teeth", "", Integer(5, 1000), Required, "teeth of the wheel, which is body 2"),
+            key("module_m", "m", Number(1e-5, 0.1), Required, "module"),
+            key("pressure_angle_deg", "degrees", Number(10.0, 35.0), Required, "pressure angle of the rack"),
+            key("centre_distance_m", "m", Number(1e-4, 10.0), Required, "centre distance"),
+            key("pinion_tip_diameter_m", "m", Number(1e-4, 20.0), Required, "tip diameter of the pinion"),
+            key("wheel_tip_diameter_m", "m", Number(1e-4, 20.0), Required, "tip diameter of the wheel"),
+            key("speed_rpm", "1/min", Number(0.01, 1e6), Required, "speed of the pinion"),
+        ],
+    },
+    Section {
         path: "record",
         need: Optional("no recording"),
         doc: "The recording (.rrd).",

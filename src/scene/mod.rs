@@ -20,6 +20,7 @@ mod model;
 mod numerics;
 pub mod presets;
 mod shape;
+mod tooth;
 
 pub use error::SceneError;
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
@@ -34,3 +35,4 @@ pub use model::{
 };
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
 pub use shape::LEAST_HARDNESS;
+pub use tooth::Tooth;

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::life::Life;
 use super::lubricant::{Friction, Lubricant};
 use super::numerics::{Numerics, Time};
+use super::tooth::Tooth;
 use crate::physics::height_map::HeightMap;
 use crate::physics::hertz::HertzShape;
 
@@ -51,6 +52,8 @@ pub struct Scene {
     pub stress: Option<Stress>,
     /// Fatigue life; `None`: not computed.
     pub life: Option<Life>,
+    /// Where on a gear's tooth the contact is; `None`: on none. It changes no result.
+    pub tooth: Option<Tooth>,
     /// Recording; `None`: no recording.
     pub record: Option<Record>,
     /// Scripted knob changes and captions, the path that keys take too.

@@ -27,7 +27,7 @@ use toml::{Table, Value};
 
 use super::axis::{VariedKey, shown};
 use super::path_keys::Keys;
-use crate::physics::gear::{GearPair, LoadSharing};
+use crate::physics::gear::{GearPair, GearTeeth, LoadSharing};
 use crate::physics::race_and_cam::{BallRace, FlatFollower};
 use crate::scene::{ContactKind, Scene, SceneError};
 
@@ -118,11 +118,11 @@ fn gear(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
         "points",
     ])?;
     let pair = gear_pair(keys)?;
-    let Some(line) = pair.line_of_action() else {
+    let Some(line) = pair.gears.line_of_action() else {
         return Err(SceneError::value(
             "gear.tip_diameters_m",
-            format!("{:?}", pair.tip_diameters_m),
-            "teeth that mesh: base circles apart, tips between them and the tangent points, contact ratio 1 to 2",
+            format!("{:?}", pair.gears.tip_diameters_m),
+            GearTeeth::MESHING,
         ));
     };
     let n = keys.points(17)?;
@@ -148,7 +148,7 @@ fn gear(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
                     ("load_share", mesh.share),
                     (
                         "time_s",
-                        (place - line.a) / (pair.base_radii_m()[0] * pair.speed_rad_s),
+                        (place - line.a) / (pair.gears.base_radii_m()[0] * pair.speed_rad_s),
                     ),
                 ],
                 keys: vec![
@@ -162,7 +162,7 @@ fn gear(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
         .collect())
 }
 
-fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
+pub(super) fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
     let teeth = keys.pair("teeth", (5.0, 1000.0), "teeth, pinion first")?;
     let whole = teeth.filter(|pair| pair.iter().all(|z| z.fract() == 0.0));
     let Some(teeth) = whole.map(|pair| pair.map(|z| z as u32)) else {
@@ -213,11 +213,13 @@ fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
     };
     let angle = keys.maybe("pressure_angle_deg", (10.0, 35.0), "degrees")?;
     Ok(GearPair {
-        teeth,
-        module_m,
-        pressure_angle_rad: angle.unwrap_or(20.0).to_radians(),
-        centre_distance_m: centre.unwrap_or(0.5 * (standard[0] + standard[1])),
-        tip_diameters_m: tips.unwrap_or(standard.map(|d| d + 2.0 * module_m)),
+        gears: GearTeeth {
+            teeth,
+            module_m,
+            pressure_angle_rad: angle.unwrap_or(20.0).to_radians(),
+            centre_distance_m: centre.unwrap_or(0.5 * (standard[0] + standard[1])),
+            tip_diameters_m: tips.unwrap_or(standard.map(|d| d + 2.0 * module_m)),
+        },
         face_width_m: keys.number("face_width_m", (1e-4, 10.0), "m")?,
         torque_n_m: keys.number("torque_n_m", (1e-3, 1e7), "N m")?,
         speed_rad_s: RPM * keys.number("speed_rpm", (0.01, 1e6), "1/min")?,

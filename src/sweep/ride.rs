@@ -9,9 +9,13 @@
 
 use std::collections::BTreeMap;
 
+use toml::Table;
+
 use super::error::SweepError;
+use super::path;
+use super::path_keys::Keys;
 use super::spec::Sweep;
-use crate::scene::{Event, Scene};
+use crate::scene::{Event, Scene, Tooth};
 
 impl Sweep {
     /// The ride along a `[gear]` path; `None` for other sweeps.
@@ -19,7 +23,7 @@ impl Sweep {
     /// # Errors
     /// [`SweepError::Case`] when a point of the path is no scene.
     pub fn ride(&self) -> Result<Option<Scene>, SweepError> {
-        let Some(times) = super::path::column(&self.path, "time_s") else {
+        let Some(times) = path::column(&self.path, "time_s") else {
             return Ok(None);
         };
         let scenes = (0..self.len())
@@ -76,7 +80,21 @@ impl Sweep {
         }
         ride.time.passages = way_m / (4.0 * half_m) + 1.0;
         ride.record = Some(crate::scene::Record::default());
+        ride.tooth = self.tooth();
         Ok(Some(ride))
+    }
+}
+
+impl Sweep {
+    /// The tooth of `[gear]`, which has been read before; `None` of other sweeps.
+    fn tooth(&self) -> Option<Tooth> {
+        let root = self.source.parse::<Table>().ok()?;
+        let keys = Keys {
+            kind: "gear",
+            table: root.get("gear")?.as_table()?,
+        };
+        let pair = path::gear_pair(&keys).ok()?;
+        Some(Tooth::of(&pair.gears, pair.speed_rad_s))
     }
 }
 

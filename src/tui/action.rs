@@ -106,6 +106,8 @@ pub enum Action {
     Plan,
     /// Another scene, lay, wave, oil, model.
     Scene,
+    /// Radii, moduli, load, speeds, oil, roughness, in numbers.
+    OperatingPoint,
     /// Run the scene that was put together, begin the chosen lesson, give the focused panel the screen.
     Enter,
     /// Close what lies over the screen, shrink the panel, forget the probe, return to the present.

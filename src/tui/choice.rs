@@ -1,16 +1,34 @@
 //! What a run cannot turn while it goes: another scene, lay, wavelength, oil, stress measure, life model,
-//! grid. Choices make a draft of a scene; its plan is made at once, so that what cannot be computed is told
-//! before anything is started.
+//! grid, operating point. Choices make a draft of a scene; its plan is made at once, so that what cannot be computed is
+//! told before anything is started.
+
+mod numbers;
 
 use crate::plan::Plan;
-use crate::scene::{LifeModel, Scene, StressMeasure, Surface, presets};
-use crate::tui::units::{Units, sig};
+use crate::scene::{LifeModel, Override, Scene, SceneError, StressMeasure, Surface, keys, presets};
+use crate::tui::units::{Units, read_number, sig};
 
 /// One choice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Choice {
     /// Preset: everything else follows.
     Preset,
+    /// Equivalent radius along the rolling direction, or across.
+    Radius(usize),
+    /// Young's modulus of a body.
+    Young(usize),
+    /// Load, of a line per length.
+    Load,
+    /// Maximum Hertz pressure.
+    HertzPressure,
+    /// Entrainment speed.
+    Speed,
+    /// Slide-to-roll ratio.
+    SlideRoll,
+    /// Pressure-viscosity coefficient.
+    PressureViscosity,
+    /// Amplitude of a body's roughness.
+    Amplitude(usize),
     /// Lay of a body's roughness.
     Lay(usize),
     /// Wavelength of a body's roughness.
@@ -39,8 +57,8 @@ enum Lay {
 const STEP: f64 = 1.258_925_411_794_167_2;
 
 impl Choice {
-    /// All of them, in the order of the panel.
-    pub const ALL: [Self; 9] = [
+    /// What a scene is put together from, in the order of the panel.
+    pub const SCENE: [Self; 9] = [
         Self::Preset,
         Self::Lay(0),
         Self::Wavelength(0),
@@ -64,6 +82,17 @@ impl Choice {
             Self::Measure => "effective stress",
             Self::Model => "life model",
             Self::Nodes => "nodes per side",
+            Self::Radius(0) => "radius along x",
+            Self::Radius(_) => "radius across",
+            Self::Young(0) => "modulus of body 1",
+            Self::Young(_) => "modulus of body 2",
+            Self::Load => "load",
+            Self::HertzPressure => "Hertz pressure",
+            Self::Speed => "entrainment speed U",
+            Self::SlideRoll => "slide-to-roll ratio S",
+            Self::PressureViscosity => "pressure-viscosity",
+            Self::Amplitude(0) => "amplitude 1",
+            Self::Amplitude(_) => "amplitude 2",
         }
     }
 
@@ -99,10 +128,6 @@ impl Choice {
                 }
                 None => "no wave".to_owned(),
             },
-            Self::Viscosity => scene.lubricant.as_ref().map_or_else(
-                || "dry".to_owned(),
-                |oil| format!("{} mPa s", sig(1e3 * oil.viscosity_pa_s, 3)),
-            ),
             Self::Measure => scene
                 .stress
                 .as_ref()
@@ -114,6 +139,7 @@ impl Choice {
                 .map_or("none", |life| life.model.name())
                 .to_owned(),
             Self::Nodes => scene.grid.nodes.to_string(),
+            number => number.number_shown(scene, units),
         }
     }
 
@@ -131,11 +157,6 @@ impl Choice {
                 {
                     *wavelength_x_m = stepped(*wavelength_x_m, by);
                     *wavelength_y_m = stepped(*wavelength_y_m, by);
-                }
-            }
-            Self::Viscosity => {
-                if let Some(oil) = &mut scene.lubricant {
-                    oil.viscosity_pa_s = stepped(oil.viscosity_pa_s, by);
                 }
             }
             Self::Measure => {
@@ -156,6 +177,11 @@ impl Choice {
             Self::Nodes => {
                 let all = [65, 129, 257, 513];
                 scene.grid.nodes = shifted(&all, scene.grid.nodes, by);
+            }
+            number => {
+                if let Some(value) = number.number_turned(scene, by) {
+                    draft.put(number, value);
+                }
             }
         }
     }
@@ -252,11 +278,34 @@ fn turn_lay(scene: &mut Scene, body: usize, by: i32) {
     };
 }
 
+/// What a draft is changed by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Scene, lays, waves, oil, models, nodes.
+    Scene,
+    /// The numbers of the operating point.
+    Point,
+}
+
+impl Form {
+    /// Its rows.
+    pub fn rows(self) -> &'static [Choice] {
+        match self {
+            Self::Scene => &Choice::SCENE,
+            Self::Point => &Choice::POINT,
+        }
+    }
+}
+
 /// A scene in the making.
 #[derive(Debug, Clone)]
 pub struct Draft {
     /// The scene.
     pub scene: Scene,
+    /// Its rows.
+    pub form: Form,
+    /// A number that is typed for the chosen row.
+    pub typed: Option<String>,
     /// Row that is chosen.
     pub row: usize,
     /// The plan in short, or why there is none.
@@ -267,9 +316,11 @@ pub struct Draft {
 
 impl Draft {
     /// From a scene.
-    pub fn new(scene: Scene) -> Self {
+    pub fn new(scene: Scene, form: Form) -> Self {
         let mut draft = Self {
             scene,
+            form,
+            typed: None,
             row: 0,
             verdict: Ok(String::new()),
             preset: None,
@@ -280,14 +331,93 @@ impl Draft {
 
     /// Chooses another row.
     pub fn choose(&mut self, by: i32) {
-        let rows = Choice::ALL.len() as i32;
+        let rows = self.form.rows().len() as i32;
         self.row = (self.row as i32 + by).rem_euclid(rows) as usize;
+        if self.verdict.is_err() {
+            // A number that was refused is past.
+            self.judge();
+        }
+    }
+
+    /// What the chosen row is about.
+    pub fn chosen(&self) -> Choice {
+        self.form.rows()[self.row]
+    }
+
+    /// Turns the rows to another form's.
+    pub fn turn_to(&mut self, form: Form) {
+        (self.form, self.row, self.typed) = (form, 0, None);
+    }
+
+    /// Begins a number for the chosen row, if it takes one.
+    pub fn begin_typing(&mut self) {
+        if self.chosen().keys(&self.scene).is_empty() {
+            let name = self.chosen().name();
+            self.verdict = Err(format!("{name}: no number can be typed here"));
+        } else {
+            self.typed = Some(String::new());
+        }
+    }
+
+    /// What may be typed: key, range and unit of what is shown.
+    pub fn allowed(&self, units: Units) -> Option<String> {
+        let path = self.chosen().keys(&self.scene).into_iter().next()?;
+        let key = keys::find(&path)?;
+        let unit = self.chosen().unit(&self.scene, units).name;
+        let typed = if unit.is_empty() {
+            String::new()
+        } else {
+            format!("typed in {unit}; ")
+        };
+        Some(format!("{typed}{path}: {}", key.allowed()))
+    }
+
+    /// Takes the number that was typed, or says what is wrong with it: key, value, range.
+    pub fn set_typed(&mut self, units: Units) {
+        let Some(text) = self.typed.take() else {
+            return;
+        };
+        let choice = self.chosen();
+        match read_number(&text) {
+            Some(shown) => self.put(choice, shown / choice.unit(&self.scene, units).per_si),
+            None => self.verdict = Err(format!("{} = {text}: this is no number", choice.name())),
+        }
+        if self.verdict.is_ok() {
+            self.judge();
+        }
+    }
+
+    /// Puts a number into the scene, by the rules of a scene's file; a scene that breaks them stays as it was.
+    fn put(&mut self, choice: Choice, value: f64) {
+        let sets = choice.keys(&self.scene);
+        let sets = sets.iter().map(|key| Override::number(key, value));
+        let made = sets
+            .collect::<Result<Vec<_>, SceneError>>()
+            .and_then(|sets| Scene::from_toml_with(&self.scene.to_toml(), "the scene", &sets));
+        match made {
+            Ok(scene) => {
+                self.scene = scene;
+                self.judge();
+            }
+            Err(error) => self.verdict = Err(error.to_string()),
+        }
     }
 
     /// Turns the chosen row.
     pub fn turn(&mut self, by: i32) {
-        Choice::ALL[self.row].turn(self, by);
         self.judge();
+        self.chosen().turn(self, by);
+        if self.chosen().keys(&self.scene).is_empty() {
+            self.judge();
+        }
+    }
+
+    /// Takes a typical scene by its place.
+    pub fn take_typical(&mut self, place: usize) {
+        if let Some(preset) = presets::all().get(place) {
+            self.take(preset.name);
+            self.judge();
+        }
     }
 
     fn take_preset(&mut self, by: i32) {
@@ -300,13 +430,18 @@ impl Draft {
             None if by > 0 => 0,
             None => all.len() - 1,
         };
-        match Scene::load(all[place].name) {
-            Ok(scene) => (self.scene, self.preset) = (scene, Some(all[place].name)),
+        self.take(all[place].name);
+    }
+
+    fn take(&mut self, name: &'static str) {
+        match Scene::load(name) {
+            Ok(scene) => (self.scene, self.preset) = (scene, Some(name)),
             Err(error) => self.verdict = Err(error.to_string()),
         }
     }
 
-    fn judge(&mut self) {
+    /// Checks the scene and makes its plan.
+    pub fn judge(&mut self) {
         let made = self
             .scene
             .validate()
@@ -328,20 +463,103 @@ mod tests {
     use super::*;
 
     fn draft() -> Draft {
-        Draft::new(Scene::load(crate::scene::presets::QUICK).expect("a preset"))
+        Draft::new(Scene::load(presets::QUICK).expect("a preset"), Form::Scene)
     }
 
     #[test]
     fn every_choice_can_be_turned_round_and_stays_a_scene() {
-        for (row, choice) in Choice::ALL.into_iter().enumerate() {
-            let mut draft = draft();
-            draft.row = row;
-            let before = choice.shown(&draft, Units::default());
-            draft.turn(1);
-            assert_ne!(choice.shown(&draft, Units::default()), before, "{choice:?}");
-            assert!(draft.scene.validate().is_ok(), "{choice:?}");
-            assert!(!draft.verdict.as_ref().map_or(true, String::is_empty));
+        for form in [Form::Scene, Form::Point] {
+            for (row, choice) in form.rows().iter().enumerate() {
+                let mut draft = draft();
+                draft.turn_to(form);
+                draft.row = row;
+                let before = choice.shown(&draft, Units::default());
+                draft.turn(1);
+                assert_ne!(choice.shown(&draft, Units::default()), before, "{choice:?}");
+                assert!(draft.scene.validate().is_ok(), "{choice:?}");
+                assert!(!draft.verdict.as_ref().map_or(true, String::is_empty));
+            }
         }
+    }
+
+    fn typed(draft: &mut Draft, choice: Choice, text: &str) {
+        draft.turn_to(Form::Point);
+        let place = Choice::POINT.iter().position(|own| *own == choice);
+        draft.row = place.expect("a row");
+        draft.begin_typing();
+        draft.typed = Some(text.to_owned());
+        draft.set_typed(Units::default());
+    }
+
+    /// Every number of the form in the scene that would be run, in SI.
+    #[test]
+    fn numbers_are_typed_in_the_units_that_are_shown() {
+        let mut draft = draft();
+        for (choice, text, key, si) in [
+            (Choice::Radius(0), "10", "contact.rx_m", 0.01),
+            (Choice::Radius(1), "12,5", "contact.ry_m", 0.0125),
+            (Choice::Young(0), "210", "body_1.young_pa", 2.1e11),
+            (Choice::Young(1), "70", "body_2.young_pa", 7e10),
+            (Choice::Load, "300", "load.force_n", 300.0),
+            (Choice::Speed, "1.5", "motion.entrainment_m_s", 1.5),
+            (Choice::SlideRoll, "−0.25", "motion.slide_roll", -0.25),
+            (Choice::Viscosity, "40", "lubricant.viscosity_pa_s", 0.04),
+            (
+                Choice::PressureViscosity,
+                "20",
+                "lubricant.pressure_viscosity_per_pa",
+                2e-8,
+            ),
+            (
+                Choice::Amplitude(0),
+                "0.2",
+                "body_1.surface.amplitude_m",
+                2e-7,
+            ),
+            (
+                Choice::Wavelength(1),
+                "150",
+                "body_2.surface.wavelength_y_m",
+                1.5e-4,
+            ),
+        ] {
+            typed(&mut draft, choice, text);
+            assert!(draft.verdict.is_ok(), "{choice:?}: {:?}", draft.verdict);
+            let table: toml::Table = draft.scene.to_toml().parse().expect("a scene");
+            let found = key.split('.').fold(None, |at: Option<&toml::Value>, name| {
+                at.map_or_else(|| table.get(name), |at| at.get(name))
+            });
+            let found = found.and_then(toml::Value::as_float).expect("a number");
+            assert!((found / si - 1.0).abs() < 1e-12, "{key}: {found}");
+        }
+        // Load and pressure exclude each other.
+        typed(&mut draft, Choice::HertzPressure, "1.2");
+        let load = &draft.scene.load;
+        assert_eq!((load.force_n, load.hertz_pressure_pa), (None, Some(1.2e9)));
+        let shown = |choice: Choice| choice.shown(&draft, Units::default());
+        assert!(shown(Choice::Load).contains("from the Hertz pressure"));
+        assert_eq!(shown(Choice::HertzPressure), "1.2 GPa");
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_refused_by_key_value_and_range() {
+        let mut draft = draft();
+        let before = draft.scene.clone();
+        typed(&mut draft, Choice::Young(0), "1e9");
+        let reason = draft.verdict.clone().err().unwrap_or_default();
+        for part in ["body_1.young_pa", "1e18", "1e6 to 1e13 Pa"] {
+            assert!(reason.contains(part), "{part}: {reason}");
+        }
+        assert_eq!(draft.scene, before);
+        draft.choose(1);
+        assert!(draft.verdict.is_ok(), "what was refused is past");
+        typed(&mut draft, Choice::Young(0), "a");
+        let reason = draft.verdict.clone().err().unwrap_or_default();
+        assert!(reason.contains("no number"), "{reason}");
+        // A line has no radius across, a smooth body no wave.
+        draft.take("fzg_point_b");
+        assert_eq!(Choice::Radius(1).keys(&draft.scene), Vec::<String>::new());
+        assert_eq!(Choice::Load.keys(&draft.scene), ["load.force_n_per_m"]);
     }
 
     #[test]

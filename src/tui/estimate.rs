@@ -31,8 +31,8 @@ pub fn basis(setup: &Setup) -> EstimateBasis {
     let poisson = scene.body_1.poisson;
     let [one, two] = scene.surfaces();
     EstimateBasis {
-        crests_1_per_m: crests_per_m(one),
-        crests_2_per_m: crests_per_m(two),
+        crests_1_per_m: one.crests_per_m(),
+        crests_2_per_m: two.crests_per_m(),
         shape,
         section,
         load_n: setup.load_n,
@@ -64,9 +64,6 @@ fn oil(scene: &Scene) -> Option<OilBasis> {
     })
 }
 
-/// A wave turned by a right angle has no crests along x, not 1e-17 of them per wavelength.
-const NONE_PER_M: f64 = 1e-3;
-
 fn wave_of(surface: &Surface) -> Option<Waviness> {
     let Surface::Sinusoid {
         wavelength_x_m,
@@ -82,12 +79,6 @@ fn wave_of(surface: &Surface) -> Option<Waviness> {
     Some(Waviness::new(wavelength_x_m, wavelength_y_m, angle, phase))
 }
 
-/// Crests that a streamline along x meets per metre.
-fn crests_per_m(surface: &Surface) -> f64 {
-    let crests = wave_of(surface).map_or_else(|| surface.crests_per_m(), |w| w.crest_density_x());
-    if crests < NONE_PER_M { 0.0 } else { crests }
-}
-
 /// The plane waves that a surface is made of: a product of two is two of half its height; a measured surface is taken
 /// for one transverse wave of its rms height and its crests.
 fn waves(surface: &Surface) -> [SurfaceWave; 2] {
@@ -98,7 +89,7 @@ fn waves(surface: &Surface) -> [SurfaceWave; 2] {
             return [none; 2];
         }
         let one = SurfaceWave {
-            wavenumber_per_m: [TAU * crests_per_m(surface), 0.0],
+            wavenumber_per_m: [TAU * surface.crests_per_m(), 0.0],
             share: SQRT_2 * rms_m / amplitude_m,
         };
         return [one, none];
@@ -128,17 +119,6 @@ mod tests {
             angle_deg,
             phase_deg: 0.0,
         }
-    }
-
-    #[test]
-    fn crests_by_lay() {
-        let inf = f64::INFINITY;
-        assert_eq!(crests_per_m(&Surface::Smooth {}), 0.0);
-        assert_relative_eq!(crests_per_m(&wave(1e-4, inf, 0.0)), 1e4);
-        assert_eq!(crests_per_m(&wave(inf, 1e-4, 0.0)), 0.0);
-        assert_eq!(crests_per_m(&wave(1e-4, inf, 90.0)), 0.0);
-        assert_relative_eq!(crests_per_m(&wave(inf, 1e-4, 90.0)), 1e4);
-        assert_relative_eq!(crests_per_m(&wave(1e-4, inf, 60.0)), 5e3, epsilon = 1e-8);
     }
 
     #[test]

@@ -6,6 +6,12 @@ use crate::sim::{Dimension, Frame, Quantity};
 
 pub use crate::math::number::{Unit, bytes, nice_ceiling, seconds, sig, sig_or_dash, tick};
 
+/// A number as people type it: decimal commas and typographic minus signs, too.
+pub fn read_number(text: &str) -> Option<f64> {
+    let plain = text.trim().replace(',', ".").replace('−', "-");
+    plain.parse().ok()
+}
+
 /// A system of units for the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Units {
@@ -85,6 +91,14 @@ impl Units {
         match self {
             Self::Gpa | Self::Mpa => UM,
             Self::Shop => Unit::new("mil", 1e3 / 0.0254),
+        }
+    }
+
+    /// Radius of a body.
+    pub fn radius(self) -> Unit {
+        match self {
+            Self::Gpa | Self::Mpa => Unit::new("mm", 1e3),
+            Self::Shop => Unit::new("in", 1.0 / 0.0254),
         }
     }
 

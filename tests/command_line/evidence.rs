@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use asperity::physics::gear::{GearPair, LoadSharing};
+use asperity::physics::gear::{GearPair, GearTeeth, LoadSharing};
 use asperity::scene::{CycleBasis, Scene, presets};
 use asperity::study::Extent;
 use asperity::study::evidence::{
@@ -178,18 +178,20 @@ fn places_along_the_tooth_are_those_of_the_involute() {
         .find(|e| e.name.ends_with("gear"))
         .unwrap();
     let gear = GearPair {
-        teeth: [23, 23],
-        module_m: 3.95e-3,
-        pressure_angle_rad: 25_f64.to_radians(),
-        centre_distance_m: 91.502e-3,
-        tip_diameters_m: [98.75e-3; 2],
+        gears: GearTeeth {
+            teeth: [23, 23],
+            module_m: 3.95e-3,
+            pressure_angle_rad: 25_f64.to_radians(),
+            centre_distance_m: 91.502e-3,
+            tip_diameters_m: [98.75e-3; 2],
+        },
         face_width_m: 1.0,
         torque_n_m: 1.0,
         speed_rad_s: 3000.0 * PI / 30.0,
         load_sharing: LoadSharing::Whole,
     };
-    let line = gear.line_of_action().unwrap();
-    let base_m = gear.base_radii_m()[0];
+    let line = gear.gears.line_of_action().unwrap();
+    let base_m = gear.gears.base_radii_m()[0];
     // The pitch point is the last of the paper's places.
     assert!(((line.c / base_m).to_degrees() - 27.77).abs() < 0.01);
     let mut full = None;

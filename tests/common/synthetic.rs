@@ -69,6 +69,7 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
         numerics: Numerics::default(),
         stress: None,
         life: None,
+        tooth: None,
         record: Some(Record::default()),
         events: Vec::<Event>::new(),
     }

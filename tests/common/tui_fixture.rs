@@ -101,6 +101,7 @@ pub(crate) fn scene() -> Scene {
             cycles: CycleBasis::Global,
             ..Life::default()
         }),
+        tooth: None,
         record: Some(Record::default()),
         events: Vec::new(),
     }

@@ -8,80 +8,50 @@ use asperity::observe::{
     ObserveError, Observer, ObserverReport, RunContext, RunEvent, RunEventKind,
 };
 use asperity::plan::Plan;
-use asperity::run::{Command, End, Ending, Outcome, Request, RunError, Session, Stepper, Watcher};
-use asperity::scene::{Event, Scene, presets};
-use asperity::sim::{Frame, Knob, Metrics, SimError, Stage, StepError, Summary};
+use asperity::run::{
+    Command, End, Ending, Outcome, Request, RunError, Session, Unconverged, Watcher,
+};
+use asperity::scene::{Event, Override, Scene, presets};
+use asperity::sim::{Frame, Knob, SimError, Simulation, StepError};
 
-const START_UP: u64 = 3;
-const DT_S: f64 = 1e-3;
+/// Takes the oil out: steps of a fraction of a millisecond.
+const DRY: &str = "lubricant=none";
 
-/// A simulation that does nothing but what the test asks for.
-#[derive(Default)]
-struct Fake {
-    made: u64,
-    wanted: u64,
-    stalls_at: Option<u64>,
-    panics_at: Option<u64>,
-    unconverged: Vec<u64>,
-    metrics: Metrics,
-    /// Slide-to-roll ratio of each passage step.
-    history: Arc<Mutex<Vec<f64>>>,
+/// A rough contact on few nodes.
+fn scene(sets: &[&str]) -> Scene {
+    let all = [
+        "grid.nodes=33",
+        "stress=none",
+        "life=none",
+        "record=none",
+        "numerics.error_estimate=none",
+        "time.passages=0.05",
+        "body_1.surface.wavelength_x_m=6e-4",
+        "body_2.surface.wavelength_x_m=6e-4",
+        "body_2.surface.wavelength_y_m=6e-4",
+        "motion.slide_roll=0",
+    ];
+    let sets: Vec<Override> = (all.iter().chain(sets))
+        .map(|set| set.parse().unwrap())
+        .collect();
+    Scene::load_with(presets::QUICK, &sets).unwrap()
 }
 
-impl Stepper for Fake {
-    fn step(&mut self) -> Result<(), StepError> {
-        self.made += 1;
-        let step = self.passage_steps();
-        if self.stalls_at == Some(step) {
-            return Err(StepError::NotFinite { t_s: self.time_s() });
+/// Steps that fail where the test asks for it; a step of the passage is the one after so many.
+#[derive(Default)]
+struct Faults {
+    stalls_at: Option<u64>,
+    panics_at: Option<u64>,
+}
+
+impl Faults {
+    fn step(&self, sim: &mut Simulation) -> Result<(), StepError> {
+        let step = (sim.passage_steps() > 0).then(|| sim.passage_steps() + 1);
+        if step.is_some() && self.stalls_at == step {
+            return Err(StepError::NotFinite { t_s: sim.time_s() });
         }
-        assert_ne!(self.panics_at, Some(step), "planted");
-        self.metrics.converged = !self.unconverged.contains(&step);
-        self.metrics.residual = 0.5;
-        if step > 0 {
-            self.history.lock().unwrap().push(self.metrics.slide_roll);
-        }
-        Ok(())
-    }
-    fn set(&mut self, knob: Knob, value: f64) -> Result<(), SimError> {
-        if value > 2.0 {
-            return Err(SimError::Knob {
-                key: knob.key(),
-                value,
-                allowed: "at most 2".into(),
-            });
-        }
-        self.metrics.slide_roll = value;
-        Ok(())
-    }
-    fn fill(&self, frame: &mut Frame) {
-        frame.step = self.passage_steps();
-        frame.stage = self.stage();
-    }
-    fn metrics(&self) -> &Metrics {
-        &self.metrics
-    }
-    fn stage(&self) -> Stage {
-        if self.made > START_UP {
-            Stage::Passage
-        } else {
-            Stage::StartUp
-        }
-    }
-    fn progress(&self) -> f64 {
-        self.made as f64 / (START_UP + self.wanted) as f64
-    }
-    fn passage_steps(&self) -> u64 {
-        self.made.saturating_sub(START_UP)
-    }
-    fn time_s(&self) -> f64 {
-        self.passage_steps() as f64 * DT_S
-    }
-    fn is_done(&self) -> bool {
-        self.passage_steps() >= self.wanted
-    }
-    fn summary(&self) -> Summary {
-        Summary::default()
+        assert!(step.is_none() || self.panics_at != step, "planted");
+        sim.step()
     }
 }
 
@@ -89,6 +59,10 @@ impl Stepper for Fake {
 #[derive(Debug, Default, Clone)]
 struct Seen {
     frames: Vec<u64>,
+    /// Where S was going in each frame.
+    targets: Vec<f64>,
+    /// Steps whose frames say that they did not converge.
+    unconverged: Vec<u64>,
     events: Vec<(u64, String)>,
     finished: u32,
 }
@@ -111,7 +85,12 @@ impl Observer for Probe {
         if self.fails_at == Some(frame.step) {
             return Err(ObserveError::new("probe", "disk full"));
         }
-        self.seen.lock().unwrap().frames.push(frame.step);
+        let mut seen = self.seen.lock().unwrap();
+        seen.frames.push(frame.step);
+        seen.targets.push(frame.metrics.slide_roll_target);
+        if !frame.metrics.converged {
+            seen.unconverged.push(frame.step);
+        }
         Ok(())
     }
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
@@ -130,32 +109,28 @@ impl Observer for Probe {
 }
 
 struct Case {
-    fake: Fake,
+    scene: Scene,
+    faults: Faults,
     ending: Ending,
     every_steps: u64,
     fails_at: Option<u64>,
     fails_to_begin: Option<()>,
-    events: Vec<Event>,
 }
 
 impl Case {
-    fn new(wanted: u64) -> Self {
+    /// A run of so many steps of the passage.
+    fn new(steps: u64) -> Self {
         Self {
-            fake: Fake {
-                wanted,
-                ..Fake::default()
-            },
-            ending: Ending::Passages,
+            scene: scene(&[DRY]),
+            faults: Faults::default(),
+            ending: Ending::Steps(steps),
             every_steps: 1,
             fails_at: None,
             fails_to_begin: None,
-            events: Vec::new(),
         }
     }
 
     fn start(self) -> (Session, Arc<Mutex<Seen>>) {
-        let mut scene = Scene::load(presets::QUICK).unwrap();
-        scene.events = self.events;
         let seen = Arc::new(Mutex::new(Seen::default()));
         let probe = Probe {
             seen: Arc::clone(&seen),
@@ -164,17 +139,16 @@ impl Case {
         };
         let request = Request {
             name: "test".into(),
-            plan: Plan::new(&scene).unwrap(),
-            scene: Arc::new(scene),
+            plan: Plan::new(&self.scene).unwrap(),
+            scene: Arc::new(self.scene),
             threads: 1,
             watchers: vec![Watcher::new("probe", Box::new(probe), self.every_steps)],
             ending: self.ending,
         };
-        let fake = self.fake;
-        (
-            Session::start_with(request, move |_| Ok(fake)).unwrap(),
-            seen,
-        )
+        let (plan, faults) = (request.plan.clone(), self.faults);
+        let make = move |scene: &Scene| Simulation::new(scene, plan, 1);
+        let session = Session::start_with(request, make, move |sim| faults.step(sim));
+        (session.unwrap(), seen)
     }
 
     fn run(self) -> (Outcome, Seen) {
@@ -220,27 +194,36 @@ fn a_cadence_thins_the_frames_of_its_output_only() {
 
 #[test]
 fn steps_that_do_not_converge_are_named_and_change_the_exit_code() {
-    let mut case = Case::new(6);
-    case.fake.unconverged = vec![2, 5];
+    let mut case = Case::new(30);
+    // So little and so few that some steps get there and some do not.
+    case.scene = scene(&["numerics.tolerance=5e-9", "numerics.max_iterations=2"]);
     let (outcome, seen) = case.run();
-    let named: Vec<u64> = outcome.unconverged.iter().map(|step| step.step).collect();
-    assert_eq!(named, [2, 5]);
-    assert_eq!((outcome.n_unconverged, outcome.exit_code()), (2, 2));
+    println!("{:?} of {:?}", seen.unconverged, seen.frames);
+    assert!(!seen.unconverged.is_empty() && seen.unconverged.len() < seen.frames.len());
+    // Those of the start-up, which has no frames, bear the number 0.
+    let kept = |step: &&Unconverged| step.step > 0;
+    let named = outcome
+        .unconverged
+        .iter()
+        .filter(kept)
+        .map(|step| step.step);
+    assert_eq!(named.collect::<Vec<_>>(), seen.unconverged);
+    let all = outcome.unconverged.len() as u64;
+    assert_eq!((outcome.n_unconverged, outcome.exit_code()), (all, 2));
     let summary = outcome.summary.unwrap();
-    assert_eq!((summary.converged, summary.steps_not_converged), (false, 2));
     assert_eq!(
-        seen.events,
-        [
-            (2, "residual 0.5".to_owned()),
-            (5, "residual 0.5".to_owned())
-        ]
+        (summary.converged, summary.steps_not_converged),
+        (false, all)
     );
+    let told = outcome.unconverged.iter();
+    let told = told.map(|step| (step.step, format!("residual {}", step.unsolved.residual)));
+    assert_eq!(seen.events, told.collect::<Vec<_>>());
 }
 
 #[test]
 fn a_stall_ends_the_run_and_closes_the_outputs() {
     let mut case = Case::new(6);
-    case.fake.stalls_at = Some(4);
+    case.faults.stalls_at = Some(4);
     let (outcome, seen) = case.run();
     assert!(matches!(
         outcome.end,
@@ -253,7 +236,7 @@ fn a_stall_ends_the_run_and_closes_the_outputs() {
 
 #[test]
 fn a_simulation_that_cannot_start_is_an_outcome() {
-    let scene = Scene::load(presets::QUICK).unwrap();
+    let scene = scene(&[DRY]);
     let request = Request {
         name: "test".into(),
         plan: Plan::new(&scene).unwrap(),
@@ -263,12 +246,12 @@ fn a_simulation_that_cannot_start_is_an_outcome() {
         ending: Ending::Passages,
     };
     let refused = |_: &Scene| {
-        Err::<Fake, _>(SimError::Threads {
+        Err(SimError::Threads {
             threads: 1,
             reason: "none left".into(),
         })
     };
-    let outcome = Session::start_with(request, refused)
+    let outcome = Session::start_with(request, refused, Simulation::step)
         .unwrap()
         .join()
         .unwrap();
@@ -307,8 +290,9 @@ fn a_live_run_goes_on_without_an_output_that_failed() {
     let mut case = Case::new(5);
     case.fails_at = Some(3);
     case.ending = Ending::OnStop;
+    let planned = Plan::new(&case.scene).unwrap().steps;
     let (session, seen) = case.start();
-    wait_until(&session, |steps| steps > 20);
+    wait_until(&session, |steps| steps > planned + 5);
     session.send(Command::Stop);
     let outcome = session.join().unwrap();
     assert!(
@@ -322,7 +306,7 @@ fn a_live_run_goes_on_without_an_output_that_failed() {
 
 #[test]
 fn stop_ends_cleanly() {
-    let mut case = Case::new(u64::MAX - START_UP);
+    let mut case = Case::new(u64::MAX);
     case.every_steps = 1_000_000;
     let (session, seen) = case.start();
     wait_until(&session, |steps| steps > 2);
@@ -375,15 +359,15 @@ fn scripted_events_take_effect_at_their_time_in_order() {
         set: [("motion.slide_roll".to_owned(), value)].into(),
         caption: caption.into(),
     };
+    let dt_s = Plan::new(&case.scene).unwrap().dt_s;
     // Out of order in the file.
-    case.events = vec![
-        event(5.0 * DT_S, 1.0, "later"),
-        event(2.0 * DT_S, 0.25, "first"),
+    case.scene.events = vec![
+        event(4.5 * dt_s, 1.0, "later"),
+        event(1.5 * dt_s, 0.25, "first"),
     ];
-    let history = Arc::clone(&case.fake.history);
     let (outcome, seen) = case.run();
     let (a, b) = (0.25, 1.0);
-    assert_eq!(*history.lock().unwrap(), [0.0, 0.0, a, a, a, b, b, b]);
+    assert_eq!(seen.targets, [0.0, 0.0, a, a, a, b, b, b]);
     let log: Vec<_> = outcome
         .applied
         .iter()
@@ -424,17 +408,17 @@ fn a_knob_that_is_refused_is_logged_as_the_words_that_tell_it() {
     let [told, stopped] = &outcome.applied[..] else {
         panic!("{:?}", outcome.applied);
     };
-    assert!(matches!(&told.command, Command::Say(text) if text.contains("at most 2")));
+    assert!(matches!(&told.command, Command::Say(text) if text.contains("-2 to 2")));
     assert_eq!(stopped.command, Command::Stop);
     let events = seen.lock().unwrap().events.clone();
     assert_eq!(events.len(), 1, "{events:?}");
-    assert!(events[0].1.contains("at most 2"), "{events:?}");
+    assert!(events[0].1.contains("-2 to 2"), "{events:?}");
 }
 
 #[test]
 fn a_panic_of_the_simulation_is_an_error_and_not_a_hang() {
     let mut case = Case::new(5);
-    case.fake.panics_at = Some(2);
+    case.faults.panics_at = Some(2);
     let (session, _) = case.start();
     assert!(matches!(session.join(), Err(RunError::Panicked(text)) if text.contains("planted")));
 }

@@ -27,6 +27,16 @@ fn scene() -> Scene {
 
 /// Records frames that a change was made to.
 fn record(path: &Path, steps: u64, change: impl Fn(&mut Frame)) -> Vec<Arc<Frame>> {
+    record_every(1, path, steps, change)
+}
+
+/// Same with the fields of every so-many-th step.
+fn record_every(
+    every_steps: usize,
+    path: &Path,
+    steps: u64,
+    change: impl Fn(&mut Frame),
+) -> Vec<Arc<Frame>> {
     let frames = (1..=steps).map(|step| {
         let mut frame = Frame::clone(&synthetic::frame(NODES, step));
         change(&mut frame);
@@ -34,7 +44,7 @@ fn record(path: &Path, steps: u64, change: impl Fn(&mut Frame)) -> Vec<Arc<Frame
     });
     let frames: Vec<Arc<Frame>> = frames.collect();
     let record = Record {
-        every_steps: 1,
+        every_steps,
         budget_mb: 200.0,
     };
     let mut recorder = Recorder::create(path, Overwrite::Refuse, &record).unwrap();
@@ -177,6 +187,25 @@ fn ranges_are_common_and_hold_both() {
     }
     // What a run shows alone is less: the ranges had to grow.
     assert!(alone[0].top("maps/pressure_GPa/image") < contents.top("a/maps/pressure_GPa/image"));
+}
+
+/// Where only every third step has a picture not every moment has one of each run near it.
+#[test]
+fn seldom_pictures_are_at_most_a_step_apart_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let [one, two, out] = ["a.rrd", "b.rrd", "both.rrd"].map(|name| folder.path().join(name));
+    record_every(3, &one, 4 * STEPS, |_| {});
+    record_every(3, &two, 8 * STEPS, |frame| {
+        frame.time_s *= 0.71;
+        frame.metrics.slide_roll = 0.8;
+    });
+    for by in [ComparedBy::Time, ComparedBy::Place] {
+        let told = beside(&[&one, &two], &out, by).unwrap();
+        assert!(told.apart_steps < 1.001, "{by:?}: {}", told.apart_steps);
+        // More than half of the first run's pictures, of a third of its steps.
+        assert!(told.pictures > 4 * STEPS / 6, "{by:?}: {}", told.pictures);
+        std::fs::remove_file(&out).unwrap();
+    }
 }
 
 #[test]

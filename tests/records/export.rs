@@ -76,6 +76,7 @@ fn pictures_are_drawn_of_every_map_and_of_the_centre_line() {
         "effective_stress",
         "tau_xz",
         "centre_line",
+        "profile",
     ] {
         let file = folder.path().join(format!("step_000016_{name}.png"));
         let picture = std::fs::read(&file).unwrap();

@@ -13,4 +13,5 @@ mod restart;
 mod restart_cli;
 mod restart_matrix;
 mod viewer;
+mod views;
 mod workspace;

@@ -172,23 +172,48 @@ impl Contents {
         tops
     }
 
-    /// The highest point of an entity's curves in a step: heights count downwards.
-    fn highest(&self, entity: &str, step: i64) -> f32 {
+    /// Curves of an entity, by step.
+    pub(super) fn strips(&self, entity: &str) -> BTreeMap<i64, Vec<Vec<[f32; 2]>>> {
         let component = rerun::LineStrips2D::descriptor_strips().component;
         let of_entity = |chunk: &&Chunk| {
             chunk.entity_path().to_string() == format!("/{entity}") && !chunk.is_static()
         };
+        let mut curves = BTreeMap::new();
         for chunk in self.data.iter().filter(of_entity) {
             let steps = chunk.timelines()[&"step".into()].times_raw().to_vec();
-            let row = steps.iter().position(|&own| own == step);
-            let Some(batch) = row.and_then(|row| chunk.component_batch_raw(component, row)) else {
-                continue;
-            };
-            let strips = rerun::components::LineStrip2D::from_arrow(&batch.unwrap()).unwrap();
-            let heights = strips.iter().flat_map(|strip| &strip.0).map(|at| -at.0[1]);
-            return heights.fold(0.0, f32::max);
+            for (row, step) in steps.into_iter().enumerate() {
+                let Some(batch) = chunk.component_batch_raw(component, row) else {
+                    continue;
+                };
+                let strips = rerun::components::LineStrip2D::from_arrow(&batch.unwrap()).unwrap();
+                let strips = strips.into_iter();
+                let strips = strips.map(|strip| strip.0.iter().map(|at| at.0).collect());
+                curves.insert(step, strips.collect());
+            }
         }
-        panic!("{entity} has nothing in step {step}")
+        curves
+    }
+
+    /// Points of an entity, by step.
+    pub(super) fn places(&self, entity: &str) -> BTreeMap<i64, Vec<[f32; 2]>> {
+        let component = rerun::Points2D::descriptor_positions().component;
+        let of_entity = |chunk: &&Chunk| {
+            chunk.entity_path().to_string() == format!("/{entity}") && !chunk.is_static()
+        };
+        let mut places = BTreeMap::new();
+        for chunk in self.data.iter().filter(of_entity) {
+            let steps = chunk.timelines()[&"step".into()].times_raw().to_vec();
+            let rows = chunk.iter_slices::<[f32; 2]>(component);
+            places.extend(steps.into_iter().zip(rows.map(<[[f32; 2]]>::to_vec)));
+        }
+        places
+    }
+
+    /// The highest point of an entity's curves in a step: heights count downwards.
+    fn highest(&self, entity: &str, step: i64) -> f32 {
+        let strips = self.strips(entity);
+        let points = strips[&step].iter().flatten();
+        points.map(|at| -at[1]).fold(0.0, f32::max)
     }
 
     /// Labels of an entity, those of a row one after another.
@@ -282,7 +307,7 @@ fn recorded(frames: &[Arc<Frame>]) -> Contents {
 }
 
 /// Records `frames` of that scene.
-fn record_scene(path: &Path, scene: Scene, frames: &[Arc<Frame>]) -> ObserverReport {
+pub(super) fn record_scene(path: &Path, scene: Scene, frames: &[Arc<Frame>]) -> ObserverReport {
     let mut recorder = Recorder::create(path, Overwrite::Refuse, &every_step()).unwrap();
     recorder.begin(&synthetic::context(scene)).unwrap();
     for frame in frames {
@@ -493,6 +518,7 @@ fn what_stays_is_logged_once_and_the_file_explains_itself() {
         "log",
         "maps",
         "material_point",
+        "profile_y0",
         "scalars_si",
         "series",
         "slice_y0",

@@ -1,7 +1,7 @@
 //! A run that is saved and taken up again equals the uninterrupted one, bit for bit.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use crate::common::keeper::kept_request;
+use crate::common::keeper::{bits, kept_request};
 use asperity::plan::Plan;
 use asperity::run::{Checkpoint, CheckpointError, End, Ending, Outcome, Session};
 use asperity::scene::{Override, Scene};
@@ -16,12 +16,6 @@ const SMALL: [&str; 3] = ["grid.nodes=65", "stress.depths=8", "record=none"];
 
 fn simulation(scene: &Scene) -> Simulation {
     Simulation::new(scene, Plan::new(scene).unwrap(), 2).unwrap()
-}
-
-/// Every bit of a frame, so that −0 and 0 differ and NaN equals itself.
-fn bits(frame: &Frame) -> String {
-    // Debug prints floats with as many digits as tell them apart, and the sign of zero.
-    format!("{frame:?}")
 }
 
 fn through_json(state: &State) -> State {

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod lessons;
+mod memory;
 mod numbers;
 mod screens;
 mod session;

@@ -174,6 +174,9 @@ fn many(theme: Theme) -> Vec<App> {
         with(&[Action::PreviousMap, Action::PointQuantity]),
         with(&[Action::Help]),
         with(&[Action::Plan]),
+        with(&[Action::Scene]),
+        with(&[Action::OperatingPoint]),
+        with(&[Action::OperatingPoint, Action::ChooseNext, Action::Type]),
         with(&[Action::Lessons]),
         with(&[Action::Lessons, Action::Enter]),
         with(&[Action::Lessons, Action::Enter, Action::NextBeat]),
@@ -346,6 +349,65 @@ fn another_scene_is_put_together_judged_and_run() {
     };
     assert!(wavelength_x_m.is_infinite(), "ridges along the motion");
     assert_eq!(name, "demonstration", "its files bear its name");
+}
+
+/// The operating point as numbers: typed in the units that are shown, refused by key, value and range, run by Enter.
+#[test]
+fn an_operating_point_is_typed_judged_and_run() {
+    let mut app = running(plain());
+    app.apply(Action::OperatingPoint);
+    for (width, height) in [(60, 20), (80, 24), (120, 36), (160, 48), (200, 60)] {
+        let name = format!("operating_point_{width}x{height}");
+        insta::assert_snapshot!(name, text(&app, width, height));
+    }
+    let type_in = |app: &mut App, number: &str| {
+        assert_eq!(app.apply(Action::Type), []);
+        assert!(app.is_typing(), "digits are letters now");
+        for letter in number.chars() {
+            app.apply(Action::Letter(letter));
+        }
+    };
+    // The radius along the motion, in mm.
+    app.apply(Action::ChooseNext);
+    type_in(&mut app, "12.5");
+    insta::assert_snapshot!("operating_point_typed_60x20", text(&app, 60, 20));
+    assert_eq!(
+        app.apply(Action::Enter),
+        [],
+        "the number is set, nothing runs"
+    );
+    // One below the range of its key.
+    app.apply(Action::ChooseNext);
+    type_in(&mut app, "1e-9");
+    app.apply(Action::Enter);
+    let refused = text(&app, 60, 20);
+    for part in ["contact.ry_m", "1e-12", "1e-6 to 100 m"] {
+        assert!(refused.contains(part), "{part} in\n{refused}");
+    }
+    insta::assert_snapshot!("operating_point_refused_80x24", text(&app, 80, 24));
+    assert_eq!(app.apply(Action::Enter), [], "read, and not run");
+    // The last row is seen where not all fit, and a form that is left forgets the number, not the draft.
+    app.apply(Action::ChoosePrevious);
+    app.apply(Action::ChoosePrevious);
+    app.apply(Action::ChoosePrevious);
+    assert!(text(&app, 60, 20).contains("wavelength 2"));
+    type_in(&mut app, "9");
+    app.apply(Action::Close);
+    assert!(!app.is_typing());
+    app.apply(Action::Scene);
+    app.apply(Action::OperatingPoint);
+    let effects = app.apply(Action::Enter);
+    let [Effect::Rebuild(next, _)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    assert_eq!(next.contact.rx_m, 0.0125);
+    assert_ne!(next.contact.ry_m, Some(1e-12));
+    // A typical point by its digit, and Escape drops all.
+    app.apply(Action::OperatingPoint);
+    app.apply(Action::Typical(2));
+    assert!(text(&app, 80, 24).contains("ball_bearing"));
+    assert_eq!(app.apply(Action::Close), []);
+    assert!(!text(&app, 80, 24).contains("ball_bearing"));
 }
 
 #[test]

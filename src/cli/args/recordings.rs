@@ -82,6 +82,8 @@ fn within<const LEAST: u32, const MOST: u32>(text: &str) -> Result<f64, String> 
 pub(crate) enum ExportAs {
     /// Fields as numpy archives
     Npz,
+    /// All fields as NetCDF
+    Nc,
     /// Maps and centre line as pictures
     Png,
     /// The same as papers print them: sized in mm, axes and text as vectors, no title
@@ -101,6 +103,7 @@ impl ExportAs {
     pub(crate) fn of_steps(self) -> Option<Format> {
         match self {
             Self::Npz => Some(Format::Npz),
+            Self::Nc => Some(Format::NetCdf),
             Self::Png => Some(Format::Png),
             Self::Svg => Some(Format::Svg),
             Self::Pdf => Some(Format::Pdf),

@@ -14,13 +14,13 @@ use crate::picture::{NodeAxis, Picture};
 /// Width of a picture's axes, pixels.
 const WIDE: u32 = 720;
 /// Room around the axes, pixels.
-const LEFT: u32 = 92;
-const ABOVE: u32 = 74;
-const BELOW: u32 = 58;
+pub(super) const LEFT: u32 = 92;
+pub(super) const ABOVE: u32 = 74;
+pub(super) const BELOW: u32 = 58;
 const RIGHT: u32 = 116;
 /// The axes' titles stand on their left edge.
-const EDGE: u32 = 18;
-type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
+pub(super) const EDGE: u32 = 18;
+pub(super) type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
 /// A picture to draw.
 pub(super) struct Drawing {
@@ -41,7 +41,7 @@ pub(super) enum PictureTarget<'a> {
 
 impl<'a> PictureTarget<'a> {
     /// Width of the axes.
-    fn wide(&self) -> u32 {
+    pub(super) fn wide(&self) -> u32 {
         match self {
             Self::File(_) => WIDE,
             Self::Pixels(_, wide) => *wide,
@@ -128,7 +128,11 @@ impl Drawing {
     }
 
     /// An empty picture with title and state.
-    fn begin<'a>(&self, canvas: PictureTarget<'a>, size: (u32, u32)) -> Result<Area<'a>, String> {
+    pub(super) fn begin<'a>(
+        &self,
+        canvas: PictureTarget<'a>,
+        size: (u32, u32),
+    ) -> Result<Area<'a>, String> {
         font()?;
         let root = canvas.area(size);
         let text = |text: &str, y: i32, size: i32, colour: RGBColor| {

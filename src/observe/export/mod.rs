@@ -1,4 +1,4 @@
-//! Chosen steps as `.npz` files that numpy, Julia and MATLAB read, and as pictures, with the scene beside them.
+//! Chosen steps as `.npz` files that numpy, Julia and MATLAB read, as NetCDF, and as pictures, with the scene beside them.
 //!
 //! One file a step: `step_000128.npz` with arrays named as the frame's fields, units in the names, `[y, x]`
 //! with x the rolling direction, the slice `[depth, x]`; every scalar that is known, named as in the table. Pictures are `step_000128_pressure.png` and so on. Beside them `scene.toml`, which
@@ -6,9 +6,12 @@
 
 mod animation;
 mod drawing;
+mod fields;
+mod netcdf;
 mod npz;
 mod pages;
 mod paper;
+mod profile;
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
@@ -18,19 +21,21 @@ use std::sync::Arc;
 
 use self::animation::Animation;
 use self::drawing::PictureTarget;
-use self::npz::Npz;
+use self::fields::{write_netcdf, write_npz};
 use self::pages::{Page, Pictures};
 pub use self::paper::PrintSize;
 use super::{
     NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
 };
-use crate::sim::{CATALOGUE, Frame, Stage};
+use crate::sim::{Frame, Stage};
 
 /// What is written of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// All fields as a numpy archive.
     Npz,
+    /// All fields as NetCDF.
+    NetCdf,
     /// Maps and centre line as pictures.
     Png,
     /// The same as papers print them, axes and text as vectors.
@@ -47,6 +52,7 @@ impl Format {
     fn ending(self) -> &'static str {
         match self {
             Self::Npz => "npz",
+            Self::NetCdf => "nc",
             Self::Png => "png",
             Self::Svg => "svg",
             Self::Pdf => "pdf",
@@ -160,7 +166,7 @@ impl Export {
         }
         for format in self.formats.clone().into_iter().filter(|_| as_still) {
             self.bytes += match format {
-                Format::Npz => self.write(frame)?,
+                Format::Npz | Format::NetCdf => self.write(frame, format)?,
                 Format::Png | Format::Svg | Format::Pdf => self.draw(frame, format)?,
                 Format::Gif | Format::Apng => 0,
             };
@@ -233,10 +239,16 @@ impl Export {
         Ok(())
     }
 
-    fn write(&self, frame: &Frame) -> Result<u64, ObserveError> {
-        let path = self.folder.join(format!("step_{:06}.npz", frame.step));
-        self.overwrite
-            .write_by(&path, |at| write_frame(File::create(at)?, frame))
+    /// Writes the arrays of a step; the bytes written.
+    fn write(&self, frame: &Frame, format: Format) -> Result<u64, ObserveError> {
+        let file = format!("step_{:06}.{}", frame.step, format.ending());
+        self.overwrite.write_by(&self.folder.join(file), |at| {
+            let out = BufWriter::new(File::create(at)?);
+            match format {
+                Format::NetCdf => write_netcdf(out, frame),
+                _ => write_npz(out, frame),
+            }
+        })
     }
 
     /// Puts the scene into the folder, in place of what an earlier run left there: its steps beside another scene
@@ -274,48 +286,7 @@ fn is_a_step(name: &str) -> bool {
         return false;
     };
     let what = rest.trim_start_matches(|c: char| c.is_ascii_digit());
-    rest.len() - what.len() >= 6 && (what == ".npz" || Pictures::are_named(what))
-}
-
-/// All arrays of a frame; the bytes written.
-fn write_frame(file: File, frame: &Frame) -> std::io::Result<u64> {
-    let mut npz = Npz::new(BufWriter::new(file));
-    for quantity in CATALOGUE {
-        if let Some(value) = quantity.number(frame) {
-            npz.f64(quantity.name, &[], &[value])?;
-        }
-    }
-    let axis = |n: usize, first: f64, step: f64| -> Vec<f64> {
-        (0..n).map(|k| first + step * k as f64).collect()
-    };
-    npz.f64(
-        "x_m",
-        &[frame.nx],
-        &axis(frame.nx, frame.x_min_m, frame.dx_m),
-    )?;
-    npz.f64(
-        "y_m",
-        &[frame.ny],
-        &axis(frame.ny, frame.y_min_m, frame.dy_m),
-    )?;
-    let plane = [frame.ny, frame.nx];
-    for (name, field) in [
-        ("pressure_pa", &frame.pressure_pa),
-        ("film_m", &frame.film_m),
-        ("roughness_1_m", &frame.roughness_1_m),
-        ("roughness_2_m", &frame.roughness_2_m),
-        ("traction_on_body_1_pa", &frame.traction_pa),
-    ] {
-        npz.f32(name, &plane, field)?;
-    }
-    npz.u8("contact", &plane, &frame.contact)?;
-    if let Some(slice) = &frame.slice {
-        let shape = [slice.depths_m.len(), frame.nx];
-        npz.f64("slice_depths_m", &shape[..1], &slice.depths_m)?;
-        npz.f32("slice_effective_pa", &shape, &slice.effective_pa)?;
-        npz.f32("slice_tau_xz_pa", &shape, &slice.tau_xz_pa)?;
-    }
-    npz.finish()
+    rest.len() - what.len() >= 6 && ([".npz", ".nc"].contains(&what) || Pictures::are_named(what))
 }
 
 impl Observer for Export {

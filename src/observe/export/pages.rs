@@ -6,6 +6,7 @@ use std::borrow::Cow;
 
 use super::drawing::{Drawing, DrawnCurve, ExportedFigure, PictureTarget, Right};
 use super::paper::{Paper, PrintSize};
+use super::profile::ProfilePage;
 use crate::math::number::{GPA, MM, UM, Unit, plain};
 use crate::picture::{Look, NodeAxis, Picture, Ramp, Ranges, Scope, Subject};
 use crate::scene::{ContactKind, Scene};
@@ -72,6 +73,11 @@ impl Pictures {
         scope.ranges
     }
 
+    /// The profile in the ranges that were asked for last.
+    fn profile<'a>(&self, frame: &'a Frame) -> Option<ProfilePage<'a>> {
+        ProfilePage::of(frame, self.scene.as_ref()?, self.scope.as_ref()?)
+    }
+
     /// Draws one picture as papers print it; the bytes of an SVG or a PDF.
     ///
     /// # Errors
@@ -85,6 +91,10 @@ impl Pictures {
         let ranges = self.ranges(frame);
         let paper = match page {
             Page::CentreLine => Paper::figure(&centre_line(frame, ranges), print),
+            Page::Profile => match self.profile(frame) {
+                Some(profile) => profile.print(print, page.x_title()),
+                None => return Err("the frame does not hold it".to_owned()),
+            },
             _ => match page.picture(frame, &ranges) {
                 Some(picture) => Paper::map(&picture, print, page.x_title()),
                 None => return Err("the frame does not hold it".to_owned()),
@@ -120,6 +130,10 @@ impl Pictures {
         };
         match page {
             Page::CentreLine => drawing.figure(&centre_line(frame, ranges), canvas),
+            Page::Profile => match self.profile(frame) {
+                Some(profile) => profile.draw(&drawing, canvas),
+                None => Err("the frame does not hold it".to_owned()),
+            },
             _ => match page.picture(frame, &ranges) {
                 Some(picture) => drawing.map(&picture, canvas),
                 None => Err("the frame does not hold it".to_owned()),
@@ -135,12 +149,14 @@ pub(super) enum Page {
     Map(Subject),
     /// Curves along y = 0.
     CentreLine,
+    /// Both surfaces along y = 0 and the oil between them.
+    Profile,
     /// Damage collected by a block of body 1 (0) or 2 (1).
     Damage(usize),
 }
 
 /// The pages and the names of their files.
-const PAGES: [(&str, Page); 11] = [
+const PAGES: [(&str, Page); 12] = [
     ("pressure", Page::Map(Subject::Pressure)),
     ("film", Page::Map(Subject::Film)),
     ("interferogram", Page::Map(Subject::Interferogram)),
@@ -150,6 +166,7 @@ const PAGES: [(&str, Page); 11] = [
     ("effective_stress", Page::Map(Subject::EffectiveStress)),
     ("tau_xz", Page::Map(Subject::ShearStress)),
     ("centre_line", Page::CentreLine),
+    ("profile", Page::Profile),
     ("damage_1", Page::Damage(0)),
     ("damage_2", Page::Damage(1)),
 ];
@@ -159,6 +176,7 @@ impl Page {
         match self {
             Self::Map(subject) => subject.title(),
             Self::CentreLine => "Pressure and film at y = 0",
+            Self::Profile => "Both surfaces and the oil between them at y = 0",
             Self::Damage(0) => "Damage of body 1, log10 of the smooth contact's worst",
             Self::Damage(_) => "Damage of body 2, log10 of the smooth contact's worst",
         }
@@ -167,7 +185,9 @@ impl Page {
     fn x_title(self) -> &'static str {
         match self {
             Self::Damage(_) => "way along the surface from a crest, mm",
-            Self::Map(_) | Self::CentreLine => "x, mm (rolling direction to the right)",
+            Self::Map(_) | Self::CentreLine | Self::Profile => {
+                "x, mm (rolling direction to the right)"
+            }
         }
     }
 
@@ -176,7 +196,7 @@ impl Page {
         match self {
             Self::Map(subject) => Picture::of(frame, subject, ranges),
             Self::Damage(body) => damage(frame, frame.damage[body].as_ref()?),
-            Self::CentreLine => None,
+            Self::CentreLine | Self::Profile => None,
         }
     }
 
@@ -184,7 +204,7 @@ impl Page {
     fn is_in(self, frame: &Frame) -> bool {
         let subject = match self {
             Self::Map(subject) => subject,
-            Self::CentreLine => return true,
+            Self::CentreLine | Self::Profile => return true,
             Self::Damage(body) => {
                 let block = frame.damage[body].as_ref();
                 return block.is_some_and(|block| block.filled > 0);

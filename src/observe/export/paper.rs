@@ -36,6 +36,13 @@ impl Default for PrintSize {
     }
 }
 
+impl PrintSize {
+    /// Pixels of a field over a rectangle.
+    fn pixels(&self, plot: Box2) -> [u32; 2] {
+        [plot.wide, plot.high].map(|side| (side / 72.0 * self.dpi).round().max(2.0) as u32)
+    }
+}
+
 /// Points of a millimetre.
 const PT_PER_MM: f64 = 72.0 / 25.4;
 
@@ -66,7 +73,7 @@ struct Stroke {
 }
 
 /// A rectangle of pixels, three bytes each.
-struct PixelArea {
+pub(super) struct PixelArea {
     at: [f64; 2],
     size: [f64; 2],
     pixels: [u32; 2],
@@ -83,18 +90,50 @@ pub(super) struct Paper {
 }
 
 /// Black of axes.
-const INK: [u8; 3] = [20, 20, 20];
+pub(super) const INK: [u8; 3] = [20, 20, 20];
 
 /// A rectangle of a page.
 #[derive(Clone, Copy)]
-struct Box2 {
+pub(super) struct Box2 {
     left: f64,
     top: f64,
     wide: f64,
     high: f64,
 }
 
+impl PixelArea {
+    /// Over a rectangle of a page.
+    pub(super) fn over(plot: Box2, pixels: [u32; 2], rgb: Vec<u8>) -> Self {
+        Self {
+            at: [plot.left, plot.top],
+            size: [plot.wide, plot.high],
+            pixels,
+            rgb,
+        }
+    }
+}
+
 impl Paper {
+    /// A field of pixels of that height over its width, which `draw` gives and draws axes around, without a colour bar.
+    pub(super) fn field(
+        print: &PrintSize,
+        height: f64,
+        draw: impl FnOnce(&mut Self, Box2, [u32; 2]) -> PixelArea,
+    ) -> Self {
+        let (wide, em) = (print.width_mm * PT_PER_MM, print.font_pt);
+        let inner = wide - 5.6 * em;
+        let plot = Box2 {
+            left: 4.6 * em,
+            top: 0.6 * em,
+            wide: inner,
+            high: height * inner,
+        };
+        let mut paper = Self::new([wide, plot.top + plot.high + 4.2 * em], em);
+        let field = draw(&mut paper, plot, print.pixels(plot));
+        paper.fields.push(field);
+        paper
+    }
+
     fn new(size: [f64; 2], font_pt: f64) -> Self {
         Self {
             size,
@@ -122,14 +161,9 @@ impl Paper {
             high: (inner * share).clamp(6.0 * em, 4.0 * inner),
         };
         let mut paper = Self::new([wide, plot.top + plot.high + 4.2 * em], em);
-        let pixels =
-            [plot.wide, plot.high].map(|side| (side / 72.0 * print.dpi).round().max(2.0) as u32);
-        paper.fields.push(PixelArea {
-            at: [plot.left, plot.top],
-            size: [plot.wide, plot.high],
-            pixels,
-            rgb: field_pixels(picture, (pixels[0], pixels[1])),
-        });
+        let pixels = print.pixels(plot);
+        let rgb = field_pixels(picture, (pixels[0], pixels[1]));
+        paper.fields.push(PixelArea::over(plot, pixels, rgb));
         if !picture.is_below {
             let (_, [a, b]) = picture.hertz;
             let ring = (0..=180).map(|k| std::f64::consts::TAU * f64::from(k) / 180.0);
@@ -227,7 +261,7 @@ impl Paper {
     }
 
     /// The frame, and ticks below it.
-    fn x_axis(&mut self, plot: Box2, [low, high]: [f64; 2], title: &str) {
+    pub(super) fn x_axis(&mut self, plot: Box2, [low, high]: [f64; 2], title: &str) {
         let em = self.font_pt;
         let (right, bottom) = (plot.left + plot.wide, plot.top + plot.high);
         let frame = vec![
@@ -253,7 +287,7 @@ impl Paper {
     }
 
     /// Ticks at a side: whether at the right, and whether values grow downwards.
-    fn side(
+    pub(super) fn side(
         &mut self,
         plot: Box2,
         [low, high]: [f64; 2],

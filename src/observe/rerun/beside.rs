@@ -3,7 +3,8 @@
 //! ```text
 //! a.rrd, b.rrd ──> frames ──> common ranges ──> a/..., b/..., difference/..., one layout
 //! key      simulated time t, or the place of a crest of body 1: ∫ U1 dt
-//! moments  those of the first run's pictures up to the least last key; of each other run the picture nearest by key
+//! moments  those of the first run's pictures up to the least last key for which each other run has a picture within a
+//!          step of its own; of it the nearest by key
 //! ```
 //! Frames go the way of any recording's, so that what is seen beside each other differs by the runs alone. Fields come in
 //! the half precision of the recordings; a run less itself is 0 to the bit.
@@ -113,6 +114,7 @@ pub fn compare(
         .copied()
         .filter(|&at| first.keys[at] <= end)
         .collect();
+    let moments = together(first, others, moments);
     let scope = common_scope(&keyed).ok_or_else(|| failed("a run holds no picture".to_owned()))?;
     let mut stream = Stream::create(path, overwrite)?;
     let mut written = Written {
@@ -141,6 +143,21 @@ pub fn compare(
     }
     stream.close()?;
     Ok(told)
+}
+
+/// Farthest that a picture may be from its moment, in its own steps; less what rounding makes of a whole step.
+const WITHIN: f64 = 1.0 + 1e-6;
+
+/// The moments for which every other run has a picture within a step: where runs kept only every so-many-th step, not all
+/// have one. All of them where there are hardly any such.
+fn together(first: &KeyedRun, others: &[KeyedRun], moments: Vec<usize>) -> Vec<usize> {
+    let is_near = |run: &KeyedRun, at: usize| {
+        let key = first.keys[at];
+        run.apart(run.nearest(key), key) <= WITHIN
+    };
+    let all_near = |at: &usize| others.iter().all(|run| is_near(run, *at));
+    let near: Vec<usize> = moments.iter().copied().filter(all_near).collect();
+    if near.len() >= 2 { near } else { moments }
 }
 
 /// Ranges that hold for every step of every run.

@@ -35,10 +35,23 @@ pub(super) mod curve {
     pub(in super::super) const VERMILION: [u8; 3] = [205, 80, 20];
     pub(in super::super) const PURPLE: [u8; 3] = [195, 100, 160];
     pub(in super::super) const GREY: [u8; 3] = [140, 142, 148];
-    /// All of them.
-    #[cfg(test)]
-    pub(in super::super) const ALL: [[u8; 3]; 8] =
-        [ORANGE, SKY, GREEN, OLIVE, BLUE, VERMILION, PURPLE, GREY];
+    /// All of them in words.
+    pub(super) const ALL: [([u8; 3], &str); 8] = [
+        (ORANGE, "orange"),
+        (SKY, "blue"),
+        (GREEN, "green"),
+        (OLIVE, "olive"),
+        (BLUE, "indigo"),
+        (VERMILION, "red"),
+        (PURPLE, "pink"),
+        (GREY, "grey"),
+    ];
+
+    /// A curve's colour in a word, for the title that stands for its legend.
+    pub(in super::super) fn word(colour: [u8; 3]) -> &'static str {
+        let own = ALL.iter().find(|(one, _)| *one == colour);
+        own.map_or("", |(_, word)| word)
+    }
 }
 
 /// A colour map in so many steps that an eye sees none: looked up, which costs less than to interpolate.
@@ -131,7 +144,8 @@ mod tests {
 
     #[test]
     fn curves_stand_out_from_black_and_from_white() {
-        for colour in curve::ALL {
+        for (colour, word) in curve::ALL {
+            assert_eq!(curve::word(colour), word);
             assert!(contrast(colour, [0; 3]) >= 3.0, "{colour:?}");
             assert!(contrast(colour, [255; 3]) >= 3.0, "{colour:?}");
         }

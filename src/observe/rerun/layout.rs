@@ -5,7 +5,7 @@
 //! `view/<id>/<Property>`, and the lot is sent to the recording. That path is a convention of the
 //! viewer and not of its interface: `tests/screenshots` shows whether it still holds.
 
-mod tabs;
+pub(super) mod tabs;
 pub(super) mod views;
 
 use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
@@ -19,6 +19,7 @@ use self::views::{Property, Views};
 use super::moment::{SIMULATED_TIME, STEP, check_clock};
 use super::plot::PlotBox;
 use super::stream::{APPLICATION, Stream};
+use super::tooth::ShownTooth;
 use crate::observe::ObserveError;
 use crate::scene::ContactKind;
 
@@ -36,8 +37,14 @@ pub(super) struct ShownViews {
     pub(super) interferogram: PlotBox,
     pub(super) centre_line: PlotBox,
     pub(super) slice: Option<PlotBox>,
+    /// The same of a line contact over the logarithm of the depth, which is shown in its place.
+    pub(super) over_log: Option<PlotBox>,
     pub(super) trace: Option<PlotBox>,
+    /// Both surfaces, and below them the trace.
+    pub(super) profile: Option<[[f64; 2]; 2]>,
     pub(super) kymograph: PlotBox,
+    /// The tooth that the contact rides along.
+    pub(super) tooth: Option<ShownTooth>,
     /// Target and position of the camera, and of the one that looks down on the pressure.
     pub(super) camera: Option<[[f64; 3]; 2]>,
     pub(super) lecture: Option<[[f64; 3]; 2]>,

@@ -14,7 +14,7 @@ use crate::sim::Frame;
 
 /// Upper edge of titles above a plot, as a share of its height: clear of the label of a tick at its top, which begins at
 /// [`HALF_LABEL`], also where a plot is only 170 points high and text takes 17.
-pub(super) const TITLES: f64 = 0.13;
+pub(super) const TITLES: f64 = 0.15;
 /// Half the height of a label: it stands so far above its tick.
 pub(super) const HALF_LABEL: f64 = 0.022;
 

@@ -188,6 +188,14 @@ fn line(code: CautionCode) -> Option<usize> {
     }
 }
 
+/// Colours of the lines of an entity, in their order.
+pub(super) fn colours(entity: &str) -> Vec<[u8; 3]> {
+    let of = GROUPS.iter().find(|(name, _)| *name == entity);
+    let lines = of.map(|(_, curves)| curves.lines(ContactKind::Point));
+    let lines = lines.into_iter().flatten();
+    lines.map(|(_, colour)| colour).collect()
+}
+
 /// The lines of a contact of that kind by their entities: a load is a force or a force per length.
 fn groups(kind: ContactKind) -> impl Iterator<Item = (String, CurveGroup)> {
     let other = match kind {

@@ -185,8 +185,8 @@ impl Space {
     /// Same for an audience: from above, so that the pressure on the film is seen and the stress below it, too.
     pub(super) fn lecture_camera(&self) -> [[f64; 3]; 2] {
         let a = self.geometry.a;
-        let target = [0.22 * a, 0.25 * a, -0.6 * a];
-        [target, [-0.15 * a, -2.6 * a, 2.25 * a]]
+        let target = [0.3 * a, 0.25 * a, -0.6 * a];
+        [target, [-0.1 * a, -2.83 * a, 2.48 * a]]
     }
 
     /// Logs one frame.

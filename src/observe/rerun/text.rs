@@ -82,7 +82,8 @@ pub(super) fn log_notes<'a>(
          script. A knob turned by hand beyond the script widens it from then on: the legends change, the log tells, and \
          below stand the widest. Values above the range take the top colour and are told under *Now*, but film takes a dark one of its own, in the map and over time; none is cut \
          off in the file below 65 504 units. The slice below body 1 and the damage maps have a row for each depth \
-         that was computed; the depths are in the axis. Damage that has not been counted yet is no number (NaN).\n\n\
+         that was computed; the depths are in the axis. Entities under `slice_over_log_depth` and `profile_y0` are resampled \
+         for looking at. Damage that has not been counted yet is no number (NaN).\n\n\
          | entity | colours up to |\n|---|---|\n"
     );
     for (entity, look) in looks {

@@ -6,12 +6,11 @@ use super::{Driver, LoopState, LoopTurn, PausedWait};
 use crate::observe::{RunEventKind, SetBy};
 use crate::run::Command;
 use crate::run::outcome::{AppliedCommand, End};
-use crate::run::stepper::Stepper;
-use crate::sim::{Knob, Stage};
+use crate::sim::{Knob, Simulation, Stage};
 
 impl Driver {
     /// Does what was done at this place in the run that is repeated.
-    pub(super) fn repeat_turns<S: Stepper>(&mut self, sim: &mut S) {
+    pub(super) fn repeat_turns(&mut self, sim: &mut Simulation) {
         while self
             .turns
             .front()
@@ -25,11 +24,7 @@ impl Driver {
 
     /// Takes all commands that wait; while paused, waits for them where it may. Gives what the turn came to when no step
     /// follows.
-    pub(super) fn obey<S: Stepper>(
-        &mut self,
-        sim: &mut S,
-        waiting: PausedWait,
-    ) -> Option<LoopTurn> {
+    pub(super) fn obey(&mut self, sim: &mut Simulation, waiting: PausedWait) -> Option<LoopTurn> {
         loop {
             let is_paused = self.pace == LoopState::Paused;
             let command = if is_paused && waiting == PausedWait::Allowed {
@@ -70,7 +65,7 @@ impl Driver {
     }
 
     /// What leaves the pace alone, and what a run that is repeated does again.
-    fn carry_out<S: Stepper>(&mut self, sim: &mut S, command: Command) {
+    fn carry_out(&mut self, sim: &mut Simulation, command: Command) {
         match command {
             Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
             Command::Follow(follow) => {
@@ -85,7 +80,7 @@ impl Driver {
         }
     }
 
-    fn log<S: Stepper>(&mut self, sim: &S, command: Command, by: SetBy) {
+    fn log(&mut self, sim: &Simulation, command: Command, by: SetBy) {
         self.applied.push(AppliedCommand {
             steps_made: self.made,
             by,
@@ -95,7 +90,7 @@ impl Driver {
         });
     }
 
-    fn set<S: Stepper>(&mut self, sim: &mut S, knob: Knob, value: f64, by: SetBy) {
+    fn set(&mut self, sim: &mut Simulation, knob: Knob, value: f64, by: SetBy) {
         match sim.set(knob, value) {
             Ok(()) => {
                 self.log(sim, Command::Set(knob, value), by);
@@ -116,7 +111,7 @@ impl Driver {
     }
 
     /// Applies the scripted events whose time has come, in the order of their times.
-    pub(super) fn play_script<S: Stepper>(&mut self, sim: &mut S) {
+    pub(super) fn play_script(&mut self, sim: &mut Simulation) {
         while let Some(event) = self.script.front() {
             // At t = 0 the passage begins; before that there is only the start-up.
             let has_begun = event.at_s == 0.0 || sim.stage() == Stage::Passage;

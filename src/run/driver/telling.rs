@@ -5,9 +5,8 @@ use crate::observe::{ObserveError, ObserverReport, RunContext, RunEvent, RunEven
 use crate::run::clock::Clock;
 use crate::run::outcome::End;
 use crate::run::shared::{Ending, lock};
-use crate::run::stepper::Stepper;
 use crate::run::watcher::Watcher;
-use crate::sim::Stage;
+use crate::sim::{Simulation, Stage};
 
 impl Driver {
     pub(in crate::run) fn begin_outputs(&mut self, context: &RunContext) {
@@ -18,7 +17,7 @@ impl Driver {
     }
 
     /// Gives the step to the screen, and to the outputs if it belongs to the results.
-    pub(super) fn hand_out<S: Stepper>(&mut self, sim: &S) {
+    pub(super) fn hand_out(&mut self, sim: &Simulation) {
         let frame = self.pool.fill(|frame| sim.fill(frame));
         if sim.stage() == Stage::Passage {
             self.passage_began.get_or_insert_with(Clock::start);
@@ -28,14 +27,14 @@ impl Driver {
             }
         }
         if let Some(gather) = &mut self.gather
-            && let Some(settled) = gather.take(&frame, || sim.save())
+            && let Some(settled) = gather.take(&frame, || Some(sim.save()))
         {
             lock(&self.shared).settled = Some(settled);
         }
         self.latest.put(frame);
     }
 
-    pub(super) fn announce<S: Stepper>(&mut self, sim: &S, kind: RunEventKind) {
+    pub(super) fn announce(&mut self, sim: &Simulation, kind: RunEventKind) {
         let event = RunEvent {
             step: sim.passage_steps(),
             time_s: sim.time_s(),
@@ -57,7 +56,7 @@ impl Driver {
         self.ending != Ending::OnStop && !self.output_errors.is_empty()
     }
 
-    pub(super) fn tell_status<S: Stepper>(&self, sim: &S) {
+    pub(super) fn tell_status(&self, sim: &Simulation) {
         let mut shared = lock(&self.shared);
         let status = &mut shared.status;
         status.stage = sim.stage();

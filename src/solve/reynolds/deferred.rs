@@ -31,7 +31,8 @@ use super::super::fluidity::FlowDirection;
 use super::{ROWS, Reynolds, face_below};
 use crate::math::grid::{Grid, Symmetry};
 
-/// Most of a node's oil that a correction moves through one face.
+/// Most of a node's oil that a correction moves through one face: the four of a node leave it more than half, so that C* stays
+/// above 0.
 const MOST_OIL: f64 = 0.1;
 
 /// First guess of a step, and what it is solved against.

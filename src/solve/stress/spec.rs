@@ -98,9 +98,9 @@ pub struct StressSpec {
 impl StressSpec {
     /// Default padding: errors from the images stay below 1e-5 of p_h.
     pub const PAD: f64 = 1.5;
-    /// Default δ.
+    /// Default δ: the window's spectrum is e^{−(16 πδ)²} = 6e-5 at the first mode that is not tabulated (`window.rs`).
     pub const WINDOW: f64 = 0.062;
-    /// Default ε.
+    /// Default ε: of the order of what δ leaves.
     pub const DECAY: f64 = 1e-4;
 
     /// `n_depths` depths down to `depth_max` (in a) by [`depth_rule`], von Mises, default constants.

@@ -10,7 +10,7 @@ use super::set::{EvidenceCase, Measure, Values, planned};
 use crate::physics::film_ripple::FlatFilm;
 use crate::physics::fluid::{Density, Viscosity};
 use crate::plan::Plan;
-use crate::scene::{Scene, Surface};
+use crate::scene::{Order, Scene, Surface};
 use crate::sim::{Simulation, Summary};
 
 /// Reach of the rows that are read, a: waves alone, two waves (both of a length or longer), a low ripple.
@@ -18,17 +18,26 @@ const WAVE_REACH: f64 = 0.25;
 const TWO_REACH: f64 = 0.5;
 const RIPPLE_REACH: f64 = 0.6;
 
+/// Name of 2^q − 1, by which the error of order q shrinks from grid to grid, less one.
+pub(super) const SHRINKING: &str = "2^q - 1";
+
 /// A case on `nodes` per side, in the domain of the grid of `finest` nodes.
 pub(super) fn measure(case: &EvidenceCase, nodes: usize, finest: usize) -> Result<Values, String> {
     let (scene, plan) = on_grid(&case.scene, &case.set, nodes, finest)?;
-    match case.measure {
+    let shrinking = match plan.order {
+        Order::Second => 3.0,
+        Order::High => 7.0,
+    };
+    let mut values = match case.measure {
         Measure::Stress => stress(&scene, plan),
         Measure::Smooth => smooth(&scene, plan),
         Measure::Wave => wave(&scene, &plan),
         Measure::TwoWaves => two_waves(&scene, &plan),
         Measure::Hooke => hooke(&scene, &plan),
         Measure::Dent => dent(&scene, plan),
-    }
+    }?;
+    values.push((SHRINKING, shrinking));
+    Ok(values)
 }
 
 /// A scene of evidence on `nodes`, in the domain that the plan chooses on `finest`.

@@ -1,6 +1,6 @@
 //! Published tables and experiments beside what the program finds.
 //!
-//! Computations are solved on two grids and extrapolated with the order of the scheme, h* = h + (h − h₂)/3; experiments
+//! Computations are solved on two grids and extrapolated with the order q of the scheme, h* = h + (h − h₂)/(2^q − 1); experiments
 //! are compared by rank, ratio, depth and place, by every way of counting cycles that the program has. What is compared
 //! stands in `assets/studies/evidence.toml`, each case a scene in `assets/evidence`. A disagreement is printed with its
 //! most likely cause.
@@ -13,6 +13,7 @@ mod report;
 mod set;
 mod tried;
 
+use measure::SHRINKING;
 pub use plot::{agreement_plot, experiments_plot};
 pub use report::{evidence_table, evidence_text};
 use set::Values;
@@ -222,7 +223,7 @@ fn rows(
     }
     let row = |row: &EvidenceNumber| {
         let found = [0, 1].map(|grid| of(grid, &row.value));
-        let limit = found[1] + (found[1] - found[0]) / 3.0;
+        let limit = found[1] + (found[1] - found[0]) / of(1, SHRINKING);
         let theirs = match &row.closed {
             Some(name) => of(1, name),
             None => row.theirs.unwrap_or(f64::NAN),
@@ -230,8 +231,8 @@ fn rows(
         let nearest = limit.max(theirs - row.spread).min(theirs + row.spread);
         EvidenceRow {
             case: case.name.clone(),
-            grade: case.grade,
-            source: case.source.clone(),
+            grade: row.grade.unwrap_or(case.grade),
+            source: row.source.as_ref().unwrap_or(&case.source).clone(),
             what: row.what.clone(),
             scene: scene.clone(),
             theirs,

@@ -89,7 +89,8 @@ fn push_computed(text: &mut String, result: &Evidence) {
     let agreeing = result.rows.iter().filter(|row| row.agrees()).count();
     let _ = writeln!(
         text,
-        "\n## Computations\n\nLimit: both grids extrapolated with the square of the spacing, h + (h - h2)/3. \
+        "\n## Computations\n\nLimit: both grids extrapolated with the order q of the scheme, h + (h - h2)/(2^q - 1); q is 2, \
+         or 3 in scenes with `order = \"high\"`. \
          {agreeing} of {} numbers agree within what is allowed.\n",
         result.rows.len()
     );

@@ -63,6 +63,12 @@ pub struct EvidenceNumber {
     pub what: String,
     /// Name of the measured value.
     pub value: String,
+    /// Grade, where it is not the case's.
+    #[serde(default)]
+    pub grade: Option<Grade>,
+    /// Source, where it is not the case's.
+    #[serde(default)]
+    pub source: Option<String>,
     /// The source's number.
     #[serde(default)]
     pub theirs: Option<f64>,

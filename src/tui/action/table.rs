@@ -222,9 +222,9 @@ pub const KEYS: &[Row] = &[
         Group::Show,
     ),
     row(
-        &[(ch('e'), Action::Scene)],
-        "e",
-        "change scene, lay, oil, model",
+        &[(ch('e'), Action::Scene), (ch('E'), Action::OperatingPoint)],
+        "e E",
+        "change scene; operating point",
         Group::Program,
     ),
     row(

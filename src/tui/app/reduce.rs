@@ -4,6 +4,7 @@ use crate::run::Command;
 use crate::sim::Knob;
 use crate::tui::action::{Action, KEYS};
 use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pinned, RunPace, Zoom};
+use crate::tui::choice::Form;
 use crate::tui::dial::DialState;
 
 impl App {
@@ -84,7 +85,8 @@ impl App {
             Action::Pixels => self.next_pixels(),
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
-            Action::Scene => self.toggle_draft(),
+            Action::Scene => self.toggle_draft(Form::Scene),
+            Action::OperatingPoint => self.toggle_draft(Form::Point),
             Action::Lessons => self.toggle_lessons(),
             Action::Focus(panel) => self.focus = panel,
             Action::NextPanel(by) => self.focus_next(by),

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use crate::scene::Scene;
 use crate::sim::Stage;
 use crate::tui::action::Action;
+use crate::tui::app::typed::LONGEST;
 use crate::tui::app::{App, Effect, ErrandKind, Overlay};
-use crate::tui::choice::Draft;
+use crate::tui::choice::{Draft, Form};
 use crate::tui::tables;
 use crate::tui::wiring::{Setup, Shown};
 
@@ -39,15 +40,17 @@ impl App {
         self.say(reason);
     }
 
-    /// Opens or closes the choice of another scene.
-    pub(super) fn toggle_draft(&mut self) {
-        if self.overlay == Overlay::Scene {
+    /// Opens or closes the choice of another scene or operating point; from one to the other the draft stays.
+    pub(super) fn toggle_draft(&mut self, form: Form) {
+        if let Some(draft) = self.draft.as_mut().filter(|draft| draft.form != form) {
+            draft.turn_to(form);
+        } else if self.overlay == Overlay::Scene {
             self.overlay = Overlay::None;
             self.draft = None;
         } else if self.offers(ErrandKind::Rebuild) {
             self.fault_read |= self.fault().is_some();
             self.overlay = Overlay::Scene;
-            self.draft = Some(Draft::new(self.scene_now()));
+            self.draft = Some(Draft::new(self.scene_now(), form));
         } else {
             self.say("no other scene can be started from here");
         }
@@ -55,12 +58,26 @@ impl App {
 
     /// Turns a draft's rows with the keys of the knobs; `None`: no draft is open, or it is no such key.
     pub(super) fn draft_takes(&mut self, action: Action) -> Option<Vec<Effect>> {
+        let units = self.units;
         let draft = self.draft.as_mut()?;
+        if let Some(typed) = &mut draft.typed {
+            match action {
+                Action::Letter(letter) if typed.chars().count() < LONGEST => typed.push(letter),
+                Action::Letter(_) => {}
+                Action::Erase => drop(typed.pop()),
+                Action::Enter => draft.set_typed(units),
+                Action::Quit | Action::Suspend => return None,
+                _ => draft.typed = None,
+            }
+            return Some(Vec::new());
+        }
         match action {
             Action::ChooseNext => draft.choose(1),
             Action::ChoosePrevious => draft.choose(-1),
             Action::Turn(by) => draft.turn(by),
             Action::TurnFar(by) => draft.turn(3 * by),
+            Action::Type => draft.begin_typing(),
+            Action::Typical(place) => draft.take_typical(place),
             Action::Enter => return Some(self.run_draft()),
             _ => return None,
         }
@@ -69,6 +86,8 @@ impl App {
 
     fn run_draft(&mut self) -> Vec<Effect> {
         let Some(draft) = self.draft.take_if(|draft| draft.verdict.is_ok()) else {
+            // A number that was refused is read; what the scene itself lacks is told again.
+            self.draft.iter_mut().for_each(Draft::judge);
             return Vec::new();
         };
         self.overlay = Overlay::None;

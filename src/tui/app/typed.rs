@@ -4,15 +4,19 @@ use super::{App, Effect};
 use crate::scene::Knob;
 use crate::tui::action::Action;
 use crate::tui::dial::DialState;
-use crate::tui::units::{sig, tick};
+use crate::tui::units::{read_number, sig, tick};
 
 /// Letters of a number, at most.
-const LONGEST: usize = 12;
+pub(super) const LONGEST: usize = 12;
 
 impl App {
     /// Whether keys are letters of a value.
     pub fn is_typing(&self) -> bool {
-        self.typing.is_some()
+        let in_form = self
+            .draft
+            .as_ref()
+            .is_some_and(|draft| draft.typed.is_some());
+        self.typing.is_some() || in_form
     }
 
     /// Begins a value for the chosen knob, unless there is nothing to turn.
@@ -56,9 +60,7 @@ impl App {
         };
         let dial = &self.dials[self.chosen];
         let unit = dial.unit(self.units);
-        // Decimal commas and typographic minus signs are numbers, too.
-        let number = text.trim().replace(',', ".").replace('−', "-");
-        let value = number.parse::<f64>().ok().map(|shown| shown / unit.per_si);
+        let value = read_number(&text).map(|shown| shown / unit.per_si);
         let range = dial.min..=dial.max;
         if let Some(value) = value.filter(|value| range.contains(value)) {
             return self.set(self.chosen, value);

@@ -5,6 +5,7 @@ use ratatui::text::{Line, Span};
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, ErrandKind, Overlay, PanelKind, RunPace};
+use crate::tui::choice::Form;
 use crate::tui::theme::Role;
 use crate::tui::units::bytes;
 use crate::tui::view::{Areas, ascii_text};
@@ -84,7 +85,7 @@ fn left_out(app: &App, room: usize) -> String {
 fn hints(app: &App) -> Vec<FooterKey> {
     let key = FooterKey::new;
     let enter = app.theme.pick("⏎", "Enter");
-    if app.typing.is_some() {
+    if app.is_typing() {
         return vec![
             key(enter, "set", Action::Enter),
             key("Esc", "leave it", Action::Close),
@@ -98,9 +99,14 @@ fn hints(app: &App) -> Vec<FooterKey> {
             ];
         }
         Overlay::Scene => {
+            let is_point = app.draft.as_ref().is_some_and(|d| d.form == Form::Point);
+            let (own, other) = (key("e", "scene", Action::Scene), Action::OperatingPoint);
+            let other = key("E", "operating point", other);
             return vec![
                 key(enter, "run it", Action::Enter),
-                key("e", "close", Action::Scene),
+                key("=", "type", Action::Type),
+                if is_point { own } else { other },
+                key("Esc", "close", Action::Close),
             ];
         }
         Overlay::Help | Overlay::Plan => return vec![key("Esc", "close", Action::Close)],

@@ -24,7 +24,6 @@ use crate::tui::units::sig;
 use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, title};
 use motion::motion;
 use paint::{MapMark, Pixel, color_bar, look, paint};
-use profile::SurfaceProfile;
 use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
@@ -146,7 +145,7 @@ fn picture_of(
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let frame = app.frame()?;
     if app.map == MapKind::Profile {
-        let profile = SurfaceProfile::of(app, frame)?;
+        let profile = profile::of(app, frame)?;
         let (area, _) = profile::rooms(inside(areas, areas.map));
         let across = at.x >= area.x && at.x < area.right() && areas.map.contains(at);
         let part = (f64::from(at.x.saturating_sub(area.x)) + 0.5) / f64::from(area.width.max(1));
@@ -176,9 +175,8 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
     }
     let mut line = title(theme, "m", app.map.name());
     if app.map == MapKind::Profile {
-        let profile = app.frame().and_then(|frame| SurfaceProfile::of(app, frame));
         let (area, _) = profile::rooms(inside(areas, areas.map));
-        let times = profile.map_or(1.0, |profile| profile.exaggeration(area));
+        let times = profile::exaggeration(app, area);
         let note = format!("y = 0, heights × {} ", sig(times, 2));
         let note = ascii_text(theme, &note);
         line.push_span(Span::styled(note, theme.style(Role::Dim)));

@@ -7,6 +7,7 @@ mod chart;
 mod curve;
 mod digits;
 mod footer;
+mod forms;
 mod header;
 mod knobs;
 mod lesson_list;
@@ -111,7 +112,7 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
         (Some(reason), _) => overlay::fault(app, reason, body, buffer),
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
-        (None, Overlay::Scene) => overlay::scene(app, body, buffer),
+        (None, Overlay::Scene) => forms::scene(app, body, buffer),
         (None, Overlay::Lessons) => lesson_list::lessons(app, body, buffer),
         (None, Overlay::None) => {}
     }

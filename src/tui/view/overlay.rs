@@ -8,7 +8,6 @@ use ratatui::widgets::{Block, BorderType, Borders, Clear, Paragraph, Widget, Wra
 
 use crate::tui::action::{Action, Group, KEYS, MOUSE};
 use crate::tui::app::{App, ErrandKind};
-use crate::tui::choice::Choice;
 use crate::tui::theme::Role;
 use crate::tui::view::knobs::{SPECIFIC, SYMBOLS};
 use crate::tui::view::{ASCII_BORDER, ascii_text, put};
@@ -140,7 +139,7 @@ fn offered(app: &App, action: Action) -> bool {
         Action::View => app.offers(ErrandKind::View),
         Action::Save => app.offers(ErrandKind::Save),
         Action::Write => app.offers(ErrandKind::Write),
-        Action::Scene => app.offers(ErrandKind::Rebuild),
+        Action::Scene | Action::OperatingPoint => app.offers(ErrandKind::Rebuild),
         _ => true,
     }
 }
@@ -252,56 +251,6 @@ fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
         before = indent + 2;
     }
     rows
-}
-
-/// Another scene: what only a new run can change, and what its plan says.
-pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let Some(draft) = &app.draft else { return };
-    let rows = Choice::ALL.len() as u16;
-    let inner = boxed(
-        app,
-        within,
-        (66, rows + 6),
-        "change the scene (e closes)",
-        Role::Key,
-        buffer,
-    );
-    for (row, choice) in Choice::ALL.into_iter().enumerate() {
-        let chosen = row == draft.row;
-        let role = if chosen { Role::Chosen } else { Role::Text };
-        let value = ascii_text(theme, &choice.shown(draft, app.units));
-        let value = if chosen {
-            format!("{} {value} {}", theme.pick("◂", "<"), theme.pick("▸", ">"))
-        } else {
-            format!("  {value}")
-        };
-        let line = Line::from(vec![
-            Span::styled(format!("{:<22}", choice.name()), theme.style(role)),
-            Span::styled(value, theme.style(Role::Strong)),
-        ]);
-        put(inner, row as u16, &line, buffer);
-    }
-    let (words, role) = match &draft.verdict {
-        Ok(words) => (words, Role::Good),
-        Err(reason) => (reason, Role::Bad),
-    };
-    let below = Rect {
-        y: inner.y + rows + 1,
-        height: inner.height.saturating_sub(rows + 1),
-        ..inner
-    };
-    let keys = theme.pick(
-        "↑↓ choose  ←→ change  Enter runs it  e, Esc leave it",
-        "up, down: choose; left, right: change; Enter runs it; Esc leaves it",
-    );
-    let text = vec![
-        Line::styled(ascii_text(theme, words), theme.style(role)),
-        Line::styled(keys, theme.style(Role::Dim)),
-    ];
-    Paragraph::new(text)
-        .wrap(Wrap { trim: true })
-        .render(below, buffer);
 }
 
 /// Words that are too long for the last line, in a box at the foot of the screen.

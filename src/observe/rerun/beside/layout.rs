@@ -5,11 +5,12 @@ use rerun::external::re_sdk_types::blueprint::archetypes::PlotLegend;
 
 use super::super::centre_line::CENTRE_LINE;
 use super::super::layout::views::Views;
-use super::super::layout::{ShownViews, send_tabs};
+use super::super::layout::{ShownViews, send_tabs, tabs::stress};
 use super::super::plot::Margin;
+use super::super::profile::PROFILE;
 use super::super::stream::Stream;
 use super::super::trace::TRACE;
-use super::super::{kymograph, maps, slice, text};
+use super::super::{kymograph, maps, text};
 use super::{COMPARISON, RUNS};
 use crate::observe::ObserveError;
 use crate::scene::ContactKind;
@@ -35,6 +36,7 @@ pub(super) fn send(stream: &Stream, runs: &[ShownRun], names: &[&str]) -> Result
     };
     let tabs = vec![
         layout.first(),
+        layout.profiles(),
         layout.traces(),
         layout.films(),
         layout.stresses(),
@@ -112,6 +114,15 @@ impl Layout<'_> {
         view
     }
 
+    /// Surfaces, oil and traces of the runs.
+    fn profiles(&mut self) -> ContainerLike {
+        let upper = self.each(|views, shown, name| {
+            let title = format!("Both surfaces and the oil between them: {name}");
+            Some(views.framed(&title, &[PROFILE, TRACE], shown.profile?))
+        });
+        rows([upper], "Profiles")
+    }
+
     fn traces(&mut self) -> ContainerLike {
         let upper = self.each(|views, shown, name| {
             let plot = shown.trace.as_ref()?;
@@ -145,11 +156,7 @@ impl Layout<'_> {
     }
 
     fn stresses(&mut self) -> ContainerLike {
-        let upper = self.each(|views, shown, name| {
-            let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT, slice::HERTZ];
-            let title = format!("Effective stress, a row per depth: {name}");
-            Some(views.plot(&title, &contents, shown.slice.as_ref()?, Margin::Legend))
-        });
+        let upper = self.each(|views, shown, name| stress(views, shown, &format!(": {name}")));
         let lower = self.each(|views, shown, name| match shown.kind {
             ContactKind::Point => Some(over_time(views, shown, name)),
             ContactKind::Line => None,

@@ -6,13 +6,16 @@ use rerun::blueprint::{
 };
 use rerun::datatypes::{Range1D, Range2D};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, TextDocumentFormat, VisualBounds2D,
+    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TextDocumentFormat,
+    VisualBounds2D,
 };
 use rerun::{AsComponents, Color};
 
 use super::super::colour::BACKGROUND;
+use super::super::colour::curve::word;
 use super::super::maps;
 use super::super::plot::{Margin, PlotBox};
+use super::super::series;
 use super::super::space::{SPACE, UPPER_BODY, UPPER_LABELS};
 
 /// A property of a view and the path it goes to.
@@ -58,6 +61,16 @@ impl Views {
         plot: &PlotBox,
         right: Margin,
     ) -> ContainerLike {
+        self.framed(name, contents, plot.bounds(right))
+    }
+
+    /// Same of several plots, with bounds that hold all of them.
+    pub(in super::super) fn framed(
+        &mut self,
+        name: &str,
+        contents: &[&str],
+        [x, y]: [[f64; 2]; 2],
+    ) -> ContainerLike {
         let contents = contents
             .iter()
             .map(|entity| format!("/{}{entity}/**", self.under));
@@ -65,7 +78,6 @@ impl Views {
             .with_origin("/")
             .with_contents(contents)
             .into();
-        let [x, y] = plot.bounds(right);
         let range = Range2D {
             x_range: Range1D(x),
             y_range: Range1D(y),
@@ -130,17 +142,42 @@ impl Views {
         view
     }
 
+    /// Curves whose title names each with its colour: the viewer's legends know no place but a corner among the curves.
+    /// The names are those of the entities' lines in their order.
+    pub(in super::super) fn named(
+        &mut self,
+        what: &str,
+        entities: &[&str],
+        names: &[&str],
+    ) -> ContainerLike {
+        let colours = entities.iter().flat_map(|entity| series::colours(entity));
+        let lines = names.iter().zip(colours);
+        let lines: Vec<String> = lines
+            .map(|(name, colour)| format!("{name} {}", word(colour)))
+            .collect();
+        let view = self.series(&format!("{what}: {}", lines.join(", ")), entities);
+        self.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+        view
+    }
+
+    /// Curves with the viewer's legend at the upper left, out of the way of values up to 1 (lines of yes and no).
+    pub(in super::super) fn switches(&mut self, name: &str, entity: &str) -> ContainerLike {
+        let view = self.series(name, &[entity]);
+        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
+        self.set(&view, "PlotLegend", legend);
+        let axis = ScalarAxis::new().with_range(Range1D([-0.1, 3.4]));
+        self.set(&view, "ScalarAxis", axis);
+        view
+    }
+
     pub(in super::super) fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
         let contents = entities
             .iter()
             .map(|entity| format!("/{}{entity}/**", self.under));
-        let view = TimeSeriesView::new(name)
+        TimeSeriesView::new(name)
             .with_origin("/")
             .with_contents(contents)
-            .into();
-        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
-        self.set(&view, "PlotLegend", legend);
-        view
+            .into()
     }
 
     pub(in super::super) fn document(&mut self, name: &str, entity: &str) -> ContainerLike {

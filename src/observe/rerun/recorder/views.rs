@@ -7,7 +7,9 @@ use super::super::geometry::Geometry;
 use super::super::kymograph::{self, KymographEntity};
 use super::super::layout::{self, ShownViews};
 use super::super::maps::{self, Maps};
+use super::super::over_log::OverLog;
 use super::super::picture::Beyond;
+use super::super::profile::Profile;
 use super::super::raster::RasterEntity;
 use super::super::scalars;
 use super::super::series::Series;
@@ -15,6 +17,7 @@ use super::super::slice::Slice;
 use super::super::space::{Space, Tops};
 use super::super::stream::Stream;
 use super::super::text;
+use super::super::tooth::ToothEntity;
 use super::super::trace::TraceEntity;
 use super::super::weight::TEXT;
 use crate::math::number::sig;
@@ -37,9 +40,12 @@ pub(in super::super) struct ViewState {
     pub(in super::super) series: Series,
     maps: Maps,
     slice: Option<Slice>,
+    over_log: Option<OverLog>,
     space: Option<Space>,
     centre_line: CentreLine,
+    profile: Option<Profile>,
     trace: Option<TraceEntity>,
+    tooth: Option<ToothEntity>,
     pub(in super::super) kymographs: [KymographEntity; 2],
     damage: Damage,
     /// Bodies whose damage is mapped.
@@ -93,6 +99,7 @@ impl ViewState {
         let ranges = scope.ranges;
         let maps = Maps::new(stream, geometry, &ranges)?;
         let slice = Slice::new(stream, geometry, first, &ranges)?;
+        let over_log = OverLog::new(stream, geometry, first, &ranges)?;
         let tops = Tops {
             pressure_pa: ranges.pressure_pa,
             effective_pa: slice.as_ref().map(|_| ranges.effective_pa),
@@ -106,11 +113,16 @@ impl ViewState {
             .material_point
             .map(|_| TraceEntity::new(stream, geometry, tops.pressure_pa))
             .transpose()?;
+        let profile = scene
+            .map(|scene| {
+                let below = trace.as_ref().map(TraceEntity::plot);
+                Profile::new(stream, geometry, (scene, first), &scope, below)
+            })
+            .transpose()?;
+        let tooth = ToothEntity::new(stream, scene)?;
         let steps = expected_steps(scene, first);
         let budget = record.budget_mb * 1e6;
-        let step_s = scene.map_or(0.0, |scene| {
-            scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
-        });
+        let step_s = step_s(scene, first);
         let kymograph =
             |shown| KymographEntity::new(stream, geometry, shown, &ranges, steps, step_s, budget);
         let kymographs = [
@@ -129,9 +141,12 @@ impl ViewState {
             series,
             maps,
             slice,
+            over_log,
             space,
             centre_line,
+            profile,
             trace,
+            tooth,
             kymographs,
             damage: Damage::default(),
             damaged: scene
@@ -173,8 +188,14 @@ impl ViewState {
         if let Some(slice) = &mut self.slice {
             widened.extend(slice.reach(stream, ranges)?);
         }
+        if let Some(over_log) = &mut self.over_log {
+            over_log.reach(stream, ranges)?;
+        }
         let effective_pa = self.slice.as_ref().map(|_| ranges.effective_pa);
         self.centre_line.reach(stream, pressure_pa, film_m)?;
+        if let Some((profile, scene)) = self.profile.as_mut().zip(scene) {
+            profile.reach(stream, scene, &self.scope)?;
+        }
         if let Some(space) = &mut self.space {
             space.reach(stream, pressure_pa, effective_pa)?;
         }
@@ -199,7 +220,10 @@ impl ViewState {
             interferogram: self.maps.interferogram().plot().clone(),
             centre_line: self.centre_line.plot().clone(),
             slice: self.slice.as_ref().map(|slice| slice.plot().clone()),
+            over_log: self.over_log.as_ref().map(|slice| slice.plot().clone()),
             trace: self.trace.as_ref().map(|trace| trace.plot().clone()),
+            profile: self.profile.as_ref().map(Profile::bounds),
+            tooth: self.tooth.as_ref().map(ToothEntity::plots),
             kymograph: self.kymographs[0].plot().clone(),
             camera: self.space.as_ref().map(Space::camera),
             lecture: self.space.as_ref().map(Space::lecture_camera),
@@ -270,8 +294,14 @@ impl ViewState {
         self.reach(stream, scene, frame)?;
         self.maps.log(stream, frame)?;
         self.centre_line.log(stream, frame)?;
+        if let Some(profile) = &mut self.profile {
+            profile.log(stream, frame)?;
+        }
         if let Some(slice) = &mut self.slice {
             slice.log(stream, frame)?;
+        }
+        if let Some(over_log) = &mut self.over_log {
+            over_log.log(stream, frame)?;
         }
         if let Some(space) = &mut self.space {
             space.log(stream, frame)?;
@@ -279,10 +309,16 @@ impl ViewState {
         if let Some(trace) = &mut self.trace {
             trace.log(stream, frame)?;
         }
+        if let Some(tooth) = &self.tooth {
+            tooth.log(stream, frame)?;
+        }
         if self.pictures.is_multiple_of(BESIDE_EVERY) {
             self.maps.log_beside(stream, frame)?;
             if let Some(slice) = &self.slice {
                 slice.log_shear(stream, frame)?;
+            }
+            if let Some(over_log) = &mut self.over_log {
+                over_log.log_shear(stream, frame)?;
             }
             if let Some(space) = &mut self.space {
                 space.log_damage(stream, frame)?;
@@ -296,6 +332,13 @@ impl ViewState {
         }
         Ok(())
     }
+}
+
+/// Time of a step by the scene, s.
+fn step_s(scene: Option<&Scene>, first: &Frame) -> f64 {
+    scene.map_or(0.0, |scene| {
+        scene.time.step_nodes * first.dx_m / scene.motion.entrainment_m_s.abs().max(1e-12)
+    })
 }
 
 /// Steps that the scene asks for.

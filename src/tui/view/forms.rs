@@ -1,0 +1,87 @@
+//! The forms of another scene: what only a new run can change, and what its plan says.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
+
+use crate::tui::app::App;
+use crate::tui::choice::{Draft, Form};
+use crate::tui::theme::Role;
+use crate::tui::view::overlay::boxed;
+use crate::tui::view::{ascii_text, put};
+
+/// Columns of the box.
+const WIDE: u16 = 66;
+/// Rows below the list: one left free, three of words, one of keys.
+const BELOW: u16 = 5;
+
+/// The form that is open.
+pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let Some(draft) = &app.draft else { return };
+    let rows = draft.form.rows();
+    let title = match draft.form {
+        Form::Scene => "change the scene (e closes, E operating point)",
+        Form::Point => "operating point (E closes, e scene)",
+    };
+    let size = (WIDE, rows.len() as u16 + BELOW + 1);
+    let inner = boxed(app, within, size, title, Role::Key, buffer);
+    // Where not all rows fit, the chosen one is among those that are seen.
+    let seen = usize::from(inner.height.saturating_sub(BELOW - 1)).clamp(1, rows.len());
+    let first = (draft.row + 1).saturating_sub(seen);
+    for (place, row) in (first..rows.len()).take(seen).enumerate() {
+        put(inner, place as u16, &line_of(app, draft, row), buffer);
+    }
+    let below = Rect {
+        y: inner.y + seen as u16 + 1,
+        height: inner.height.saturating_sub(seen as u16 + 1),
+        ..inner
+    };
+    let typed = draft.typed.as_ref().and_then(|_| draft.allowed(app.units));
+    let (words, role) = match (typed, &draft.verdict) {
+        (Some(allowed), _) => (allowed, Role::Text),
+        (None, Ok(words)) => (words.clone(), Role::Good),
+        (None, Err(reason)) => (reason.clone(), Role::Bad),
+    };
+    let keys = match draft.form {
+        Form::Scene => theme.pick(
+            "↑↓ choose  ←→ change  Enter runs it  e, Esc leave it",
+            "up, down: choose; left, right: change; Enter runs it; Esc leaves it",
+        ),
+        Form::Point => theme.pick(
+            "↑↓ choose  ←→ change  = type  1-9 typical  Enter runs it",
+            "up, down: choose; left, right: change; =: type; 1-9: typical",
+        ),
+    };
+    let text = vec![
+        Line::styled(ascii_text(theme, &words), theme.style(role)),
+        Line::styled(keys, theme.style(Role::Dim)),
+    ];
+    Paragraph::new(text)
+        .wrap(Wrap { trim: true })
+        .render(below, buffer);
+}
+
+/// Name and value of a row.
+fn line_of(app: &App, draft: &Draft, row: usize) -> Line<'static> {
+    let theme = app.theme;
+    let choice = draft.form.rows()[row];
+    let chosen = row == draft.row;
+    let role = if chosen { Role::Chosen } else { Role::Text };
+    let value = match &draft.typed {
+        Some(typed) if chosen => format!("= {typed}_"),
+        _ => {
+            let value = ascii_text(theme, &choice.shown(draft, app.units));
+            if chosen {
+                format!("{} {value} {}", theme.pick("◂", "<"), theme.pick("▸", ">"))
+            } else {
+                format!("  {value}")
+            }
+        }
+    };
+    Line::from(vec![
+        Span::styled(format!("{:<22}", choice.name()), theme.style(role)),
+        Span::styled(value, theme.style(Role::Strong)),
+    ])
+}
