@@ -1,0 +1,206 @@
+// The page around the worker: sizes, keys, pointer, files, words.
+"use strict";
+
+const NAMED = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "Tab", "BackTab", "Enter", "Escape", "Backspace", "F1"];
+const FIRST_NAMED = 0x110000;
+// Whole frames a second on 65 nodes from which 129 nodes are offered: they cost about four times as much.
+const FAST_ENOUGH = 40;
+
+const at = (id) => document.getElementById(id);
+const screen_ = at("screen");
+const painter = new Painter(screen_);
+const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 65, broken: null, refused: null };
+let worker = null;
+
+function module_() {
+  const inline = at("module");
+  if (!inline) return fetch("asperity.wasm.gz").then((answer) => answer.arrayBuffer());
+  return Promise.resolve(Uint8Array.from(atob(inline.textContent.trim()), (c) => c.charCodeAt(0)).buffer);
+}
+
+function newWorker() {
+  const inline = at("worker");
+  if (!inline) return new Worker("worker.js");
+  return new Worker(URL.createObjectURL(new Blob([inline.textContent], { type: "text/javascript" })));
+}
+
+// The address's key=value pairs, one a line.
+function link() {
+  const decoded = (text) => { try { return decodeURIComponent(text); } catch { return text; } };
+  const pairs = location.hash.slice(1).split("&").filter(Boolean);
+  return pairs.map((pair) => decoded(pair).replace(/[\r\n]/g, " ")).join("\n");
+}
+
+function size() {
+  const room = at("room").getBoundingClientRect();
+  return painter.fit(room.width, room.height, window.devicePixelRatio || 1);
+}
+
+function tell(words, isBad) {
+  const box = at("told");
+  box.textContent = words;
+  box.hidden = !words;
+  box.className = isBad ? "bad" : "";
+}
+
+function hear(event) {
+  const m = event.data;
+  if (m.loaded) open();
+  if (m.opened) {
+    painter.begin(m.opened);
+    state.refused = null;
+    if (!state.broken) tell("");
+  }
+  if (m.refused) {
+    state.refused = m.refused;
+    tell(m.refused, true);
+    if (!painter.columns) { history.replaceState(null, "", "#"); open(); tell(m.refused, true); }
+  }
+  if (m.broken) {
+    state.broken = m.broken;
+    tell(`A programming error ended the explorer: ${m.broken}. Reload the page to start again.`, true);
+  }
+  if (m.cells) {
+    painter.cells(m.cells);
+    if (m.picture) painter.picture(m.picture);
+    worker.postMessage({ kind: "painted" });
+    if (!m.goesOn) {
+      at("ended").hidden = false;
+      at("again").focus();
+    }
+  }
+  if (m.spoken !== undefined) news(m);
+  if (m.file) {
+    const end = m.file.indexOf("\n");
+    save(m.file.slice(0, end), m.file.slice(end + 1));
+  }
+  if (m.save) save(...m.save);
+}
+
+function news(m) {
+  if (state.firstLifeMs === null && m.spoken.startsWith("Relative life")) state.firstLifeMs = performance.now();
+  state.bytes = m.bytes;
+  const frames = (m.steps - state.steps) / (m.seconds - state.seconds);
+  const nodes = Number(/nodes=(\d+)/.exec(m.link)?.[1] ?? 65);
+  if (m.seconds - state.seconds > 2 || m.seconds < state.seconds) {
+    Object.assign(state, { steps: m.steps, seconds: m.seconds, frames });
+    if (frames > 0) at("speed").textContent = `${nodes} × ${nodes} nodes, ${frames.toFixed(0)} frames/s here`;
+    at("finer").hidden = !(nodes === 65 && frames >= FAST_ENOUGH);
+    at("text").textContent = painter.text();
+  }
+  // What is spoken waits for the end of a change.
+  if (m.spoken !== state.spoken && (!at("spoken").textContent || m.spoken.includes("settled"))) at("spoken").textContent = m.spoken;
+  state.spoken = m.spoken;
+  state.nodes = nodes;
+  const hash = `#${m.link}`;
+  if (location.hash !== hash && !/lesson=/.test(location.hash)) {
+    try { history.replaceState(null, "", hash); } catch { /* some places keep their address */ }
+  }
+}
+
+function open() {
+  worker.postMessage({ kind: "open", link: link(), screen: size() });
+  at("ended").hidden = true;
+}
+
+function save(name, text) {
+  download(name, new Blob([text], { type: "text/plain" }));
+}
+
+function download(name, blob) {
+  const a = document.createElement("a");
+  a.href = URL.createObjectURL(blob);
+  a.download = name;
+  a.click();
+  setTimeout(() => URL.revokeObjectURL(a.href), 10000);
+}
+
+function key(event) {
+  if (event.metaKey || (event.ctrlKey && !/^[czCZ]$/.test(event.key))) return;
+  if (event.key === "F6") { at("table").focus(); event.preventDefault(); return; }
+  let name = event.key === "Tab" && event.shiftKey ? "BackTab" : event.key;
+  press(name, (event.shiftKey ? 1 : 0) | (event.ctrlKey ? 2 : 0) | (event.altKey ? 4 : 0)) && event.preventDefault();
+}
+
+// Whether the explorer takes such a key at all.
+function press(name, held) {
+  const place = NAMED.indexOf(name);
+  const letters = [...name];
+  if (place < 0 && letters.length !== 1) return false;
+  const code = place < 0 ? letters[0].codePointAt(0) : FIRST_NAMED + place;
+  if (held === 2 && /^[zq]$/i.test(name)) return true;
+  worker.postMessage({ kind: "key", code, held });
+  return true;
+}
+
+function point(act, event) {
+  const box = screen_.getBoundingClientRect();
+  const column = Math.floor((event.clientX - box.left) / box.width * painter.columns);
+  const row = Math.floor((event.clientY - box.top) / box.height * painter.rows);
+  const within = (value, most) => Math.min(most - 1, Math.max(0, value));
+  worker.postMessage({ kind: "pointer", act, column: within(column, painter.columns), row: within(row, painter.rows) });
+}
+
+function watch() {
+  screen_.addEventListener("keydown", key);
+  screen_.addEventListener("pointerdown", (event) => {
+    screen_.focus();
+    if (event.button === 0) { screen_.setPointerCapture(event.pointerId); point(0, event); }
+    if (event.button === 2) point(2, event);
+  });
+  screen_.addEventListener("pointermove", (event) => event.buttons & 1 && point(1, event));
+  screen_.addEventListener("contextmenu", (event) => event.preventDefault());
+  screen_.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    if (event.deltaY) point(event.deltaY < 0 ? 3 : 4, event);
+  }, { passive: false });
+  for (const button of document.querySelectorAll("[data-key]")) {
+    button.addEventListener("click", () => press(button.dataset.key, 0));
+  }
+  at("table").addEventListener("click", () => worker.postMessage({ kind: "table" }));
+  at("scene").addEventListener("click", () => worker.postMessage({ kind: "scene" }));
+  at("picture").addEventListener("click", () => screen_.toBlob((blob) => download("asperity.png", blob)));
+  at("finer").addEventListener("click", () => { location.hash = location.hash.replace(/nodes=\d+/, "nodes=129"); });
+  at("again").addEventListener("click", () => { open(); screen_.focus(); });
+  window.addEventListener("hashchange", open);
+  window.addEventListener("dragover", (event) => event.preventDefault());
+  window.addEventListener("drop", async (event) => {
+    event.preventDefault();
+    const file = event.dataTransfer.files[0];
+    if (file) dropped(file.size > 262144 ? "#".repeat(262145) : await file.text());
+  });
+  let waits = 0;
+  new ResizeObserver(() => {
+    clearTimeout(waits);
+    waits = setTimeout(() => painter.columns && worker.postMessage({ kind: "resize", screen: size() }), 60);
+  }).observe(at("room"));
+  const still = matchMedia("(prefers-reduced-motion: reduce)");
+  const pace = () => worker.postMessage({ kind: "pace", ms: still.matches ? 500 : 25 });
+  still.addEventListener("change", pace);
+  pace();
+}
+
+function dropped(text) {
+  worker.postMessage({ kind: "drop", text, screen: size() });
+}
+
+// A run of a link's scene in a module of its own: its table, counters and time.
+async function measure(pairs, steps) {
+  const own = newWorker();
+  const bytes = await module_();
+  return new Promise((done) => {
+    own.onmessage = (event) => {
+      if (event.data.loaded) own.postMessage({ kind: "measure", link: pairs.replaceAll("&", "\n"), steps });
+      if (event.data.measured || event.data.broken) { done(event.data.measured ?? event.data); own.terminate(); }
+    };
+    own.postMessage({ kind: "load", bytes }, [bytes]);
+  });
+}
+
+window.asperity = { state, painter, measure, dropped };
+worker = newWorker();
+worker.onmessage = hear;
+worker.onerror = (event) => { state.broken = event.message; tell(`The page cannot run: ${event.message}`, true); };
+watch();
+module_().then((bytes) => worker.postMessage({ kind: "load", bytes }, [bytes]), (error) => tell(String(error), true));
+screen_.focus();
