@@ -33,7 +33,7 @@ pub extern "C" fn inbox(len: usize) -> *mut u8 {
 /// Where what was given lies.
 #[unsafe(no_mangle)]
 pub extern "C" fn outbox() -> *const u8 {
-    OUTBOX.with_borrow(|outbox| outbox.as_ptr())
+    OUTBOX.with_borrow(Vec::as_ptr)
 }
 
 /// How long it is.
