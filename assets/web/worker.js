@@ -11,6 +11,7 @@ let isOpen = false;
 let isPainting = false;
 let drawn = 0;
 let pictured = 0;
+let room = "";
 let told = 0;
 let steps = 0;
 let since = 0;
@@ -80,7 +81,10 @@ function draw() {
   const goesOn = wasm.draw(now - start);
   const message = { cells: given(), goesOn: goesOn === 1 };
   const parts = [message.cells.buffer];
-  if (now - pictured >= PICTURE_MS) {
+  // The cells of the picture: where they change, the old one is wiped.
+  const place = message.cells.subarray(8, 24).join();
+  if (now - pictured >= PICTURE_MS || place !== room) {
+    room = place;
     wasm.picture();
     const picture = given();
     if (picture.length > 24) {

@@ -21,14 +21,14 @@ impl Clock {
 
     /// Seconds since then; none pass without a clock.
     #[cfg(not(target_arch = "wasm32"))]
-    pub(super) fn elapsed_s(&self) -> f64 {
+    pub(super) fn elapsed_s(self) -> f64 {
         self.began.elapsed().as_secs_f64()
     }
 
     /// Seconds since then; none pass without a clock.
     #[cfg(target_arch = "wasm32")]
     #[expect(clippy::unused_self, reason = "as with a clock")]
-    pub(super) fn elapsed_s(&self) -> f64 {
+    pub(super) fn elapsed_s(self) -> f64 {
         0.0
     }
 }

@@ -7,12 +7,12 @@
 use std::cell::RefCell;
 use std::sync::{Mutex, PoisonError};
 
-use super::link::Link;
-use super::page::{Page, measured};
+use super::link::PageLink;
+use super::page::{WebPage, measured};
 use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct, ScreenEvent};
 
 thread_local! {
-    static PAGE: RefCell<Option<Page>> = const { RefCell::new(None) };
+    static PAGE: RefCell<Option<WebPage>> = const { RefCell::new(None) };
     static INBOX: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
     static OUTBOX: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
@@ -33,7 +33,7 @@ pub extern "C" fn inbox(len: usize) -> *mut u8 {
 /// Where what was given lies.
 #[unsafe(no_mangle)]
 pub extern "C" fn outbox() -> *const u8 {
-    OUTBOX.with_borrow(|outbox| outbox.as_ptr())
+    OUTBOX.with_borrow(Vec::as_ptr)
 }
 
 /// How long it is.
@@ -56,19 +56,19 @@ pub extern "C" fn open(columns: u32, rows: u32, cell_width: u32, cell_height: u3
     std::panic::set_hook(Box::new(|info| {
         *PANIC.lock().unwrap_or_else(PoisonError::into_inner) = info.to_string();
     }));
-    let opened = Link::read(&text()).and_then(Page::open);
+    let opened = PageLink::read(&text()).and_then(WebPage::open);
     take(opened, columns, rows, cell_width, cell_height)
 }
 
 /// Same from a file's text that was dropped onto the page: a scene, or a lesson.
 #[unsafe(no_mangle)]
 pub extern "C" fn drop_file(columns: u32, rows: u32, cell_width: u32, cell_height: u32) -> u32 {
-    let opened = Link::from_file(&text()).and_then(Page::open);
+    let opened = PageLink::from_file(&text()).and_then(WebPage::open);
     take(opened, columns, rows, cell_width, cell_height)
 }
 
 fn take(
-    opened: Result<Page, String>,
+    opened: Result<WebPage, String>,
     columns: u32,
     rows: u32,
     cell_width: u32,
@@ -203,20 +203,20 @@ pub extern "C" fn scene() {
 /// A file that a key has asked to save: its name, a line end, its text; or nothing.
 #[unsafe(no_mangle)]
 pub extern "C" fn saved() {
-    give(on_page(Page::saved).unwrap_or_default());
+    give(on_page(WebPage::saved).unwrap_or_default());
 }
 
 /// Runs a link's scene (the inbox) for so many steps of its passage without a screen. Gives 1 and the table with a last
 /// line of counters, or 0 and why not.
 #[unsafe(no_mangle)]
 pub extern "C" fn measure(steps: u32) -> u32 {
-    let table = Link::read(&text()).and_then(|link| measured(link, u64::from(steps)));
+    let table = PageLink::read(&text()).and_then(|link| measured(&link, u64::from(steps)));
     let is_made = table.is_ok();
     give(table.unwrap_or_else(|reason| reason).into_bytes());
     u32::from(is_made)
 }
 
-fn on_page<R>(work: impl FnOnce(&mut Page) -> R) -> Option<R> {
+fn on_page<R>(work: impl FnOnce(&mut WebPage) -> R) -> Option<R> {
     PAGE.with_borrow_mut(|page| page.as_mut().map(work))
 }
 

@@ -18,7 +18,7 @@ const LONGEST: usize = 256 << 10;
 const KEYS: &str = "scene, lesson, nodes, contrast, S, load, A1, A2, U or a key of a scene";
 
 /// What is to be shown.
-pub(super) struct Link {
+pub(super) struct PageLink {
     /// The scene.
     pub(super) scene: Scene,
     /// Its name.
@@ -31,7 +31,7 @@ pub(super) struct Link {
     pub(super) contrast: Contrast,
 }
 
-impl Link {
+impl PageLink {
     /// Reads the lines of a link.
     pub(super) fn read(text: &str) -> Result<Self, String> {
         if text.len() > LONGEST {

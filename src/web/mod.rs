@@ -1,7 +1,7 @@
 //! The explorer in a page: state, reducer, view and simulation in one WebAssembly module, which a worker of the page owns.
 //!
 //! ```text
-//! worker   keys, pointer ──> abi ──> Page { Explorer, Cooperative } ──> cells, picture, words ──> page
+//! worker   keys, pointer ──> abi ──> WebPage { Explorer, Cooperative } ──> cells, picture, words ──> page
 //! ```
 //! The worker calls [`abi`]: events, one step after another for some milliseconds, a drawing, and again. What leaves the
 //! module are the cells that changed and the map's pixels; the page paints them on a canvas (`assets/web/page.js`). There is

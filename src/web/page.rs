@@ -13,8 +13,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::cells::changed;
-use super::link::{Link, NODES, on_nodes, written};
-use super::rows::Rows;
+use super::link::{NODES, PageLink, on_nodes, written};
+use super::rows::KeptRows;
 use crate::math::number::sig;
 use crate::run::{Cooperative, Ending, LoopTurn, NearEnd, Request, Watcher};
 use crate::scene::{Knob, Scene};
@@ -27,18 +27,18 @@ use crate::tui::{Control, Explorer, Health, RunStatus, Setup, Shown, Wiring, vie
 const MOST_PIXELS: usize = 160_000;
 
 /// A run and its rows.
-struct Run {
+struct PageRun {
     session: Cooperative,
-    rows: Rows,
+    rows: KeptRows,
 }
 
 /// Files to save: name and text.
 type Files = Rc<RefCell<Vec<(String, String)>>>;
 
 /// The page's state.
-pub(super) struct Page {
+pub(super) struct WebPage {
     explorer: Explorer,
-    run: Rc<RefCell<Run>>,
+    run: Rc<RefCell<PageRun>>,
     files: Files,
     nodes: usize,
     shown: Buffer,
@@ -47,9 +47,9 @@ pub(super) struct Page {
     has_quit: bool,
 }
 
-impl Page {
+impl WebPage {
     /// Opens what a link asks for.
-    pub(super) fn open(link: Link) -> Result<Self, String> {
+    pub(super) fn open(link: PageLink) -> Result<Self, String> {
         let nodes = link.nodes.unwrap_or(NODES);
         let files = Files::default();
         let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
@@ -200,21 +200,21 @@ impl Page {
 }
 
 /// A run of so many steps without a screen: its table, and a last line with the counters of its work.
-pub(super) fn measured(link: Link, steps: u64) -> Result<String, String> {
+pub(super) fn measured(link: &PageLink, steps: u64) -> Result<String, String> {
     let nodes = link.nodes.unwrap_or(NODES);
     let (mut run, _) = start(&link.scene, &link.name, nodes, Ending::Steps(steps))?;
-    loop {
-        match run.session.turn() {
-            LoopTurn::Stepped => {}
-            LoopTurn::Waited | LoopTurn::Ended(_) => break,
-        }
-    }
+    while matches!(run.session.turn(), LoopTurn::Stepped) {}
     let counters = run.session.sim().stats();
     let counters = serde_json::to_string(counters).map_err(|e| e.to_string())?;
     Ok(format!("{}{counters}", run.rows.csv()))
 }
 
-fn start(scene: &Scene, name: &str, nodes: usize, ending: Ending) -> Result<(Run, Setup), String> {
+fn start(
+    scene: &Scene,
+    name: &str,
+    nodes: usize,
+    ending: Ending,
+) -> Result<(PageRun, Setup), String> {
     let (scene, plan) = on_nodes(scene, nodes)?;
     let scene = Arc::new(scene);
     let setup = Setup {
@@ -226,7 +226,7 @@ fn start(scene: &Scene, name: &str, nodes: usize, ending: Ending) -> Result<(Run
         plan_text: plan.to_string(),
         left_out: plan.left_out.clone(),
     };
-    let rows = Rows::default();
+    let rows = KeptRows::default();
     let request = Request {
         name: name.to_owned(),
         scene,
@@ -236,7 +236,7 @@ fn start(scene: &Scene, name: &str, nodes: usize, ending: Ending) -> Result<(Run
         ending,
     };
     let session = Cooperative::start(request).map_err(|error| error.to_string())?;
-    Ok((Run { session, rows }, setup))
+    Ok((PageRun { session, rows }, setup))
 }
 
 fn wiring(session: &NearEnd, setup: Setup, files: &Files) -> Wiring {

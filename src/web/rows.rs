@@ -10,11 +10,11 @@ use crate::sim::{CATALOGUE, Frame};
 /// Steps that are kept; the oldest make room.
 const KEPT: usize = 5000;
 
-/// Rows of a table, filled by a run and read by the page.
+/// KeptRows of a table, filled by a run and read by the page.
 #[derive(Debug, Default, Clone)]
-pub(super) struct Rows(Arc<Mutex<VecDeque<String>>>);
+pub(super) struct KeptRows(Arc<Mutex<VecDeque<String>>>);
 
-impl Rows {
+impl KeptRows {
     /// The table.
     pub(super) fn csv(&self) -> String {
         let head = csv_line(CATALOGUE.iter().map(|quantity| quantity.name));
@@ -23,7 +23,7 @@ impl Rows {
     }
 }
 
-impl Observer for Rows {
+impl Observer for KeptRows {
     fn begin(&mut self, _context: &RunContext) -> Result<(), ObserveError> {
         Ok(())
     }

@@ -136,11 +136,16 @@ await test("sizes from phone to projector", async () => {
 
 await test("a lesson asks and answers", async () => {
   const page = await opened(`${disk}#lesson=load`);
-  await until(page, "a question", (now) => /\?/.test(now.text) && /n /.test(now.text));
-  const before = (await state(page)).text;
+  const question = "The load is doubled. What does the greatest pressure";
+  for (let beat = 0; beat < 4; beat++) {
+    await page.waitForTimeout(2500);
+    if ((await state(page)).text.includes(question)) break;
+    await page.keyboard.press("n");
+  }
+  await until(page, "a question", (now) => now.text.includes(question) && now.text.includes("forty per cent more"));
   await shot(page, "lesson");
   await page.keyboard.press("n");
-  await until(page, "the lesson goes on", (now) => now.text !== before);
+  await until(page, "the lesson shows it", (now) => now.text.includes("cube root"), 60);
   assert.deepEqual(page.faults, []);
   await page.context().close();
 });
@@ -182,16 +187,21 @@ await test("the native program's numbers, counters and time", async () => {
     const native = rows(fs.readFileSync(table, "utf8"));
     const told = JSON.parse(fs.readFileSync(summary, "utf8"));
     const least = Math.min(FRAMES, native.length);
-    let [film, lifes, counts] = [0, 0, 0];
+    let [central, film, lifes, counts] = [0, 0, 0, 0];
     for (let i = 0; i < least; i++) {
       const off = (name) => native[i][name] === "" ? Number(mine[i][name] !== "") : Math.abs(mine[i][name] / native[i][name] - 1);
-      film = Math.max(film, off("h_central_m"), off("h_min_m"));
+      central = Math.max(central, off("h_central_m"));
+      film = Math.max(film, off("h_min_m"));
       lifes = Math.max(lifes, off("life_relative"));
       for (const name of Object.keys(native[i]).filter((name) => /iterations|ffts|retries/.test(name))) counts += mine[i][name] !== native[i][name];
     }
     const ratio = made.seconds / counters.steps / (told.wall_s / told.counters.steps);
-    console.log(`     ${scene}: ${least} frames, film off by ${film.toExponential(1)}, life by ${lifes.toExponential(1)}, ${counts} counts differ; ${(1000 * made.seconds / counters.steps).toFixed(1)} ms a step, ${ratio.toFixed(2)} times native`);
-    assert.ok(film <= 1e-6 && lifes <= 1e-6 && counts === 0 && least > 0);
+    console.log(`     ${scene}: ${least} frames, central film off by ${central.toExponential(1)}, least by ${film.toExponential(1)}, life by ${lifes.toExponential(1)}, ${counts} counts differ; ${(1000 * made.seconds / counters.steps).toFixed(1)} ms a step, ${ratio.toFixed(2)} times native`);
+    // A page rounds product and sum apart and takes its sums in other lanes. Both iterate until a residual is small, not
+    // until the last bit stands, so that what differs is of the size that the iteration leaves: least films, spots of some
+    // nm, feel it first.
+    const words = `${central} ${film} ${lifes} ${counts} ${least}`;
+    assert.ok(central <= 1e-5 && film <= 1e-5 && lifes <= 1e-5 && counts === 0 && least === FRAMES, words);
     if (scene === SCENES[0]) assert.ok(ratio <= SLOWER, `${ratio}`);
   }
   fs.rmSync(folder, { recursive: true });
