@@ -249,7 +249,7 @@ fn forward(sender: &Sender<ScreenEvent>, ended: &AtomicBool) {
 fn understood(event: &event::Event) -> Option<ScreenEvent> {
     match event {
         event::Event::Key(key) => chord(key).map(ScreenEvent::Key),
-        event::Event::Mouse(mouse) => pointer(mouse).map(ScreenEvent::Pointer),
+        event::Event::Mouse(mouse) => pointer(*mouse).map(ScreenEvent::Pointer),
         event::Event::Resize(..) => Some(ScreenEvent::Resize),
         _ => None,
     }
@@ -287,7 +287,7 @@ fn chord(event: &KeyEvent) -> Option<Chord> {
     })
 }
 
-fn pointer(event: &MouseEvent) -> Option<Pointer> {
+fn pointer(event: MouseEvent) -> Option<Pointer> {
     let act = match event.kind {
         MouseEventKind::Down(MouseButton::Left) => PointerAct::Press,
         MouseEventKind::Drag(MouseButton::Left) => PointerAct::Drag,
@@ -321,7 +321,7 @@ mod tests {
                 row: 4,
                 modifiers: KeyModifiers::NONE,
             };
-            pointer(&mouse).map(|pointer| pointer.act)
+            pointer(mouse).map(|pointer| pointer.act)
         };
         let down = mouse(MouseEventKind::Down(MouseButton::Left));
         assert_eq!(down, Some(PointerAct::Press));
