@@ -32,10 +32,7 @@ impl Scene {
 fn push_section(text: &mut String, section: &Section, table: Option<&Table>) {
     let Some(table) = table else {
         if let Need::Optional(meaning) = section.need {
-            push(
-                text,
-                format_args!("\n# [{}]    # omitted: {meaning}\n", section.path),
-            );
+            push_omitted_section(text, section, meaning);
         }
         return;
     };
@@ -61,6 +58,23 @@ fn push_section(text: &mut String, section: &Section, table: Option<&Table>) {
         if need.is_none() && section.path == "body_1.surface" {
             push_of_other_kind(text, key);
         }
+    }
+}
+
+fn push_omitted_section(text: &mut String, section: &Section, meaning: &str) {
+    push(
+        text,
+        format_args!(
+            "\n# {}\n# [{}]    # omitted: {meaning}\n",
+            section.doc, section.path
+        ),
+    );
+    for key in section.keys {
+        let setting = format!("# {} =", key.name);
+        push(
+            text,
+            format_args!("{setting:<COMMENT_COLUMN$}# {}\n", comment(key)),
+        );
     }
 }
 
