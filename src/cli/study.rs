@@ -158,14 +158,9 @@ fn extent(args: &StudyArgs) -> Extent {
 
 /// The report under its title, with the command that makes it and the machine that made it.
 fn headed(title: &str, args: &StudyArgs, text: &str) -> String {
-    let form = match extent(args) {
-        Extent::Quick => " --quick",
-        Extent::Usual => "",
-        Extent::Full => " --full",
-    };
     format!(
-        "# {title}\n\n`asperity study {}{form}`, asperity {}, on {}, {} threads.\n\n{text}",
-        title.to_lowercase(),
+        "# {title}\n\n`{}`, asperity {}, on {}, {} threads.\n\n{text}",
+        args.command(),
         asperity::files::VERSION,
         machine(),
         args.threads(),

@@ -90,7 +90,7 @@ pub(super) fn check_hardness(scene: &Scene) -> Result<(), SceneError> {
             key,
             format!("{} Pa", short(hardness_pa)),
             format!(
-                "at least {} Pa, half the Hertz pressure: a softer body gives way as a whole and not by its asperities",
+                "at least {} Pa, half the Hertz pressure: a softer body yields as a whole and not by its asperities",
                 short(least_pa)
             ),
         ));
@@ -107,7 +107,7 @@ pub(super) fn check_carried(scene: &Scene, key: &str, force: f64) -> Result<(), 
             key,
             format!("{} {unit}", short(force)),
             format!(
-                "a Hertz pressure of at most {} Pa, twice the hardness of the softer body; this load makes {} Pa: the body gives way as a whole and not by its asperities",
+                "a Hertz pressure of at most {} Pa, twice the hardness of the softer body; this load makes {} Pa: the body yields as a whole and not by its asperities",
                 short(hardness_pa / LEAST_HARDNESS),
                 short(p_max_pa)
             ),

@@ -290,7 +290,7 @@ impl Simulation {
         if knob == self.plan.scaling.load_knob() && value > most * (1.0 + 1e-9) {
             if self.plan.decided.carried_force_n() <= most {
                 return Err(refuse(format!(
-                    "at most {most:.4e}, which makes a Hertz pressure of twice the hardness of the softer body: with more it gives way as a whole and not by its asperities"
+                    "at most {most:.4e}, which makes a Hertz pressure of twice the hardness of the softer body: with more it yields as a whole and not by its asperities"
                 )));
             }
             return Err(refuse(format!(

@@ -64,7 +64,7 @@ struct CurveAxis {
 fn along(sweep: &Sweep) -> Option<CurveAxis> {
     if let Some(column) = super::path::columns(&sweep.path).next() {
         let label = match column {
-            "path_m" => "way along the line of action from A, m",
+            "path_m" => "distance along the line of action from A, m",
             _ => "angle, degrees",
         };
         return Some(CurveAxis {

@@ -258,7 +258,7 @@ pub(crate) struct Ladder {
 }
 
 impl Ladder {
-    /// One committed node of way: extrapolated guess, last pressure as guess, halves, backward Euler.
+    /// One committed node of travel: extrapolated guess, last pressure as guess, halves, backward Euler.
     fn step(&mut self, case: &Case, march: &mut March) {
         let conditions = conditions(&case.medium, TOLERANCE);
         let converged = |report: NewtonReport| report.verdict == Verdict::Converged;

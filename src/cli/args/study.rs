@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 /// What to study.
 #[derive(Debug, Args)]
@@ -32,6 +32,26 @@ impl StudyArgs {
     pub(crate) fn threads(&self) -> usize {
         super::threads(self.threads)
     }
+
+    /// The command that prints this report again, less the folder it goes to.
+    pub(crate) fn command(&self) -> String {
+        let mut words = "asperity study".to_owned();
+        if let Some(kind) = self.kind.to_possible_value() {
+            words += &format!(" {}", kind.get_name());
+        }
+        words += match (self.quick, self.full) {
+            (true, _) => " --quick",
+            (_, true) => " --full",
+            _ => "",
+        };
+        if let Some(only) = &self.only {
+            words += &format!(" --only '{}'", only.replace('\'', r"'\''"));
+        }
+        if let Some(threads) = self.threads {
+            words += &format!(" --threads {threads}");
+        }
+        words
+    }
 }
 
 /// The studies.
@@ -45,4 +65,54 @@ pub(crate) enum StudyKind {
     Scaling,
     /// Published tables and experiments beside what is found here; each row is a scene: asperity run evidence/NAME
     Evidence,
+}
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::cli::args::{Cli, CliCommand};
+
+    fn parsed(words: &[&str]) -> StudyArgs {
+        match Cli::try_parse_from(words).unwrap().command {
+            Some(CliCommand::Study(args)) => args,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// What a shell makes of the line, words and single quotes only.
+    fn split(line: &str) -> Vec<String> {
+        let mut words = vec![String::new()];
+        let mut is_quoted = false;
+        let mut letters = line.chars();
+        while let Some(letter) = letters.next() {
+            match letter {
+                '\'' => is_quoted = !is_quoted,
+                '\\' if !is_quoted => words.last_mut().unwrap().extend(letters.next()),
+                ' ' if !is_quoted => words.push(String::new()),
+                _ => words.last_mut().unwrap().push(letter),
+            }
+        }
+        words
+    }
+
+    #[test]
+    fn the_command_of_a_report_parses_back_to_the_study_that_made_it() {
+        for kind in StudyKind::value_variants() {
+            let name = kind.to_possible_value().unwrap();
+            for form in [None, Some("--quick"), Some("--full")] {
+                for more in [&[][..], &["--only", "1 thread's"], &["--threads", "2"]] {
+                    let mut words = vec!["asperity", "study", name.get_name()];
+                    words.extend(form);
+                    words.extend(more);
+                    let args = parsed(&words);
+                    let line = split(&args.command());
+                    let again = parsed(&line.iter().map(String::as_str).collect::<Vec<_>>());
+                    assert_eq!(format!("{args:?}"), format!("{again:?}"));
+                }
+            }
+        }
+    }
 }

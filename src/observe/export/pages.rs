@@ -184,7 +184,7 @@ impl Page {
 
     fn x_title(self) -> &'static str {
         match self {
-            Self::Damage(_) => "way along the surface from a crest, mm",
+            Self::Damage(_) => "distance along the surface from a crest, mm",
             Self::Map(_) | Self::CentreLine | Self::Profile => {
                 "x, mm (rolling direction to the right)"
             }

@@ -53,7 +53,7 @@ const SHARED: [&str; 5] = [
 pub enum ComparedBy {
     /// Simulated time since the start of the passage.
     Time,
-    /// The way that body 1, and a crest on it, has gone.
+    /// The distance that body 1, and a crest on it, has gone.
     Place,
 }
 
@@ -336,7 +336,7 @@ impl Written<'_> {
     fn tell(&self, names: &[&str], by: ComparedBy) -> Result<(), ObserveError> {
         let by = match by {
             ComparedBy::Time => "simulated time",
-            ComparedBy::Place => "the place of a crest of body 1 (the way that body 1 has gone)",
+            ComparedBy::Place => "the place of a crest of body 1 (the distance that body 1 has gone)",
         };
         let list = RUNS.iter().zip(names);
         let list: Vec<String> = list

@@ -99,7 +99,7 @@ impl Block {
         let plot = PlotBox {
             x_ticks: ticks_at(&ticks(0.0, length, 5), |x| WIDTH * x / length),
             left_ticks: depths.ticks(HEIGHT),
-            x_title: "way along the surface from a crest, µm".into(),
+            x_title: "distance along the surface from a crest, µm".into(),
             titles: vec![(0.13, "depth z, µm".into(), WHITE)],
             ..plot_box()
         };

@@ -184,7 +184,7 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
     }
     let note = match (app.map, app.zoom) {
         (MapKind::Stress, _) => "x–z plane, y = 0 ",
-        (MapKind::PressureWaves | MapKind::FilmWaves, _) => "y = 0, last 2a of way, now below ",
+        (MapKind::PressureWaves | MapKind::FilmWaves, _) => "y = 0, last 2a of travel, now below ",
         (_, Zoom::Domain) => "whole domain ",
         (_, Zoom::Contact) => "",
     };
