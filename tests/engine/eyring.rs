@@ -321,7 +321,7 @@ fn run(sets: &[&str], steps: u64) -> (Frame, asperity::sim::Stats) {
         .map(|s| s.parse().unwrap())
         .collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
-    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
+    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
     while sim.passage_steps() < steps {
         sim.step().unwrap();
         assert!(sim.metrics().converged);

@@ -32,7 +32,7 @@ fn scene(name: &str, sets: &[&str]) -> Scene {
 }
 
 fn simulation(scene: &Scene) -> Simulation {
-    Simulation::new(scene, Plan::new(scene).unwrap(), 2).unwrap()
+    Simulation::new(scene, Plan::new(scene).unwrap(), 1).unwrap()
 }
 
 /// The scene with knobs that its script turns as soon as the passage begins.
