@@ -231,11 +231,35 @@ mod recorded {
 
 /// The run that is cut in two is the one that its recording tells: with every start-up made twice and not three times, both
 /// claims are one comparison, and a difference before the cut is the recording's.
+///
+/// Every second case: any five of the six properties together are in it, with one of the sixth's. The others are
+/// `the_other_half`.
 #[test]
 fn a_run_repeated_from_its_recording_and_cut_in_two_is_the_whole_run() {
+    half(0);
+}
+
+#[test]
+#[ignore = "a minute: the cases that the test above leaves out"]
+fn the_other_half() {
+    half(1);
+}
+
+/// 0 where a case's places in the lists of its properties add up to an even number, else 1.
+fn parity(at: usize) -> usize {
+    // Of shape and flow there are three, of the others two.
+    let places = [at / 48, at / 16 % 3, at / 8, at / 4, at / 2, at];
+    (places[0] + places[1] + places[2..].iter().map(|place| place % 2).sum::<usize>()) % 2
+}
+
+fn half(of: usize) {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(folder.path());
     assert_eq!(cases.len(), 144);
+    let places = cases.into_iter().enumerate();
+    let cases = places.filter(|(at, _)| parity(*at) == of);
+    let cases: Vec<Case> = cases.map(|(_, case)| case).collect();
+    assert_eq!(cases.len(), 72);
     let in_both = |case: &Case| {
         let path = folder.path().join(format!("{}.rrd", case.name));
         let watcher = recorded::watcher(&path);
