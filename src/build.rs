@@ -1,6 +1,6 @@
 //! Gives the program the identity of its engine: FNV-1a of the sources that results depend on, of the locked
 //! dependencies, the compiler and the target. No time, no path, no name of a machine: the same sources and tools give
-//! the same program.
+//! the same program. FNV stands here in four lines: with the crate the script would have to wait for it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,4 +1,5 @@
-//! Signals that end a run in order.
+//! Signals that end a run in order, by the crate `ctrlc`: it calls on a thread of its own, which `nix` and `rustix` leave to
+//! `unsafe` code.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};

@@ -1,5 +1,9 @@
 //! Writing: beside, brought to the disk, renamed, the folder brought to the disk. Whatever breaks it off leaves the
 //! old file or the new one.
+//!
+//! The crate `tempfile` was measured in place of names and links: a file of 20 kB takes the same time to 2 % (9.3 ms, the
+//! disk), 20 lines of 60 would go, those that bring files and folders to the disk stay. Lost would be file systems
+//! without links, and the process in the name.
 
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Result};

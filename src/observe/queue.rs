@@ -5,12 +5,15 @@
 //! ([`WhenFull::Wait`], so the file is complete) and a live run goes on ([`WhenFull::Skip`], and
 //! what was skipped is counted). An error of the observer comes back on the next call and again
 //! from `finish`; the observer is not called any more after it.
+//!
+//! Of the standard library's channels, which are `crossbeam`'s: one of messages, closed to end the thread, and one whose places
+//! stand for the frames that wait.
 
 mod stats;
 
-use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -23,11 +26,6 @@ const EVENT_CAPACITY: usize = 1024;
 
 /// After so long without a message the observer is told that it is idle.
 const IDLE: Duration = Duration::from_secs(1);
-
-/// Frames that wait before the observer's thread is woken, and how long fewer of them wait at most. To be woken
-/// for every frame costs it, and the solver whose processor it takes, more than most frames do.
-const BATCH: usize = 4;
-const LINGER: Duration = Duration::from_millis(50);
 
 /// How long the end of a run waits for an observer that may stall.
 const LAST_WAIT: Duration = Duration::from_secs(5);
@@ -42,24 +40,19 @@ pub enum WhenFull {
 }
 
 enum Message {
-    Begin(Box<RunContext>),
+    /// Answered when the observer has begun.
+    Begin(Box<RunContext>, SyncSender<()>),
     Frame(Arc<Frame>),
     Event(RunEvent),
-    Finish,
 }
 
 #[derive(Default)]
 struct QueueState {
-    waiting: VecDeque<Message>,
-    /// The observer's thread has nothing more to do and takes no more.
-    closed: bool,
-    /// The observer's thread waits for a message, however long that takes.
-    asleep: bool,
-    /// `begin` has been answered.
-    begun: bool,
     error: Option<ObserveError>,
     report: Option<ObserverReport>,
     stats: QueueStats,
+    /// Frames that wait no longer.
+    taken: u64,
     /// What the observer says that it kept.
     kept: Option<u64>,
 }
@@ -67,8 +60,6 @@ struct QueueState {
 #[derive(Default)]
 struct QueueShared {
     state: Mutex<QueueState>,
-    filled: Condvar,
-    emptied: Condvar,
 }
 
 impl QueueShared {
@@ -78,12 +69,24 @@ impl QueueShared {
     }
 }
 
+/// What the observer's thread takes from.
+struct Inlet {
+    messages: Receiver<Message>,
+    /// A place for every frame that waits.
+    room: Receiver<()>,
+    /// Closed when the thread has nothing more to do.
+    _ended: SyncSender<()>,
+}
+
 /// Runs an observer on its own thread behind a bounded queue.
 pub struct Queue {
     shared: Arc<QueueShared>,
+    /// `None`: no more will come.
+    messages: Option<SyncSender<Message>>,
+    room: SyncSender<()>,
+    ended: Receiver<()>,
     thread: Option<JoinHandle<()>>,
     name: String,
-    capacity: usize,
     when_full: WhenFull,
     /// How long the end waits for the observer; `None`: for ever.
     patience: Option<Duration>,
@@ -102,23 +105,34 @@ impl Queue {
     ) -> Result<Self, ObserveError> {
         let shared = Arc::new(QueueShared::default());
         let capacity = capacity.max(1);
-        let mut state = shared.lock();
-        state.waiting.reserve(capacity + 1);
-        state.stats.capacity = capacity;
-        drop(state);
+        shared.lock().stats.capacity = capacity;
+        let (messages, taken) = sync_channel(capacity + EVENT_CAPACITY);
+        let (room, places) = sync_channel(capacity);
+        let (end, ended) = sync_channel(1);
+        let inlet = Inlet {
+            messages: taken,
+            room: places,
+            _ended: end,
+        };
         let on_thread = Arc::clone(&shared);
         let label = name.to_owned();
         let thread = std::thread::Builder::new()
             .name(name.to_owned())
-            .spawn(move || serve(&on_thread, observer.as_mut(), &label))
+            .spawn(move || {
+                serve(&on_thread, &inlet, observer.as_mut(), &label);
+                // Before the observer, which may stall even while it goes.
+                drop(inlet);
+            })
             .map_err(|error| {
                 ObserveError::new(name, format!("its thread did not start: {error}"))
             })?;
         Ok(Self {
             shared,
+            messages: Some(messages),
+            room,
+            ended,
             thread: Some(thread),
             name: name.to_owned(),
-            capacity,
             when_full,
             patience: None,
         })
@@ -144,69 +158,39 @@ impl Queue {
         self.shared.lock().stats
     }
 
-    /// Puts a message in, or says why not. `limit` is the number of waiting messages from which
-    /// the queue counts as full for it.
-    fn put(&self, message: Message, limit: usize, when_full: WhenFull) -> Result<(), ObserveError> {
-        let mut state = self.shared.lock();
-        let mut waits_since = None;
-        while state.error.is_none() && !state.closed && state.waiting.len() >= limit {
-            if when_full == WhenFull::Skip {
-                state.stats.skipped += u64::from(matches!(message, Message::Frame(_)));
-                return Ok(());
-            }
-            if waits_since.is_none() {
+    /// Why nothing is taken any more.
+    fn failure(&self) -> ObserveError {
+        let error = self.shared.lock().error.clone();
+        error.unwrap_or_else(|| ObserveError::new(&self.name, "was finished already"))
+    }
+
+    /// Puts `value` into a channel, waiting or not; whether it is in.
+    fn put<T>(&self, channel: &SyncSender<T>, value: T) -> Result<bool, ObserveError> {
+        match channel.try_send(value) {
+            Ok(()) => Ok(true),
+            Err(TrySendError::Full(_)) if self.when_full == WhenFull::Skip => Ok(false),
+            Err(TrySendError::Full(value)) => {
+                let since = Instant::now();
+                let sent = channel.send(value);
+                let mut state = self.shared.lock();
                 state.stats.waits += 1;
-                waits_since = Some(Instant::now());
+                state.stats.waited += since.elapsed();
+                drop(state);
+                sent.map(|()| true).map_err(|_| self.failure())
             }
-            state = self
-                .shared
-                .emptied
-                .wait(state)
-                .unwrap_or_else(PoisonError::into_inner);
+            Err(TrySendError::Disconnected(_)) => Err(self.failure()),
         }
-        if let Some(since) = waits_since {
-            state.stats.waited += since.elapsed();
-        }
-        if let Some(error) = &state.error {
-            return Err(error.clone());
-        }
-        if state.closed {
-            return Err(ObserveError::new(&self.name, "was finished already"));
-        }
-        if matches!(message, Message::Frame(_)) {
-            state.stats.frames += 1;
-            state.stats.max_depth = state.stats.max_depth.max(state.waiting.len() + 1);
-        }
-        let batch = BATCH.min(self.capacity.div_ceil(2));
-        let wakes = !matches!(message, Message::Frame(_));
-        state.waiting.push_back(message);
-        let wakes = wakes || state.asleep || state.waiting.len() >= batch;
-        drop(state);
-        if wakes {
-            self.shared.filled.notify_one();
-        }
-        Ok(())
     }
 
     /// Waits for an observer that may stall; a report in its place when it does not come to an end.
     fn give_up(&self) -> Option<ObserverReport> {
-        let patience = self.patience?;
-        let state = self.shared.lock();
-        let (state, _) = self
-            .shared
-            .emptied
-            .wait_timeout_while(state, patience, |state| !state.closed)
-            .unwrap_or_else(PoisonError::into_inner);
-        (!state.closed).then(|| {
-            let waiting = state
-                .waiting
-                .iter()
-                .filter(|message| matches!(message, Message::Frame(_)));
-            let waiting = waiting.count() as u64;
+        let waited = self.ended.recv_timeout(self.patience?);
+        (waited == Err(RecvTimeoutError::Timeout)).then(|| {
+            let state = self.shared.lock();
             ObserverReport {
                 output: self.name.clone(),
-                frames: state.stats.frames - waiting,
-                skipped: state.stats.skipped + waiting,
+                frames: state.taken,
+                skipped: state.stats.skipped + state.stats.frames - state.taken,
                 bytes: 0,
                 note: "it no longer took anything and was left alone".to_owned(),
                 queue: Some(state.stats),
@@ -229,28 +213,30 @@ impl Queue {
 
 impl Observer for Queue {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
-        self.put(
-            Message::Begin(Box::new(context.clone())),
-            usize::MAX,
-            WhenFull::Wait,
-        )?;
-        let mut state = self.shared.lock();
-        while !state.begun && state.error.is_none() && !state.closed {
-            state = self
-                .shared
-                .emptied
-                .wait(state)
-                .unwrap_or_else(PoisonError::into_inner);
-        }
-        state.error.clone().map_or(Ok(()), Err)
+        let (tell, begun) = sync_channel(1);
+        let messages = self.messages.as_ref().ok_or_else(|| self.failure())?;
+        self.put(messages, Message::Begin(Box::new(context.clone()), tell))?;
+        begun.recv().map_err(|_| {
+            // The error is there when the thread has ended.
+            let _ = self.ended.recv();
+            self.failure()
+        })
     }
 
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
-        self.put(
-            Message::Frame(Arc::clone(frame)),
-            self.capacity,
-            self.when_full,
-        )
+        let messages = self.messages.as_ref().ok_or_else(|| self.failure())?;
+        let has_place = self.put(&self.room, ())?;
+        let mut state = self.shared.lock();
+        if !has_place {
+            state.stats.skipped += 1;
+            return Ok(());
+        }
+        state.stats.frames += 1;
+        let depth = (state.stats.frames - state.taken) as usize;
+        state.stats.max_depth = state.stats.max_depth.max(depth);
+        drop(state);
+        self.put(messages, Message::Frame(Arc::clone(frame)))?;
+        Ok(())
     }
 
     fn skipped(&self) -> u64 {
@@ -262,27 +248,21 @@ impl Observer for Queue {
     }
 
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
-        self.put(
-            Message::Event(event.clone()),
-            self.capacity + EVENT_CAPACITY,
-            self.when_full,
-        )
+        let messages = self.messages.as_ref().ok_or_else(|| self.failure())?;
+        self.put(messages, Message::Event(event.clone()))?;
+        Ok(())
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        let asked = self.put(Message::Finish, usize::MAX, WhenFull::Wait);
+        self.messages = None;
         if let Some(report) = self.give_up() {
             return Ok(report);
         }
         self.join();
         let state = self.shared.lock();
-        let mut report = state.report.clone().ok_or_else(|| {
-            state.error.clone().unwrap_or_else(|| {
-                asked
-                    .err()
-                    .unwrap_or_else(|| ObserveError::new(&self.name, "ended without a report"))
-            })
-        })?;
+        let none = || ObserveError::new(&self.name, "ended without a report");
+        let error = || state.error.clone().unwrap_or_else(none);
+        let mut report = state.report.clone().ok_or_else(error)?;
         report.skipped += state.stats.skipped;
         report.queue = Some(state.stats);
         Ok(report)
@@ -293,22 +273,39 @@ impl Drop for Queue {
     /// Lets the observer work off what is waiting, so that a dropped queue leaves whole outputs.
     fn drop(&mut self) {
         if self.thread.is_some() {
-            drop(self.put(Message::Finish, usize::MAX, WhenFull::Wait));
+            self.messages = None;
             drop(self.give_up());
             self.join();
         }
     }
 }
 
-/// The observer's thread: works off messages until it finishes, fails or panics.
-fn serve(shared: &QueueShared, observer: &mut dyn Observer, name: &str) {
-    let mut patience = Some(IDLE);
+/// The observer's thread: works off messages until no more will come, or the observer fails or panics.
+fn serve(shared: &QueueShared, inlet: &Inlet, observer: &mut dyn Observer, name: &str) {
+    // A pause is told once, until the next message.
+    let mut is_idle = false;
     loop {
-        let message = next(shared, &mut patience);
-        let last = matches!(message, Some(Message::Finish));
-        let outcome = catch_unwind(AssertUnwindSafe(|| match message {
-            Some(message) => deliver(shared, observer, message),
-            None => observer.idle(),
+        let next = if is_idle {
+            let next = inlet.messages.recv();
+            next.map_err(|_| RecvTimeoutError::Disconnected)
+        } else {
+            inlet.messages.recv_timeout(IDLE)
+        };
+        is_idle = next.is_err();
+        if let Ok(Message::Frame(_)) = &next {
+            shared.lock().taken += 1;
+            // Its place was taken before it was sent.
+            let _ = inlet.room.try_recv();
+        }
+        let is_last = matches!(next, Err(RecvTimeoutError::Disconnected));
+        let outcome = catch_unwind(AssertUnwindSafe(|| match next {
+            Ok(message) => deliver(shared, observer, message),
+            Err(RecvTimeoutError::Timeout) => observer.idle(),
+            Err(RecvTimeoutError::Disconnected) => {
+                let report = observer.finish()?;
+                shared.lock().report = Some(report);
+                Ok(())
+            }
         }));
         let result = outcome.unwrap_or_else(|_| {
             Err(ObserveError::new(
@@ -316,49 +313,11 @@ fn serve(shared: &QueueShared, observer: &mut dyn Observer, name: &str) {
                 "stopped by a programming error (panic); what was written before is kept",
             ))
         });
-        let mut state = shared.lock();
         let failed = result.is_err();
-        if let Err(error) = result {
-            state.error = Some(error);
-        }
-        if last || failed {
-            state.closed = true;
-            state.waiting.clear();
-            drop(state);
-            shared.emptied.notify_all();
+        shared.lock().error = result.err();
+        if is_last || failed {
             return;
         }
-    }
-}
-
-/// The next message, or `None` when none has come for so long. A pause is told once: then there is no patience
-/// to lose until the next message.
-fn next(shared: &QueueShared, patience: &mut Option<Duration>) -> Option<Message> {
-    let began = Instant::now();
-    let mut state = shared.lock();
-    loop {
-        if let Some(message) = state.waiting.pop_front() {
-            state.asleep = false;
-            drop(state);
-            shared.emptied.notify_all();
-            *patience = Some(IDLE);
-            return Some(message);
-        }
-        state = match *patience {
-            Some(most) if began.elapsed() >= most => {
-                *patience = None;
-                return None;
-            }
-            Some(_) => {
-                let waited = shared.filled.wait_timeout(state, LINGER);
-                waited.unwrap_or_else(PoisonError::into_inner).0
-            }
-            None => {
-                state.asleep = true;
-                let waited = shared.filled.wait(state);
-                waited.unwrap_or_else(PoisonError::into_inner)
-            }
-        };
     }
 }
 
@@ -368,10 +327,10 @@ fn deliver(
     message: Message,
 ) -> Result<(), ObserveError> {
     match message {
-        Message::Begin(context) => {
+        Message::Begin(context, tell) => {
             observer.begin(&context)?;
-            shared.lock().begun = true;
-            shared.emptied.notify_all();
+            // Who asked may have gone.
+            let _ = tell.send(());
             Ok(())
         }
         Message::Frame(frame) => {
@@ -384,11 +343,6 @@ fn deliver(
             written
         }
         Message::Event(event) => observer.event(&event),
-        Message::Finish => {
-            let report = observer.finish()?;
-            shared.lock().report = Some(report);
-            Ok(())
-        }
     }
 }
 

@@ -117,6 +117,18 @@ impl Mesh {
 }
 
 impl GearTeeth {
+    /// FZG type C, ISO 14635-1.
+    #[cfg(test)]
+    pub(crate) fn fzg_c() -> Self {
+        Self {
+            teeth: [16, 24],
+            module_m: 4.5e-3,
+            pressure_angle_rad: 20_f64.to_radians(),
+            centre_distance_m: 91.5e-3,
+            tip_diameters_m: [82.46e-3, 118.36e-3],
+        }
+    }
+
     /// What [`GearTeeth::line_of_action`] asks for, in words.
     pub const MESHING: &'static str = "teeth that mesh: base circles apart, tips between them and the tangent points, contact ratio 1 to 2";
 
@@ -201,15 +213,11 @@ mod tests {
     use super::*;
     use crate::physics::line::hertz_from_load;
 
-    /// FZG type C, ISO 14635-1: a = 91.5 mm, z 16/24, m 4.5 mm, α = 20°.
     fn fzg(tip_diameters_m: [f64; 2]) -> GearPair {
         GearPair {
             gears: GearTeeth {
-                teeth: [16, 24],
-                module_m: 4.5e-3,
-                pressure_angle_rad: 20_f64.to_radians(),
-                centre_distance_m: 91.5e-3,
                 tip_diameters_m,
+                ..GearTeeth::fzg_c()
             },
             face_width_m: 14e-3,
             torque_n_m: 200.0,

@@ -120,15 +120,8 @@ fn mirror(at: GearPoint, centre: GearPoint, axis: GearPoint) -> GearPoint {
 mod tests {
     use super::*;
 
-    /// FZG type C, ISO 14635-1.
     fn fzg() -> (GearTeeth, LineOfAction) {
-        let gear = GearTeeth {
-            teeth: [16, 24],
-            module_m: 4.5e-3,
-            pressure_angle_rad: 20_f64.to_radians(),
-            centre_distance_m: 91.5e-3,
-            tip_diameters_m: [82.46e-3, 118.36e-3],
-        };
+        let gear = GearTeeth::fzg_c();
         (gear, gear.line_of_action().unwrap())
     }
 

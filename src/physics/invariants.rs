@@ -26,38 +26,39 @@ pub struct Stress6 {
 }
 
 impl Stress6 {
+    /// The state of components xx, yy, zz, xy, xz, yz.
+    pub fn of([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Self {
+        Self {
+            xx,
+            yy,
+            zz,
+            xy,
+            xz,
+            yz,
+        }
+    }
+
+    fn components(self) -> [f64; 6] {
+        [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz]
+    }
+
     /// Sum of two states.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
-        Self {
-            xx: self.xx + other.xx,
-            yy: self.yy + other.yy,
-            zz: self.zz + other.zz,
-            xy: self.xy + other.xy,
-            xz: self.xz + other.xz,
-            yz: self.yz + other.yz,
-        }
+        let (one, other) = (self.components(), other.components());
+        Self::of(std::array::from_fn(|c| one[c] + other[c]))
     }
 
     /// State times a number.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
-        Self {
-            xx: self.xx * factor,
-            yy: self.yy * factor,
-            zz: self.zz * factor,
-            xy: self.xy * factor,
-            xz: self.xz * factor,
-            yz: self.yz * factor,
-        }
+        Self::of(self.components().map(|c| c * factor))
     }
 
     /// Greatest difference between two components of the same name.
     pub fn distance(self, other: Self) -> f64 {
-        let d = self.plus(other.times(-1.0));
-        [d.xx, d.yy, d.zz, d.xy, d.xz, d.yz]
-            .into_iter()
-            .fold(0.0, |worst, c| worst.max(c.abs()))
+        let apart = self.plus(other.times(-1.0)).components();
+        apart.into_iter().fold(0.0, |worst, c| worst.max(c.abs()))
     }
 
     /// Mean normal stress, a third of the trace.
@@ -159,22 +160,10 @@ mod tests {
 
     #[test]
     fn principal_stresses_keep_the_invariants() {
-        let s = Stress6 {
-            xx: 1.0,
-            yy: -2.0,
-            zz: 0.5,
-            xy: 0.7,
-            xz: -1.1,
-            yz: 0.3,
-        };
+        let s = Stress6::of([1.0, -2.0, 0.5, 0.7, -1.1, 0.3]);
         let [a, b, c] = s.principal();
         assert!(a >= b && b >= c);
-        let diagonal = Stress6 {
-            xx: a,
-            yy: b,
-            zz: c,
-            ..Stress6::default()
-        };
+        let diagonal = Stress6::of([a, b, c, 0.0, 0.0, 0.0]);
         assert_relative_eq!(diagonal.mean(), s.mean(), max_relative = 1e-12);
         assert_relative_eq!(diagonal.j2(), s.j2(), max_relative = 1e-12);
         assert_relative_eq!(diagonal.j3(), s.j3(), max_relative = 1e-12);

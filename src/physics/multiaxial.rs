@@ -121,14 +121,7 @@ mod tests {
 
     #[test]
     fn the_basis_keeps_the_state() {
-        let s = Stress6 {
-            xx: 1.0,
-            yy: -2.0,
-            zz: 0.5,
-            xy: 0.7,
-            xz: -1.1,
-            yz: 0.3,
-        };
+        let s = Stress6::of([1.0, -2.0, 0.5, 0.7, -1.1, 0.3]);
         let back = from_deviator(deviator(s));
         let d = s.mean();
         assert_relative_eq!(back.xx, s.xx - d, max_relative = 1e-12);

@@ -71,13 +71,7 @@ mod tests {
 
     #[test]
     fn the_contact_is_where_the_paths_times_say() {
-        let gears = GearTeeth {
-            teeth: [16, 24],
-            module_m: 4.5e-3,
-            pressure_angle_rad: 20_f64.to_radians(),
-            centre_distance_m: 91.5e-3,
-            tip_diameters_m: [82.46e-3, 118.36e-3],
-        };
+        let gears = GearTeeth::fzg_c();
         let tooth = Tooth::of(&gears, 1500.0 * RPM);
         let there = tooth.gears();
         assert_eq!((there.teeth, there.module_m), (gears.teeth, gears.module_m));

@@ -138,13 +138,7 @@ impl Scaling {
 
     /// The fluid of a step without flow: λ = ∞.
     pub(super) fn medium_at_rest(&self) -> Medium {
-        Medium {
-            viscosity: self.viscosity,
-            density: self.density,
-            lambda: f64::INFINITY,
-            sliding: 0.0,
-            sheared: ShearedFlow::Secant,
-        }
+        Medium::newtonian(self.viscosity, self.density, f64::INFINITY)
     }
 
     /// Load integral of a force, N (a line: N/m).

@@ -30,6 +30,7 @@
 //! where the sampled edge of the contact rules. Tests: `tests/engine/hertz_dry.rs`, `tests/engine/dry_periodic.rs`.
 
 mod bounds;
+mod search;
 
 use super::film::{Edge, Elastic};
 use super::newton::{Iterate, NewtonReport, Tolerance, Verdict};
@@ -325,68 +326,6 @@ impl Dry {
             }
         }
         (worst.0, f64::from(worst.1))
-    }
-
-    /// The next direction; `anew`: steepest descent.
-    fn turn(&mut self, grid: &Grid, anew: bool) {
-        let beta = if anew {
-            0.0
-        } else {
-            // Polak and Ribière: the preconditioner is not exactly the same from set to set.
-            let (r, old, z) = (&self.residual, &self.residual_old, &self.z);
-            let new = grid.integrate(|n| f64::from(z[n]) * f64::from(r[n] - old[n]));
-            let t = &self.direction;
-            let before = grid.integrate(|n| f64::from(t[n]) * f64::from(old[n]));
-            (new / before).max(0.0)
-        };
-        let beta = if beta.is_finite() { beta as f32 } else { 0.0 };
-        for ((t, &z), &inside) in self.direction.iter_mut().zip(&self.z).zip(&self.in_contact) {
-            // What is left of another solution may be anything, and no factor makes it nothing.
-            let old = if beta == 0.0 { 0.0 } else { beta * *t };
-            *t = if inside { z + old } else { 0.0 };
-        }
-    }
-
-    /// K t, and the length of the step to the lowest energy along t.
-    fn line(&mut self, elastic: &mut Elastic, grid: &Grid) -> f64 {
-        elastic.deflect_single(&self.direction, &mut self.image);
-        let (t, r, image) = (&self.direction, &self.residual, &self.image);
-        let slope = grid.integrate(|n| f64::from(t[n]) * f64::from(r[n]));
-        let curvature = grid.integrate(|n| f64::from(t[n]) * f64::from(image[n]));
-        slope / curvature
-    }
-
-    /// P − τ t, cut at its bounds and brought to the load; whether anything was cut.
-    fn walk(&mut self, problem: &DryProblem, iterate: &mut Iterate, tau: f64) -> bool {
-        let (mut cut, hardness) = (false, self.hardness);
-        for ((p, u), (&t, &image)) in iterate
-            .p
-            .iter_mut()
-            .zip(&mut self.deflection)
-            .zip(self.direction.iter().zip(&self.image))
-        {
-            if t != 0.0 {
-                *p -= tau * f64::from(t);
-                if *p < 0.0 {
-                    *p = 0.0;
-                    cut = true;
-                } else if *p > hardness {
-                    *p = hardness;
-                    cut = true;
-                }
-            }
-            *u -= tau * f64::from(image);
-        }
-        if hardness.is_finite() {
-            // What is at the bound cannot be scaled, so K P is not scaled with it.
-            return cut;
-        }
-        let scale = problem.load / self.total(problem.grid, iterate.p);
-        for (p, u) in iterate.p.iter_mut().zip(&mut self.deflection) {
-            *p *= scale;
-            *u *= scale;
-        }
-        cut
     }
 
     /// The film and the load error.

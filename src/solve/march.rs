@@ -112,6 +112,17 @@ pub struct Shape {
     pub order: Order,
 }
 
+impl Shape {
+    /// A circular contact of like bodies, of second order: κ = 2 p_h R/(π E' a) with p_h = E' a/(π R).
+    pub const CIRCLE: Self = Self {
+        kappa: 2.0 / (std::f64::consts::PI * std::f64::consts::PI),
+        curvature_y: 1.0,
+        b_over_a: 1.0,
+        kappa_s: 0.0,
+        order: Order::Second,
+    };
+}
+
 /// What a step is solved under.
 #[derive(Debug, Clone, Copy)]
 pub struct Conditions<'a> {

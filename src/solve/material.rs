@@ -385,16 +385,20 @@ mod tests {
             .collect()
     }
 
+    fn line(pressure: &[f32]) -> Line<'_> {
+        Line {
+            x_first: -2.0,
+            dx: 0.02,
+            pressure,
+            tau_xz: None,
+            effective: None,
+        }
+    }
+
     #[test]
     fn smooth_passage_is_one_cycle_in_both_directions() {
         let pressure = bump();
-        let line = Line {
-            x_first: -2.0,
-            dx: 0.02,
-            pressure: &pressure,
-            tau_xz: None,
-            effective: None,
-        };
+        let line = line(&pressure);
         for travel in [0.03, -0.03] {
             let mut tracker = MaterialTracker::new(TrackerSpec::new((-2.0, 2.0), 0, 10.0));
             for _ in 0..400 {
@@ -409,13 +413,7 @@ mod tests {
     #[test]
     fn a_crossing_seen_from_its_middle_does_not_count() {
         let pressure = bump();
-        let line = Line {
-            x_first: -2.0,
-            dx: 0.02,
-            pressure: &pressure,
-            tau_xz: None,
-            effective: None,
-        };
+        let line = line(&pressure);
         let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 10.0);
         spec.points = 4; // at −2, 0.47, −1.06 and 1.42
         let mut tracker = MaterialTracker::new(spec);
@@ -457,13 +455,7 @@ mod tests {
     #[test]
     fn the_trace_is_bounded_and_in_order() {
         let pressure = bump();
-        let line = Line {
-            x_first: -2.0,
-            dx: 0.02,
-            pressure: &pressure,
-            tau_xz: None,
-            effective: None,
-        };
+        let line = line(&pressure);
         let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 10.0);
         spec.trace = 10;
         let mut tracker = MaterialTracker::new(spec);

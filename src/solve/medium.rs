@@ -18,3 +18,24 @@ pub struct Medium {
     /// How the pressure's flow sees oil that is sheared.
     pub sheared: ShearedFlow,
 }
+
+impl Medium {
+    /// No oil at all.
+    pub const DRY: Self = Self {
+        viscosity: Viscosity::Barus { alpha_p: 0.0 },
+        density: Density::Incompressible,
+        lambda: f64::INFINITY,
+        sliding: 0.0,
+        sheared: ShearedFlow::Secant,
+    };
+
+    /// An oil that does not slide, or whose viscosity does not feel it.
+    pub fn newtonian(viscosity: Viscosity, density: Density, lambda: f64) -> Self {
+        Self {
+            viscosity,
+            density,
+            lambda,
+            ..Self::DRY
+        }
+    }
+}

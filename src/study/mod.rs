@@ -1,7 +1,6 @@
 //! Studies: what results cost, and what they are worth. Every number is measured in the run that prints it.
 
 pub mod accuracy;
-mod crew;
 pub mod evidence;
 mod machine;
 mod scaling;

@@ -4,8 +4,7 @@
 //! thread a case and as many cases at a time as the sweep had, in the same process and after it, so that the
 //! ratio of the times means something.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 
 use super::case::{self, CaseRecord, Watch};
 use super::error::SweepError;
@@ -13,6 +12,8 @@ use super::run::Progress;
 use super::spec::Sweep;
 use super::table::Rows;
 use crate::plan::Plan;
+use crate::run::share_out;
+use crate::scene::Scene;
 
 /// A sweep against its cases run cold.
 #[derive(Debug, Clone)]
@@ -75,39 +76,21 @@ pub fn against_cold(
             at: sweep.at(index),
             source,
         })?;
-        cases.push((scene, plan));
+        cases.push((index, scene, plan));
     }
     progress.all.store(cases.len(), Ordering::Relaxed);
     progress.found.store(0, Ordering::Relaxed);
     progress.done.store(0, Ordering::Relaxed);
-    let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<CaseRecord>> = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..threads.min(cases.len()).max(1) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some((scene, plan)) = cases.get(index) else {
-                        return;
-                    };
-                    let cold = (None, case::Until::Passages);
-                    let ran = case::run(index, scene, plan, cold, 1, &mut UntilStopped(progress));
-                    let Some((record, _)) = ran else { return };
-                    let all = done.lock();
-                    let mut all = all.unwrap_or_else(std::sync::PoisonError::into_inner);
-                    all.push(record);
-                    progress.done.fetch_add(1, Ordering::Relaxed);
-                }
-            });
-        }
-    });
-    let mut cold = done
-        .into_inner()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
-    if cold.len() < cases.len() {
+    let run = |(index, scene, plan): &(usize, Scene, Plan)| {
+        let cold = (None, case::Until::Passages);
+        let ran = case::run(*index, scene, plan, cold, 1, &mut UntilStopped(progress))?;
+        progress.done.fetch_add(1, Ordering::Relaxed);
+        Some(ran.0)
+    };
+    let ran = share_out(&cases, threads.min(cases.len()), run, &mut |_, _| {});
+    let Some(cold) = ran.into_iter().collect::<Option<Vec<CaseRecord>>>() else {
         return Ok(None);
-    }
-    cold.sort_by_key(|record| record.index);
+    };
     let ratio = |warm: Option<f64>, cold: Option<f64>| {
         warm.zip(cold).map_or(f64::NAN, |(warm, cold)| warm / cold)
     };

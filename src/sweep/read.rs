@@ -1,4 +1,7 @@
 //! From a sweep file's text to a [`Sweep`]: every key known, of the right kind and within its range.
+//!
+//! `serde` was tried in place of reading key by key: some 40 lines of 330 less, but of 12 faulty files it took 2 (a chain of
+//! 0, a range of one case) and of 3 said only that no variant fits; no message would give the range, as those of scenes do.
 
 use std::path::{Path, PathBuf};
 

@@ -17,6 +17,7 @@ use std::time::Duration;
 
 use crate::common::tui_fixture::{plain, setup_planned};
 use asperity::plan::Plan;
+use asperity::run::share_out;
 use asperity::scene::{ContactKind, Override, Scene, presets};
 use asperity::sim::{Frame, Simulation};
 use asperity::tui::app::{App, Leading};
@@ -158,7 +159,14 @@ impl Written {
     fn of(case: &Case, folder: &Path) -> Self {
         let at = |name: &str| folder.join(name).display().to_string();
         let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.args(["run", &case.scene, "--force", "--out", &at("r.rrd")]);
+        command.args([
+            "run",
+            &case.scene,
+            "--force",
+            "--threads=1",
+            "--out",
+            &at("r.rrd"),
+        ]);
         command.args(["--table", &at("t.csv"), "--summary", &at("s.json")]);
         for set in &case.sets {
             command.args(["--set", set]);
@@ -299,7 +307,7 @@ impl Screen {
         let sets: Vec<Override> = case.sets.iter().map(|text| text.parse().unwrap()).collect();
         let scene = Scene::load_with(&case.scene, &sets).unwrap();
         let (kind, plan) = (scene.kind(), Plan::new(&scene).unwrap());
-        let mut sim = Simulation::new(&scene, plan.clone(), 2).unwrap();
+        let mut sim = Simulation::new(&scene, plan.clone(), 1).unwrap();
         let mut app = App::new(
             setup_planned(&scene, &case.scene, &plan),
             Vec::new(),
@@ -548,6 +556,28 @@ fn of_the_last_step(w: &Written, screen: &Screen, line: bool) -> Vec<Row> {
     rows.into_iter().flatten().collect()
 }
 
+/// What a case says in all places, of the passage and of its last step.
+fn compared(case: &Case) -> [(&'static str, Vec<Row>); 2] {
+    let folder = tempfile::tempdir().unwrap();
+    let written = Written::of(case, folder.path());
+    let screen = Screen::of(case);
+    let line = screen.kind == ContactKind::Line;
+    let compared = [
+        ("passage", of_the_passage(&written)),
+        ("last step", of_the_last_step(&written, &screen, line)),
+    ];
+    for (kind, rows) in &compared {
+        // A place that is no longer found would make the comparison empty.
+        let (name, n) = (&case.name, rows.len());
+        assert!(n >= 8, "{name}: {kind}: {n} rows");
+    }
+    // Once the report's words have changed nothing would be compared with them.
+    if case.name == "demonstration" {
+        assert!(written.unsaid.borrow().is_empty(), "{:?}", written.unsaid);
+    }
+    compared
+}
+
 /// The rows of a case as Markdown, and how many numbers disagree.
 fn told(case: &Case, kind: &str, rows: &[Row], report: &mut String) -> usize {
     for row in rows {
@@ -576,34 +606,18 @@ fn told(case: &Case, kind: &str, rows: &[Row], report: &mut String) -> usize {
 fn every_number_is_the_same_in_every_place() {
     let mut report =
         String::from("| case | of | quantity | SI | in | |\n|---|---|---|---|---|---|\n");
-    let (mut disagreements, mut compared) = (0, 0);
-    for case in cases() {
-        let folder = tempfile::tempdir().unwrap();
-        let written = Written::of(&case, folder.path());
-        let screen = Screen::of(&case);
-        let line = screen.kind == ContactKind::Line;
-        for (kind, rows) in [
-            ("passage", of_the_passage(&written)),
-            ("last step", of_the_last_step(&written, &screen, line)),
-        ] {
-            // A place that is no longer found would make the comparison empty.
-            assert!(
-                rows.len() >= 8,
-                "{}: {kind}: {} rows",
-                case.name,
-                rows.len()
-            );
-            // Once the report's words have changed nothing would be compared with them.
-            if case.name == "demonstration" {
-                assert!(written.unsaid.borrow().is_empty(), "{:?}", written.unsaid);
-            }
-            compared += rows.iter().map(|row| row.places.len()).sum::<usize>();
-            disagreements += told(&case, kind, &rows, &mut report);
+    let cases = cases();
+    let all = share_out(&cases, 2, compared, &mut |_, _| {});
+    let (mut disagreements, mut n_compared) = (0, 0);
+    for (case, of_case) in cases.iter().zip(all) {
+        for (kind, rows) in of_case {
+            n_compared += rows.iter().map(|row| row.places.len()).sum::<usize>();
+            disagreements += told(case, kind, &rows, &mut report);
         }
     }
     let total = format!(
-        "{compared} numbers of {} cases compared, {disagreements} disagreements",
-        cases().len()
+        "{n_compared} numbers of {} cases compared, {disagreements} disagreements",
+        cases.len()
     );
     println!("{report}\n{total}");
     if let Ok(path) = std::env::var("ASPERITY_REPORT") {

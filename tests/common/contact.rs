@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::workers::alone;
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
+use asperity::physics::fluid::{Density, Viscosity};
 use asperity::physics::groups::PointContact;
-use asperity::scene::Order;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity::solve::newton::{
     Iterate, Newton, NewtonReport, Problem, Sheared, Tolerance, Verdict,
@@ -37,24 +37,12 @@ impl Fluid {
             Self::RoelandsDowsonHigginson => (roelands, Density::DowsonHigginson { p_hertz_gpa }),
             Self::RoelandsVennerLubrecht => (roelands, Density::VennerLubrecht { p_hertz_gpa }),
         };
-        Medium {
-            viscosity,
-            density,
-            lambda,
-            sliding: 0.0,
-            sheared: ShearedFlow::Secant,
-        }
+        Medium::newtonian(viscosity, density, lambda)
     }
 }
 
 /// No oil at all.
-pub(crate) const DRY: Medium = Medium {
-    viscosity: Viscosity::Barus { alpha_p: 0.0 },
-    density: Density::Incompressible,
-    lambda: f64::INFINITY,
-    sliding: 0.0,
-    sheared: ShearedFlow::Secant,
-};
+pub(crate) const DRY: Medium = Medium::DRY;
 
 /// Gap `−cos cos` over one wave of length 1, of Johnson, Greenwood and Higginson (1985).
 pub(crate) fn bisinusoidal_gap(grid: &Grid) -> Vec<f64> {
@@ -69,13 +57,7 @@ pub(crate) struct Case {
     pub(crate) domain: (f64, f64, f64),
 }
 
-pub(crate) const CIRCLE: Shape = Shape {
-    kappa: 2.0 / (PI * PI),
-    curvature_y: 1.0,
-    b_over_a: 1.0,
-    kappa_s: 0.0,
-    order: Order::Second,
-};
+pub(crate) const CIRCLE: Shape = Shape::CIRCLE;
 
 pub(crate) const LOAD: f64 = 2.0 * PI / 3.0;
 
@@ -125,17 +107,11 @@ impl Case {
         let p_hertz = hertz.p_max_pa;
         let lambda = 12.0 * point.entrainment_m_s * point.viscosity_pa_s * point.rx_m.powi(2)
             / (hertz.a_m.powi(3) * p_hertz);
-        let medium = Medium {
-            viscosity: Viscosity::roelands(point.viscosity_pa_s, point.alpha_per_pa, p_hertz),
-            density: Density::DowsonHigginson {
-                p_hertz_gpa: p_hertz * 1e-9,
-            },
-            lambda,
-            sliding: 0.0,
-            sheared: ShearedFlow::Secant,
-        };
+        let p_hertz_gpa = p_hertz * 1e-9;
+        let density = Density::DowsonHigginson { p_hertz_gpa };
+        let viscosity = Viscosity::roelands(point.viscosity_pa_s, point.alpha_per_pa, p_hertz);
         Self {
-            medium,
+            medium: Medium::newtonian(viscosity, density, lambda),
             lambda,
             domain,
         }
@@ -147,8 +123,12 @@ impl Case {
     pub(crate) fn steady_by_ladder(
         &self,
         nodes: usize,
-        mut each: impl FnMut(&March),
+        each: impl FnMut(&March) + Send,
     ) -> (March, Ladder) {
+        alone(|| self.by_ladder(nodes, each))
+    }
+
+    fn by_ladder(&self, nodes: usize, mut each: impl FnMut(&March)) -> (March, Ladder) {
         let mut ladder = Ladder::default();
         let guess = 1.2 * self.lambda.powf(0.67);
         let mut march = March::from_hertz(self.grid(65), &CIRCLE, guess, 1.0, Flow::Film);

@@ -10,3 +10,4 @@ pub(crate) mod stiff;
 pub(crate) mod synthetic;
 #[cfg(feature = "tui")]
 pub(crate) mod tui_fixture;
+pub(crate) mod workers;

@@ -84,7 +84,7 @@ fn run(nodes: usize) -> Read {
         plan.steps
     );
     let (dx, dt) = (plan.dx_m, plan.dt_s);
-    let mut sim = Simulation::new(&scene, plan, 2).unwrap();
+    let mut sim = Simulation::new(&scene, plan, 1).unwrap();
     let mut frame = Frame::default();
     // The middle of the dent at the start: its edge and two pixels lie just upstream of the inlet.
     let a_m = scene.hertz().a_m;

@@ -26,7 +26,7 @@ fn pressure(more: &str) -> Vec<f32> {
     ];
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
-    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
+    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
     while sim.passage_steps() < 1 {
         sim.step().unwrap();
         assert!(sim.metrics().converged, "{more}");

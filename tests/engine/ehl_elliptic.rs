@@ -50,7 +50,7 @@ fn films(ratio: f64, more: &[&str]) -> (PointContact, [[f64; 2]; 2]) {
     let all = sets.iter().map(String::as_str).chain(more.iter().copied());
     let sets: Vec<Override> = all.map(|s| s.parse().unwrap()).collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
-    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
+    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
     let mut frame = Frame::default();
     let mut films = [[0.0; 2]; 2];
     loop {

@@ -291,7 +291,7 @@ fn waves_on_either_body_and_both_signs_of_sliding_agree() {
         ];
         let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
         let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
-        let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
+        let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
         let mut frame = Frame::default();
         while sim.passage_steps() < 24 {
             sim.step().unwrap();

@@ -220,7 +220,7 @@ fn random_roughness_on_both_bodies_converges_and_is_counted() {
 /// Frames of the first passage steps.
 fn films(scene: &Scene, steps: u64) -> Vec<Vec<f32>> {
     let plan = Plan::new(scene).unwrap();
-    let mut sim = Simulation::new(scene, plan, 2).unwrap();
+    let mut sim = Simulation::new(scene, plan, 1).unwrap();
     let mut frame = Frame::default();
     let mut films = Vec::new();
     while sim.passage_steps() < steps {

@@ -56,7 +56,7 @@ fn run(stiff: Stiff, steps: u64, more: &[&str]) -> Outcome {
     let sets: Vec<Override> = all.map(|s| s.parse().unwrap()).collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let tolerance = scene.numerics.tolerance;
-    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
+    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
     let mut frame = Frame::default();
     let mut outcome = Outcome::default();
     while sim.passage_steps() < steps {
@@ -219,7 +219,7 @@ fn dry_steps_of_unlike_bodies_converge_with_any_friction() {
         let sets = sets.iter().chain(more);
         let sets: Vec<Override> = sets.map(|s| s.parse().unwrap()).collect();
         let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
-        let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
+        let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
         while sim.passage_steps() < 2 {
             sim.step().unwrap();
             let metrics = sim.metrics();

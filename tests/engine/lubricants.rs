@@ -47,7 +47,7 @@ fn rough_run(laws: [&str; 4]) {
     ];
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
-    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
+    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
     let mut frame = Frame::default();
     let (mut mass, mut load) = (0.0_f64, 0.0_f64);
     while sim.passage_steps() < STEPS {

@@ -14,7 +14,7 @@ fn scene(name: &str, sets: &[&str]) -> Scene {
 /// The frames of the first `steps` steps of the passage, and the summary.
 fn run(scene: &Scene, steps: u64) -> (Vec<Frame>, Summary) {
     let plan = Plan::new(scene).unwrap();
-    let mut sim = Simulation::new(scene, plan, 2).unwrap();
+    let mut sim = Simulation::new(scene, plan, 1).unwrap();
     let mut frames = Vec::new();
     while sim.passage_steps() < steps {
         sim.step().unwrap();

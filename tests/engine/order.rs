@@ -26,7 +26,7 @@ fn smooth(nodes: usize, order: &str) -> f64 {
     scene.grid.x_min_a = Some(domain.x_min_a);
     scene.grid.x_max_a = Some(domain.x_max_a);
     scene.grid.y_half_a = Some(domain.y_half_b);
-    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap();
+    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
     while !sim.is_done() {
         sim.step().unwrap();
     }

@@ -16,9 +16,7 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use std::time::Instant;
 
 use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, ShearedFlow, Viscosity};
 use asperity::physics::stress_exact::hertz_axis_maximum;
-use asperity::scene::Order;
 use asperity::solve::dry::{Dry, DryProblem};
 use asperity::solve::film::Elastic;
 use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
@@ -116,29 +114,15 @@ fn converged(name: &str, report: &NewtonReport) -> Result<(), String> {
 }
 
 fn hertz(n: usize, tolerance: f64) -> Result<Row, String> {
-    let shape = Shape {
-        kappa: 2.0 / (PI * PI),
-        curvature_y: 1.0,
-        b_over_a: 1.0,
-        kappa_s: 0.0,
-        order: Order::Second,
-    };
-    let medium = Medium {
-        viscosity: Viscosity::Barus { alpha_p: 0.0 },
-        density: Density::Incompressible,
-        lambda: f64::INFINITY,
-        sliding: 0.0,
-        sheared: ShearedFlow::Secant,
-    };
     let conditions = Conditions {
-        medium: &medium,
+        medium: &Medium::DRY,
         law: None,
         load: 2.0 * PI / 3.0,
         tolerance: tight(tolerance),
     };
     let prepare = || {
         let grid = Grid::new(n + 1, -1.5, 1.5, 1.5, Symmetry::General);
-        let mut march = March::from_hertz(grid, &shape, 0.0, 1.0, Flow::Dry);
+        let mut march = March::from_hertz(grid, &Shape::CIRCLE, 0.0, 1.0, Flow::Dry);
         march.state.history.pressure_1.fill(0.0);
         march
     };

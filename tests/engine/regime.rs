@@ -30,7 +30,7 @@ fn small(name: &str) -> Scene {
 /// The first frame of the passage and its simulation.
 fn first(scene: &Scene) -> (Plan, Simulation, Frame) {
     let plan = Plan::new(scene).unwrap();
-    let mut sim = Simulation::new(scene, plan.clone(), 2).unwrap();
+    let mut sim = Simulation::new(scene, plan.clone(), 1).unwrap();
     while sim.passage_steps() < 1 {
         sim.step().unwrap();
     }

@@ -22,7 +22,7 @@ fn simulation(sets: &[&str]) -> Simulation {
         .map(|s| s.parse().unwrap())
         .collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
-    Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap()
+    Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap()
 }
 
 /// Runs to the end; every step must converge.

@@ -14,7 +14,7 @@ const H_PA: f64 = 6.84e9;
 fn simulation(preset: &str, sets: &[String]) -> Simulation {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let scene = Scene::load_with(preset, &sets).unwrap();
-    Simulation::new(&scene, Plan::new(&scene).unwrap(), 2).unwrap()
+    Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap()
 }
 
 /// The stiff set with a hardness of both bodies.

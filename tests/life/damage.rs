@@ -12,7 +12,7 @@ fn run(preset: &str, sets: &[String]) -> Summary {
     let scene = Scene::load_with(preset, &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();
     let steps = plan.steps;
-    let mut sim = Simulation::new(&scene, plan, 2).unwrap();
+    let mut sim = Simulation::new(&scene, plan, 1).unwrap();
     while sim.passage_steps() < steps {
         sim.step().unwrap();
     }

@@ -11,7 +11,7 @@ fn simulation(sets: &[String]) -> Simulation {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();
-    Simulation::new(&scene, plan, 2).unwrap()
+    Simulation::new(&scene, plan, 1).unwrap()
 }
 
 fn texts(sets: &[&str]) -> Vec<String> {

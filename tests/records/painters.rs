@@ -59,7 +59,7 @@ const SHOWN: [Shown; 3] = [
 
 /// A passage's first frame and one after it, without the material point, whose mark would hide what lies below.
 fn frames(scene: &Scene) -> Vec<Arc<Frame>> {
-    let mut simulation = Simulation::new(scene, Plan::new(scene).unwrap(), 2).unwrap();
+    let mut simulation = Simulation::new(scene, Plan::new(scene).unwrap(), 1).unwrap();
     let mut frames = Vec::new();
     while frames.len() < 2 {
         simulation.step().unwrap();

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use asperity::scene::presets;
 
-const ALL: [&str; 2] = ["--threads=2", "--force"];
+const ALL: [&str; 2] = ["--threads=1", "--force"];
 /// What a companion finds is no row.
 const ALONE: &str = "--set=numerics.error_estimate=none";
 /// A coarse contact with waves that it resolves.

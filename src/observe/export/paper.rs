@@ -101,6 +101,13 @@ pub(super) struct Box2 {
     high: f64,
 }
 
+impl Box2 {
+    /// The point at these shares of its width and height, from above.
+    fn at(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.left + x * self.wide, self.top + y * self.high]
+    }
+}
+
 impl PixelArea {
     /// Over a rectangle of a page.
     pub(super) fn over(plot: Box2, pixels: [u32; 2], rgb: Vec<u8>) -> Self {
@@ -170,11 +177,7 @@ impl Paper {
             let ring = ring.map(|angle| [a * MM * angle.cos(), b * MM * angle.sin()]);
             let seen = ring.filter(|[_, at]| (y[0]..=y[1]).contains(at));
             let points = seen.map(|[at_x, at_y]| {
-                let share = [(at_x - x[0]) / (x[1] - x[0]), (y[1] - at_y) / (y[1] - y[0])];
-                [
-                    plot.left + share[0] * plot.wide,
-                    plot.top + share[1] * plot.high,
-                ]
+                plot.at([(at_x - x[0]) / (x[1] - x[0]), (y[1] - at_y) / (y[1] - y[0])])
             });
             paper.line(points.collect(), [150, 155, 165], 0.6);
         }
@@ -207,11 +210,7 @@ impl Paper {
             for part in inside(&curve.points, top) {
                 let [first, last] = figure.x;
                 let place = |(x, value): &(f64, f64)| {
-                    let share = [(x - first) / (last - first), value / top];
-                    [
-                        plot.left + share[0] * plot.wide,
-                        plot.top + (1.0 - share[1]) * plot.high,
-                    ]
+                    plot.at([(x - first) / (last - first), 1.0 - value / top])
                 };
                 paper.line(part.iter().map(place).collect(), curve.colour, 1.0);
             }

@@ -7,7 +7,7 @@ use crate::math::number::counted;
 /// How a queue was used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct QueueStats {
-    /// Most messages that were waiting when a frame was put in, with it.
+    /// Most frames that were waiting when one was put in, with it.
     pub max_depth: usize,
     /// Times that the sender had to wait for room.
     pub waits: u64,

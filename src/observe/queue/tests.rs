@@ -134,7 +134,7 @@ impl Observer for Idler {
     }
 }
 
-/// A frame on its own is delivered although the thread is woken for several: while it waits for more, and when
+/// A frame on its own is delivered: while the thread waits, and when
 /// it sleeps after a pause.
 #[test]
 fn a_pause_is_told_once_and_frames_on_their_own_are_delivered() {

@@ -396,13 +396,7 @@ mod tests {
             [0.3, 0.1, -0.9, 0.0],
             [0.2, 0.9, 0.1, 0.1],
         ] {
-            let state = Stress6 {
-                xx,
-                yy,
-                zz,
-                xz,
-                ..Stress6::default()
-            };
+            let state = Stress6::of([xx, yy, zz, 0.0, xz, 0.0]);
             for (measure, exact) in [
                 (StressMeasure::VonMises, state.von_mises()),
                 (StressMeasure::MaxShear, state.max_shear()),

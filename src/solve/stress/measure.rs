@@ -195,14 +195,7 @@ mod tests {
             [-1.0, -1.0, -0.4, 0.0, 0.0, 0.0],
         ];
         for [xx, yy, zz, xy, xz, yz] in states {
-            let s = Stress6 {
-                xx,
-                yy,
-                zz,
-                xy,
-                xz,
-                yz,
-            };
+            let s = Stress6::of([xx, yy, zz, xy, xz, yz]);
             let v = |a: f64| V::splat(a as f32);
             for (measure, exact) in [
                 (StressMeasure::VonMises, s.von_mises()),

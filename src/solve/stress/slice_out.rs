@@ -67,15 +67,10 @@ impl SliceOut {
 impl SliceOut {
     /// The state at index `k·nx + i`.
     pub fn state(&self, at: usize) -> Stress6 {
-        let value = |field: &[f32]| field.get(at).map_or(0.0, |v| f64::from(*v));
-        Stress6 {
-            xx: value(&self.sxx),
-            yy: value(&self.syy),
-            zz: value(&self.szz),
-            xy: value(&self.sxy),
-            xz: value(&self.sxz),
-            yz: value(&self.syz),
-        }
+        let fields = [
+            &self.sxx, &self.syy, &self.szz, &self.sxy, &self.sxz, &self.syz,
+        ];
+        Stress6::of(fields.map(|field| field.get(at).map_or(0.0, |v| f64::from(*v))))
     }
 }
 

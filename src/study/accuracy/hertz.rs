@@ -10,21 +10,11 @@ use std::f64::consts::PI;
 
 use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, timed};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
-use crate::scene::Order;
 use crate::solve::film::Elastic;
 use crate::solve::march::{Conditions, Flow, Guess, March, Shape};
 use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
 use crate::solve::reynolds::Medium;
 
-/// A circular contact of like bodies.
-pub(super) const CIRCLE: Shape = Shape {
-    kappa: 2.0 / (PI * PI),
-    curvature_y: 1.0,
-    b_over_a: 1.0,
-    kappa_s: 0.0,
-    order: Order::Second,
-};
 /// ∬p of Hertz.
 pub(super) const LOAD: f64 = 2.0 * PI / 3.0;
 /// Tolerance of the pressure in the series over nodes.
@@ -37,15 +27,8 @@ struct Solved {
 }
 
 fn solve(nodes: usize, tolerance: f64) -> Result<Solved, String> {
-    let medium = Medium {
-        viscosity: Viscosity::Barus { alpha_p: 0.0 },
-        density: Density::Incompressible,
-        lambda: f64::INFINITY,
-        sliding: 0.0,
-        sheared: ShearedFlow::Secant,
-    };
     let conditions = Conditions {
-        medium: &medium,
+        medium: &Medium::DRY,
         law: None,
         load: LOAD,
         tolerance: Tolerance {
@@ -58,7 +41,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<Solved, String> {
         },
     };
     let grid = Grid::new(nodes, -1.5, 1.5, 1.5, Symmetry::General);
-    let mut march = March::from_hertz(grid, &CIRCLE, 0.0, 1.0, Flow::Dry);
+    let mut march = March::from_hertz(grid, &Shape::CIRCLE, 0.0, 1.0, Flow::Dry);
     // From a uniform pressure over the whole domain: the dearest start.
     march.state.history.pressure_1.fill(0.0);
     let (report, time) = timed(|| march.attempt(&conditions, 1.0, Guess::Last));
@@ -148,7 +131,7 @@ pub(super) fn deflection(sizes: &[usize]) -> Vec<AccuracyRow> {
     let mut rows = Vec::new();
     for &nodes in sizes {
         let grid = Grid::new(nodes, -1.5, 1.5, 1.5, Symmetry::General);
-        let mut elastic = Elastic::new(&grid, CIRCLE.kappa);
+        let mut elastic = Elastic::new(&grid, Shape::CIRCLE.kappa);
         let p: Vec<f64> = (0..grid.len()).map(|n| exact(&grid, n)).collect();
         let mut u = vec![0.0; grid.len()];
         let ((), double) = timed(|| elastic.deflect(&p, &mut u));

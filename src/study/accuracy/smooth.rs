@@ -6,11 +6,11 @@
 
 use std::f64::consts::PI;
 
-use super::hertz::{CIRCLE, LOAD};
+use super::hertz::LOAD;
 use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, against_finest, timed};
 use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
-use crate::solve::march::{Conditions, Flow, Guess, March};
+use crate::physics::fluid::{Density, Viscosity};
+use crate::solve::march::{Conditions, Flow, Guess, March, Shape};
 use crate::solve::newton::{Tolerance, Verdict};
 use crate::solve::reynolds::Medium;
 
@@ -84,13 +84,8 @@ pub(super) fn smooth(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<Accuracy
 fn solve(nodes: usize, tolerance: f64) -> Result<SmoothFilm, String> {
     let lambda = (128.0 * PI.powi(3) / (3.0 * M.powi(4))).cbrt();
     let alpha_p = L / PI * (1.5 * M).cbrt();
-    let medium = Medium {
-        viscosity: Viscosity::Barus { alpha_p },
-        density: Density::Incompressible,
-        lambda,
-        sliding: 0.0,
-        sheared: ShearedFlow::Secant,
-    };
+    let viscosity = Viscosity::Barus { alpha_p };
+    let medium = Medium::newtonian(viscosity, Density::Incompressible, lambda);
     let conditions = Conditions {
         medium: &medium,
         law: None,
@@ -107,7 +102,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<SmoothFilm, String> {
     let (x_min, x_max, y_half) = DOMAIN;
     let grid = |nodes| Grid::new(nodes, x_min, x_max, y_half, Symmetry::MirrorY);
     let guess = 1.2 * lambda.powf(0.67);
-    let mut march = March::from_hertz(grid(nodes.min(65)), &CIRCLE, guess, 1.0, Flow::Film);
+    let mut march = March::from_hertz(grid(nodes.min(65)), &Shape::CIRCLE, guess, 1.0, Flow::Film);
     let mut newton = 0;
     loop {
         for _ in 0..((x_max - x_min) / march.solver.grid.dx) as usize {
@@ -122,7 +117,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<SmoothFilm, String> {
             break;
         }
         let finer = grid(2 * (march.solver.grid.nx - 1) + 1);
-        march = March::refined(&march, finer, &CIRCLE, 1.0, Flow::Film);
+        march = March::refined(&march, finer, &Shape::CIRCLE, 1.0, Flow::Film);
     }
     let unit = (6.0 * PI / lambda).sqrt();
     let (grid, film) = (&march.solver.grid, &march.state.film);

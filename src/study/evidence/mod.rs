@@ -25,8 +25,8 @@ pub use tried::{Judged, Tried, TriedDamage, word};
 
 use std::time::Instant;
 
-use super::crew::share_out;
 use super::{Extent, StudyError, StudyProgress, refuse_nothing};
+use crate::run::share_out;
 use crate::scene::CycleBasis;
 
 /// A number of a case.
@@ -173,13 +173,9 @@ pub fn evidence(
             jobs.extend(all.map(|basis| EvidenceJob::Point(experiment, point, basis, nodes)));
         }
     }
-    let done = share_out(
-        &jobs,
-        workers,
-        EvidenceJob::name,
-        EvidenceJob::work,
-        progress,
-    );
+    let done = share_out(&jobs, workers, EvidenceJob::work, &mut |job, n_begun| {
+        progress(&job.name(), n_begun, jobs.len());
+    });
     let (mut values, mut damages) = (Vec::new(), Vec::new());
     for done in done {
         match done {

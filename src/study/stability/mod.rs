@@ -16,9 +16,9 @@ pub use case::{Case, CaseSet, Texture};
 pub use drift::Drift;
 pub use trial::{Trial, TrialEnd};
 
-use super::crew::share_out;
 use super::table::{MarkdownTable, figure};
 use super::{Extent, StudyError, StudyProgress, refuse_nothing};
+use crate::run::share_out;
 
 /// A case and how it went.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,9 +98,8 @@ pub fn stability(
     let rows = share_out(
         &cases,
         workers,
-        |case| case.name.clone(),
         |case| run_case(&set, case, nodes),
-        progress,
+        &mut |case, n_begun| progress(&case.name, n_begun, cases.len()),
     );
     let all = cases.len() + 1;
     let steps = match only {

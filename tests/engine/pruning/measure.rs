@@ -17,7 +17,15 @@ pub(super) struct Ran {
     stress_factor: Option<f64>,
     stats: Stats,
     pub(super) seconds: f64,
-    threads: usize,
+    timing: Timing,
+}
+
+/// How a run is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Timing {
+    pub(super) threads: usize,
+    /// Whether its time is told: then a short run is made twice, and the faster counts. They are alike in all but time.
+    pub(super) is_timed: bool,
 }
 
 /// How a run's frames are filled.
@@ -82,8 +90,8 @@ impl PruningRow {
 }
 
 /// The run as planned.
-pub(super) fn plain(scene: &Scene, plan: &Plan, threads: usize) -> Result<Ran, String> {
-    run(scene, plan, threads, cadence(plan))
+pub(super) fn plain(scene: &Scene, plan: &Plan, timing: Timing) -> Result<Ran, String> {
+    run(scene, plan, timing, cadence(plan))
 }
 
 fn cadence(plan: &Plan) -> Frames {
@@ -112,7 +120,7 @@ pub(super) fn forced(
         } else {
             cadence(plan)
         };
-        let mut other = run(&other_scene, &other_plan, base.threads, frames);
+        let mut other = run(&other_scene, &other_plan, base.timing, frames);
         if let (Forced::Waves, Ok(other)) = (stage, &mut other) {
             // Crests of no height still count, and may make the other body the weaker one.
             other.stress_factor = None;
@@ -136,21 +144,20 @@ fn gain(base: &Ran, other: &Ran, least_m: f64) -> Gain {
     }
 }
 
-/// A run; a short one is made twice, and the faster counts: they are alike in all but time.
-fn run(scene: &Scene, plan: &Plan, threads: usize, frames: Frames) -> Result<Ran, String> {
+fn run(scene: &Scene, plan: &Plan, timing: Timing, frames: Frames) -> Result<Ran, String> {
     /// s.
     const SHORT: f64 = 0.5;
-    let one = run_once(scene, plan, threads, frames)?;
-    if one.seconds > SHORT {
+    let one = run_once(scene, plan, timing, frames)?;
+    if !timing.is_timed || one.seconds > SHORT {
         return Ok(one);
     }
-    let two = run_once(scene, plan, threads, frames)?;
+    let two = run_once(scene, plan, timing, frames)?;
     Ok(if two.seconds < one.seconds { two } else { one })
 }
 
-fn run_once(scene: &Scene, plan: &Plan, threads: usize, frames: Frames) -> Result<Ran, String> {
+fn run_once(scene: &Scene, plan: &Plan, timing: Timing, frames: Frames) -> Result<Ran, String> {
     let mut sim =
-        Simulation::new(scene, plan.clone(), threads).map_err(|error| error.to_string())?;
+        Simulation::new(scene, plan.clone(), timing.threads).map_err(|error| error.to_string())?;
     let mut frame = Frame::default();
     let clock = Instant::now();
     while !sim.is_done() {
@@ -169,7 +176,7 @@ fn run_once(scene: &Scene, plan: &Plan, threads: usize, frames: Frames) -> Resul
         stress_factor: sim.summary().stress_factor,
         stats: *sim.stats(),
         seconds,
-        threads,
+        timing,
     })
 }
 

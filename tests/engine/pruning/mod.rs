@@ -17,7 +17,7 @@ use asperity::plan::Plan;
 use asperity::scene::{ContactKind, Override, Scene, presets};
 use asperity::study::{MarkdownTable, figure, machine};
 use force::Forced;
-use measure::{Gain, PruningRow};
+use measure::{Gain, PruningRow, Timing};
 
 /// Presets and variants of them: name, preset, settings.
 type Variant = (String, &'static str, Vec<String>);
@@ -26,6 +26,7 @@ type Variant = (String, &'static str, Vec<String>);
 /// each step leaves adds up to 4 % of the life in FZG's point B (3.5, 1.4 and 0 % at 1e-4, 1e-5 and 1e-6), and two runs
 /// that differ by rounding differ by as much.
 const TOLERANCE: f64 = 1e-6;
+/// Threads of the runs whose times are reported.
 const THREADS: usize = 2;
 
 /// Scenes in which stages are left out that no preset leaves out.
@@ -90,11 +91,15 @@ fn variants(is_whole: bool) -> Vec<Variant> {
 /// Forces in, variant by variant, what each leaves out.
 fn pruning(is_whole: bool) -> Vec<PruningRow> {
     let mut rows = Vec::new();
+    let timing = Timing {
+        threads: if is_whole { THREADS } else { 1 },
+        is_timed: is_whole,
+    };
     for (name, preset, sets) in variants(is_whole) {
         let overrides: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
         let scene = Scene::load_with(preset, &overrides).unwrap();
         let plan = Plan::new(&scene).unwrap();
-        let base = measure::plain(&scene, &plan, THREADS).unwrap();
+        let base = measure::plain(&scene, &plan, timing).unwrap();
         for stage in Forced::ALL {
             if stage == Forced::DeepWaves && scene.kind() == ContactKind::Line {
                 continue;

@@ -63,16 +63,8 @@ impl Plane {
 
     /// The state at one point.
     pub fn state(&self, row: usize, i: usize) -> Stress6 {
-        let [xx, yy, zz, xy, xz, yz] =
-            [0, 1, 2, 3, 4, 5].map(|c: usize| f64::from(self.components[c][row * self.width + i]));
-        Stress6 {
-            xx,
-            yy,
-            zz,
-            xy,
-            xz,
-            yz,
-        }
+        let at = row * self.width + i;
+        Stress6::of(std::array::from_fn(|c| f64::from(self.components[c][at])))
     }
 }
 
