@@ -123,7 +123,9 @@ impl WebPage {
 
     /// The news of the run, and the cells that changed; whether it goes on.
     pub(super) fn draw(&mut self, now_ms: f64) -> (bool, Vec<u8>) {
-        let now = Duration::from_secs_f64((1e-3 * now_ms).clamp(0.0, 1e9));
+        let seconds = (1e-3 * now_ms).clamp(0.0, 1e9);
+        // A time that is no number is none.
+        let now = Duration::try_from_secs_f64(seconds).unwrap_or(self.last);
         self.explorer.app.tick(now);
         let wall = now.saturating_sub(self.last);
         self.last = now;

@@ -1,7 +1,8 @@
-// The page in headless Chromium: node tests/web/page.mjs PAGES PROGRAM [SHOTS]
+// The page in headless Chromium: node tests/web/page.mjs PAGES PROGRAM [SHOTS [WORD]]
 //   PAGES    what assets/web/build.py made: asperity.html, folder/
 //   PROGRAM  the terminal program, for the same numbers and times
-//   SHOTS    where screenshots go
+//   SHOTS    where screenshots go; - for nowhere
+//   WORD     only the tests with this in their name
 // Needs playwright-core and Chromium (CHROMIUM, else /usr/bin/chromium).
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
@@ -11,7 +12,9 @@ import os from "node:os";
 import path from "node:path";
 import { createRequire } from "node:module";
 
-const [pages, program, shots] = process.argv.slice(2).map((given) => path.resolve(given));
+const [pages, program] = process.argv.slice(2, 4).map((given) => path.resolve(given));
+const shots = (process.argv[4] ?? "-") === "-" ? null : path.resolve(process.argv[4]);
+const word = process.argv[5] ?? "";
 const { chromium } = createRequire(path.join(process.env.PLAYWRIGHT ?? process.cwd(), "x.js"))("playwright-core");
 const FIRST_LIFE_MS = 3000;
 const FRAMES = 200;
@@ -69,16 +72,17 @@ const cell = (page, column, row) => page.evaluate(([column, row]) => {
   const box = document.getElementById("screen").getBoundingClientRect();
   return [box.left + (column + 0.5) * box.width / asperity.painter.columns, box.top + (row + 0.5) * box.height / asperity.painter.rows];
 }, [column, row]);
-// The row of the screen with a knob's name in its first columns.
+// The row of the screen that begins with a knob's name.
 async function knobRow(page, name) {
   const rows = (await state(page)).text.split("\n");
-  const row = rows.findIndex((line) => line.slice(0, 30).includes(name));
+  const row = rows.findIndex((line) => new RegExp(`^[▸ ]*${name}`).test(line));
   assert.ok(row >= 0, `${name}\n${rows.join("\n")}`);
   return row;
 }
 
 let passed = 0;
 async function test(name, work) {
+  if (!name.includes(word)) return;
   try {
     await work();
     passed += 1;

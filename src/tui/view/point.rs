@@ -72,9 +72,11 @@ struct TracePlot {
     x: [f64; 2],
 }
 
-/// Columns of the numbers.
+/// Columns of the numbers; a narrow screen leaves them to the trace, unless it is all that is shown.
 fn words(areas: &Areas) -> u16 {
-    if areas.density == PanelSpacing::Full {
+    if areas.is_narrow && !areas.knobs.is_empty() {
+        0
+    } else if areas.density == PanelSpacing::Full {
         27
     } else {
         24

@@ -31,7 +31,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     }
     if let Some(frame) = app.frame() {
         let mut words = progress(app, frame);
-        if areas.density == PanelSpacing::Full {
+        if areas.density == PanelSpacing::Full || area.height > row + 2 {
             write(app, area, row, &words, buffer);
             row += 1;
             words = quality(app, frame);
