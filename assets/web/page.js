@@ -90,6 +90,7 @@ function news(m) {
     state.isFast ||= nodes === 65 && frames >= FAST_ENOUGH;
     at("finer").hidden = !(nodes === 65 && state.isFast);
     at("text").textContent = painter.text();
+    at("room").style.background = painter.paper([0, 0]);
   }
   // What is spoken waits for the end of a change.
   if (m.spoken !== state.spoken && (!at("spoken").textContent || m.spoken.includes("settled"))) at("spoken").textContent = m.spoken;

@@ -150,9 +150,33 @@ await test("sizes from phone to projector", async () => {
   await alive(page);
   for (const [width, height] of [[360, 640], [844, 390], [1024, 768], [1920, 1080], [3840, 2160]]) {
     await page.setViewportSize({ width, height });
+    // The canvas fills the room, to a cell.
+    await page.waitForFunction((width) => document.getElementById("screen").getBoundingClientRect().width > 0.95 * width, width);
     await until(page, `${width}x${height}`, (now) => /life/i.test(now.text) && !/too small/.test(now.text));
     if (width === 1920) await shot(page, "projector");
   }
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+});
+
+await test("light contrast, by a link and by its key", async () => {
+  const page = await opened(`${disk}#contrast=light`);
+  await alive(page);
+  await page.waitForTimeout(2500);
+  // How light the paper is: in a corner, in the middle of the centre line's plot, and around the canvas.
+  const light = () => page.evaluate(() => {
+    const { context, plots, cellWidth, cellHeight } = asperity.painter;
+    const sum = (rgb) => rgb[0] + rgb[1] + rgb[2];
+    const [left, top] = plots[0].room;
+    const places = [[2, 2], [(left + 0.5) * cellWidth, (top + 1.5) * cellHeight]];
+    const around = getComputedStyle(document.getElementById("room")).backgroundColor.match(/\d+/g).map(Number);
+    return [...places.map(([x, y]) => sum(context.getImageData(x, y, 1, 1).data)), sum(around)];
+  });
+  assert.ok((await light()).every((sum) => sum > 600), `${await light()}`);
+  await shot(page, "light");
+  await page.keyboard.press("c");
+  await page.waitForTimeout(4000);
+  assert.ok((await light()).every((sum) => sum < 150), `${await light()}`);
   assert.deepEqual(page.faults, []);
   await page.context().close();
 });
