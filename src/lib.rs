@@ -53,5 +53,9 @@ pub mod study;
 pub mod sweep;
 #[cfg(feature = "tui")]
 pub mod tui;
-#[cfg(all(feature = "web", target_arch = "wasm32"))]
+// For a page; elsewhere for its unit tests only.
+#[cfg(any(
+    all(feature = "web", target_arch = "wasm32"),
+    all(feature = "tui", test)
+))]
 pub mod web;

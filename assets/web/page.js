@@ -9,7 +9,7 @@ const FAST_ENOUGH = 40;
 const at = (id) => document.getElementById(id);
 const screen_ = at("screen");
 const painter = new Painter(screen_);
-const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 65, broken: null, refused: null };
+const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 65, link: "", isFast: false, broken: null, refused: null };
 let worker = null;
 
 function module_() {
@@ -62,7 +62,9 @@ function hear(event) {
   }
   if (m.cells) {
     painter.cells(m.cells);
+    if (m.curves) painter.curves(m.curves);
     if (m.picture) painter.picture(m.picture);
+    painter.paintPlots();
     worker.postMessage({ kind: "painted" });
     if (!m.goesOn) {
       at("ended").hidden = false;
@@ -85,13 +87,15 @@ function news(m) {
   if (m.seconds - state.seconds > 2 || m.seconds < state.seconds) {
     Object.assign(state, { steps: m.steps, seconds: m.seconds, frames });
     if (frames > 0) at("speed").textContent = `${nodes} × ${nodes} nodes, ${frames.toFixed(0)} frames/s here`;
-    at("finer").hidden = !(nodes === 65 && frames >= FAST_ENOUGH);
+    state.isFast ||= nodes === 65 && frames >= FAST_ENOUGH;
+    at("finer").hidden = !(nodes === 65 && state.isFast);
     at("text").textContent = painter.text();
+    at("room").style.background = painter.paper([0, 0]);
   }
   // What is spoken waits for the end of a change.
   if (m.spoken !== state.spoken && (!at("spoken").textContent || m.spoken.includes("settled"))) at("spoken").textContent = m.spoken;
   state.spoken = m.spoken;
-  state.nodes = nodes;
+  Object.assign(state, { nodes, link: m.link });
   const hash = `#${m.link}`;
   if (location.hash !== hash && !/lesson=/.test(location.hash)) {
     try { history.replaceState(null, "", hash); } catch { /* some places keep their address */ }
@@ -160,7 +164,7 @@ function watch() {
   at("table").addEventListener("click", () => worker.postMessage({ kind: "table" }));
   at("scene").addEventListener("click", () => worker.postMessage({ kind: "scene" }));
   at("picture").addEventListener("click", () => screen_.toBlob((blob) => download("asperity.png", blob)));
-  at("finer").addEventListener("click", () => { location.hash = location.hash.replace(/nodes=\d+/, "nodes=129"); });
+  at("finer").addEventListener("click", () => { location.hash = state.link.replace(/nodes=\d+/, "nodes=129"); });
   at("again").addEventListener("click", () => { open(); screen_.focus(); });
   window.addEventListener("hashchange", open);
   window.addEventListener("dragover", (event) => event.preventDefault());

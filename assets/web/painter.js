@@ -1,4 +1,4 @@
-// Paints cells and the map's pixels on a canvas. Blocks, Braille dots and frames are drawn as shapes, so that they meet.
+// Paints cells, curves and the map's pixels on a canvas. Blocks, Braille dots and frames are drawn as shapes, so that they meet.
 "use strict";
 
 const INK = "#dee2eb";
@@ -21,12 +21,15 @@ class Painter {
     this.columns = this.rows = 0;
     this.room = [0, 0, 0, 0];
     this.image = null;
+    this.plots = [];
   }
 
   // Columns, rows, and pixels of a cell for a room of so many CSS pixels.
   fit(width, height, ratio) {
     let size = Math.min(26, Math.max(13, width / 160 / 0.6));
-    size = Math.min(size, width / 60 / 0.602, height / 20 / 1.25);
+    // A phone held upright gets the narrow screen: one picture, life and knobs.
+    const isNarrow = width < 600 && height > 1.1 * width;
+    size = isNarrow ? Math.min(width / 46 / 0.602, height / 31 / 1.25) : Math.min(size, width / 60 / 0.602, height / 20 / 1.25);
     size = Math.max(4, Math.floor(size * ratio * 2) / 2);
     this.context.font = `${size}px ${FONT}`;
     const cellWidth = Math.max(2, Math.floor(this.context.measureText("M").width));
@@ -52,6 +55,7 @@ class Painter {
     for (let i = 0; i < all; i++) this.looks.set([NO_COLOUR, NO_COLOUR, 0], 3 * i);
     this.room = [0, 0, 0, 0];
     this.image = null;
+    this.plots = [];
     this.context.fillStyle = PAPER;
     this.context.fillRect(0, 0, this.canvas.width, this.canvas.height);
     this.context.textBaseline = "middle";
@@ -83,6 +87,79 @@ class Painter {
       this.each(left, (i) => this.cell(i));
     }
     for (const i of touched) this.cell(i);
+    for (const plot of this.plots) {
+      const [left, top, columns, rows] = plot.room;
+      plot.isOld ||= touched.some((i) => {
+        const column = i % this.columns, row = (i - column) / this.columns;
+        return column >= left && column < left + columns && row >= top && row < top + rows;
+      });
+    }
+  }
+
+  // Plots with their curves, which stay until others come.
+  curves(bytes) {
+    const numbers = new DataView(bytes.buffer);
+    let at = 0;
+    const word = () => numbers.getUint32(4 * at++, true);
+    const before = this.plots;
+    this.plots = Array.from({ length: word() }, () => {
+      const room = [word(), word(), word(), word()];
+      const curves = Array.from({ length: word() }, () => {
+        const [colour, isDotted, points] = [word(), word() === 1, word()];
+        const places = new Float32Array(bytes.buffer, 4 * at, 2 * points);
+        at += 2 * points;
+        return { ink: colour === NO_COLOUR ? INK : colourText(colour), isDotted, places };
+      });
+      return { room, curves, isOld: true };
+    });
+    const rooms = new Set(this.plots.map((plot) => plot.room.join()));
+    for (const plot of before) if (!rooms.has(plot.room.join())) this.each(plot.room, (i) => this.cell(i));
+  }
+
+  // Paints those plots anew whose curves or cells have changed.
+  paintPlots() {
+    for (const plot of this.plots.filter((plot) => plot.isOld)) {
+      plot.isOld = false;
+      this.plot(plot);
+    }
+  }
+
+  plot({ room, curves }) {
+    const { context, cellWidth, cellHeight } = this;
+    const [x, y, width, height] = [room[0] * cellWidth, room[1] * cellHeight, room[2] * cellWidth, room[3] * cellHeight];
+    const paper = this.paper(room);
+    context.save();
+    context.beginPath();
+    context.rect(x, y, width, height);
+    context.clip();
+    context.fillStyle = paper;
+    context.fillRect(x, y, width, height);
+    context.lineWidth = Math.max(1, cellWidth / 6);
+    context.lineJoin = "round";
+    const dot = Math.max(1, Math.round(cellWidth / 6));
+    for (const { ink, isDotted, places } of curves) {
+      context.fillStyle = context.strokeStyle = ink;
+      context.beginPath();
+      let isJoined = false;
+      for (let k = 0; k < places.length; k += 2) {
+        const [left, top] = [x + places[k] * cellWidth, y + places[k + 1] * cellHeight];
+        if (isDotted) context.fillRect(left - dot / 2, top - dot / 2, dot, dot);
+        else if (isJoined) context.lineTo(left, top);
+        else context.moveTo(left, top);
+        isJoined = !Number.isNaN(left);
+      }
+      context.stroke();
+    }
+    context.restore();
+    this.each(room, (i) => {
+      if (this.letters[i] !== " ") this.cell(i, paper);
+    });
+  }
+
+  // The paper of a room's first cell.
+  paper([left, top]) {
+    const paper = this.looks[3 * (top * this.columns + left) + 1];
+    return paper === NO_COLOUR ? PAPER : colourText(paper);
   }
 
   picture(bytes) {
@@ -96,7 +173,7 @@ class Painter {
     const [x, y] = [left * this.cellWidth, top * this.cellHeight];
     const [w, h] = [columns * this.cellWidth, rows * this.cellHeight];
     const context = this.context;
-    context.fillStyle = PAPER;
+    context.fillStyle = this.paper(this.room);
     context.fillRect(x, y, w, h);
     context.imageSmoothingEnabled = true;
     context.drawImage(this.image, x, y, w, h);
@@ -116,7 +193,8 @@ class Painter {
     return column >= left && column < left + columns && row >= top && row < top + rows;
   }
 
-  cell(i) {
+  // Paints a cell; its paper only where that is not what lies below it.
+  cell(i, below) {
     const column = i % this.columns, row = (i - column) / this.columns;
     const letter = this.letters[i];
     if (letter === " " && this.image && this.isInRoom(column, row)) return;
@@ -126,8 +204,10 @@ class Painter {
     if (weight & REVERSED) [inkText, paperText] = [paperText, inkText];
     const x = column * this.cellWidth, y = row * this.cellHeight;
     const context = this.context;
-    context.fillStyle = paperText;
-    context.fillRect(x, y, this.cellWidth, this.cellHeight);
+    if (paperText !== below) {
+      context.fillStyle = paperText;
+      context.fillRect(x, y, this.cellWidth, this.cellHeight);
+    }
     if (letter === " " || letter === undefined) return;
     context.globalAlpha = weight & DIM ? 0.6 : 1;
     context.fillStyle = inkText;

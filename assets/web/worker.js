@@ -64,7 +64,7 @@ function turn() {
     const began = performance.now();
     do {
       made = wasm.step();
-      steps += made;
+      steps += made & 1;
     } while (made && performance.now() - began < STEP_MS);
     if (!isPainting && performance.now() - drawn >= frameMs) draw();
   } catch (error) {
@@ -81,6 +81,12 @@ function draw() {
   const goesOn = wasm.draw(now - start);
   const message = { cells: given(), goesOn: goesOn === 1 };
   const parts = [message.cells.buffer];
+  wasm.curves();
+  const curves = given();
+  if (curves.length) {
+    message.curves = curves;
+    parts.push(curves.buffer);
+  }
   // The cells of the picture: where they change, the old one is wiped.
   const place = message.cells.subarray(8, 24).join();
   if (now - pictured >= PICTURE_MS || place !== room) {

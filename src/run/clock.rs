@@ -5,14 +5,14 @@ use std::time::Instant;
 
 /// When something began.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Clock {
+pub(crate) struct Clock {
     #[cfg(not(target_arch = "wasm32"))]
     began: Instant,
 }
 
 impl Clock {
     /// Now.
-    pub(super) fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self {
             #[cfg(not(target_arch = "wasm32"))]
             began: Instant::now(),
@@ -21,14 +21,14 @@ impl Clock {
 
     /// Seconds since then; none pass without a clock.
     #[cfg(not(target_arch = "wasm32"))]
-    pub(super) fn elapsed_s(self) -> f64 {
+    pub(crate) fn elapsed_s(self) -> f64 {
         self.began.elapsed().as_secs_f64()
     }
 
     /// Seconds since then; none pass without a clock.
     #[cfg(target_arch = "wasm32")]
     #[expect(clippy::unused_self, reason = "as with a clock")]
-    pub(super) fn elapsed_s(self) -> f64 {
+    pub(crate) fn elapsed_s(self) -> f64 {
         0.0
     }
 }

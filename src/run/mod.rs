@@ -27,6 +27,7 @@ mod shared;
 mod watcher;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
+pub(crate) use clock::Clock;
 pub use companion::{Companion, NoEstimate};
 pub use cooperative::Cooperative;
 pub use crew::share_out;

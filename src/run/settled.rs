@@ -3,7 +3,9 @@
 //! ```text
 //! Repeat::repeats ──> gather frames over T ──> Settled { frames, T, state }        a knob is turned: gone
 //! ```
-//! Where no common period exists (only the means have settled) or nothing moves there is one frame only.
+//! Where no common period exists (only the means have settled) or nothing moves there is one frame only. So it is, until
+//! the period closes, where the life has long been settled: on a coarse mesh with few steps a crest the fields may never
+//! compare closely enough.
 
 use std::sync::Arc;
 
@@ -11,6 +13,10 @@ use crate::sim::{Frame, Rhythm, Stage, State};
 
 /// Memory that the frames of a period may take, bytes; longer periods keep every second, third, ... frame.
 const MOST_BYTES: usize = 128 << 20;
+
+/// Passages of 4 a with a settled life after which a period that does not close is no longer waited for: twice the longest
+/// that is looked for.
+const PATIENCE: f64 = 8.0;
 
 /// What a periodic passage leaves.
 #[derive(Debug)]
@@ -32,6 +38,10 @@ pub(super) struct Gather {
     began_s: f64,
     every: usize,
     done: Option<()>,
+    /// Passages at which the life had settled without a period.
+    waits_since: Option<f64>,
+    /// Whether one frame was given in place of a period.
+    gave_up: bool,
 }
 
 impl Gather {
@@ -46,10 +56,10 @@ impl Gather {
         let counted = metrics.life.is_none_or(|life| life.settled);
         let holds = frame.stage == Stage::Passage && metrics.converged && counted;
         let Some(repeat) = repeat.filter(|_| holds && self.done.is_none()) else {
-            if self.done.is_none() {
-                *self = Self::default();
-            }
-            return None;
+            return match self.done {
+                None => self.wait(frame, holds, save),
+                Some(()) => None,
+            };
         };
         if repeat.rhythm != Rhythm::Orbit {
             return Some(self.whole(vec![copy(frame)], 0.0, save()));
@@ -72,6 +82,30 @@ impl Gather {
         }
         self.seen += 1;
         None
+    }
+
+    /// No period (any more): begins anew, and gives one frame where that has gone on for long.
+    fn wait(
+        &mut self,
+        frame: &Arc<Frame>,
+        holds: bool,
+        save: impl FnOnce() -> Option<State>,
+    ) -> Option<Arc<Settled>> {
+        let since = self.waits_since.unwrap_or(frame.passages);
+        *self = Self {
+            waits_since: holds.then_some(since),
+            gave_up: holds && self.gave_up,
+            ..Self::default()
+        };
+        if !holds || self.gave_up || frame.passages - since < PATIENCE {
+            return None;
+        }
+        self.gave_up = true;
+        Some(Arc::new(Settled {
+            frames: vec![copy(frame)],
+            period_s: 0.0,
+            state: save(),
+        }))
     }
 
     fn whole(
@@ -142,6 +176,23 @@ mod tests {
         let steps: Vec<u64> = settled.frames.iter().map(|frame| frame.step).collect();
         assert_eq!(steps, [5, 6, 7, 8, 9, 10, 11]);
         assert_eq!(settled.period_s, 7.0);
+    }
+
+    #[test]
+    fn a_period_that_does_not_close_is_not_waited_for_for_ever() {
+        let mut gather = Gather::default();
+        let mut found = Vec::new();
+        // A passage in eight steps; the 45th does not converge; the orbit closes from the 200th on.
+        for step in 1..=240 {
+            let mut frame = Frame::clone(&frame(step, step > 200, Rhythm::Orbit));
+            frame.passages = 0.125 * step as f64;
+            frame.metrics.converged = step != 45;
+            found.extend(gather.take(&Arc::new(frame), || None));
+        }
+        let firsts = found
+            .iter()
+            .map(|settled| (settled.frames[0].step, settled.frames.len()));
+        assert_eq!(firsts.collect::<Vec<_>>(), [(110, 1), (201, 7)]);
     }
 
     #[test]

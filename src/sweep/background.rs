@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::case::{self, CaseEnd, CaseRecord, CaseStart, Ran, Watch};
+use super::case::{self, CaseEnd, CaseRecord, CaseStart, RunningCase};
 use super::run::case_of;
 use super::spec::ChainKeys;
 use crate::plan::Plan;
@@ -75,6 +75,14 @@ pub struct Ground {
     pub state: State,
 }
 
+impl Ground {
+    /// Where a case may start from; `None` where the scene is none.
+    fn start(&self) -> Option<(Scene, State)> {
+        let (scene, _) = case_of((*self.scene).clone(), CHAIN).ok()?;
+        Some((scene, self.state.clone()))
+    }
+}
+
 /// Where a life, a friction coefficient belongs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {
@@ -116,6 +124,23 @@ pub struct Background {
 impl Background {
     /// Starts `workers` threads; values next to the run's own come first.
     pub fn start(ground: Ground, order: CurveOrder, workers: usize) -> Self {
+        let (this, workers) = Self::manned(ground, order, workers.max(1));
+        for mut worker in workers {
+            // Without a thread those values stay open; nothing else is lost.
+            let _ = std::thread::Builder::new()
+                .name("sweep".to_owned())
+                .spawn(move || while worker.turn() {});
+        }
+        this
+    }
+
+    /// Same where there are no threads: with one worker, whose turns its owner makes.
+    pub fn cooperative(ground: Ground, order: CurveOrder) -> (Self, Option<SweepWorker>) {
+        let (this, mut workers) = Self::manned(ground, order, 1);
+        (this, workers.pop())
+    }
+
+    fn manned(ground: Ground, order: CurveOrder, workers: usize) -> (Self, Vec<SweepWorker>) {
         let CurveOrder {
             along,
             mut values,
@@ -134,25 +159,24 @@ impl Background {
             ground,
             sides: Mutex::new([up, down]),
         });
-        for worker in 0..workers.max(1) {
-            let worker = SweepWorker {
-                work: Arc::clone(&shared),
-                side: worker % 2,
-                stop: Arc::clone(&stop),
-                done: Arc::clone(&done),
-                found: sender.clone(),
-            };
-            // Without a thread those values stay open; nothing else is lost.
-            let _ = std::thread::Builder::new()
-                .name("sweep".to_owned())
-                .spawn(move || worker.work());
-        }
-        Self {
+        let worker = |place: usize| SweepWorker {
+            work: Arc::clone(&shared),
+            side: place % 2,
+            stop: Arc::clone(&stop),
+            done: Arc::clone(&done),
+            found: sender.clone(),
+            last_side: None,
+            before: None,
+            case: None,
+        };
+        let workers = (0..workers).map(worker).collect();
+        let this = Self {
             stop,
             found,
             done,
             all,
-        }
+        };
+        (this, workers)
     }
 
     /// What is new since the last call.
@@ -181,10 +205,10 @@ impl Drop for Background {
 /// Values above and below the one that it begins at, the nearest first.
 type Sides = [VecDeque<f64>; 2];
 
-/// The next value for a worker at home on `side`: neighbours stay near as long as there are values on it.
-fn take_next(sides: &mut Sides, side: usize) -> Option<f64> {
-    let other = 1 - side;
-    sides[side].pop_front().or_else(|| sides[other].pop_front())
+/// The next value for a worker at home on `side`, and its side: neighbours stay near as long as there are values on it.
+fn take_next(sides: &mut Sides, side: usize) -> Option<(usize, f64)> {
+    let mut of = |side: usize| Some((side, sides[side].pop_front()?));
+    of(side).or_else(|| of(1 - side))
 }
 
 /// What the workers share.
@@ -195,60 +219,106 @@ struct SharedWork {
     sides: Mutex<Sides>,
 }
 
-struct SweepWorker {
+/// Works through the values of a sweep, one step of a case after another.
+pub struct SweepWorker {
     work: Arc<SharedWork>,
+    /// Where it is at home, and of which side its last value was.
     side: usize,
+    last_side: Option<usize>,
     stop: Arc<AtomicBool>,
     done: Arc<AtomicUsize>,
     found: Sender<Found>,
+    /// The run itself, or the case before.
+    before: Option<(Scene, State)>,
+    case: Option<ValueCase>,
 }
 
-struct StopFlag<'a>(&'a AtomicBool);
-
-impl Watch for StopFlag<'_> {
-    fn step(&mut self, _done: f64) -> bool {
-        !self.0.load(Ordering::Relaxed)
-    }
+/// The case of one value.
+struct ValueCase {
+    scene: Scene,
+    plan: Plan,
+    running: RunningCase,
+    /// Whether it is tried a second time, from Hertz.
+    is_second: bool,
 }
 
 impl SweepWorker {
-    fn work(self) {
-        let ground = &self.work.ground;
-        let begin = || {
-            let (scene, _) = case_of((*ground.scene).clone(), CHAIN).ok()?;
-            Some((scene, ground.state.clone()))
-        };
-        let mut before = begin();
-        while let Some(value) = self.next() {
-            let mut scene = self.work.scene.clone();
-            self.work.along.put(&mut scene, value);
-            // What is no scene has no life; the next value may be one.
-            if let Ok((scene, plan)) = case_of(scene, CHAIN) {
-                let Some((record, state)) = self.case(before.as_ref(), &scene, &plan) else {
-                    return;
-                };
-                let converged = record.end == CaseEnd::Converged;
-                if converged && self.found.send(found(&scene, &record)).is_err() {
-                    return;
+    /// One step, or the beginning of the next case; false once nothing is left to do, or nobody waits for it.
+    pub fn turn(&mut self) -> bool {
+        if self.stop.load(Ordering::Relaxed) {
+            return false;
+        }
+        match self.case.take() {
+            None => self.begin_next(),
+            Some(mut case) => {
+                if case.running.step() {
+                    self.case = Some(case);
+                    return true;
                 }
-                // A case in trouble is no start; the run itself is one.
-                before = state.map(|state| (scene, state)).or_else(begin);
+                let (record, state) = case.running.end();
+                self.ended((case.scene, case.plan), &record, state, case.is_second)
             }
-            self.done.fetch_add(1, Ordering::Relaxed);
         }
     }
 
-    fn case(&self, before: Option<&(Scene, State)>, scene: &Scene, plan: &Plan) -> Ran {
-        let until = case::Until::Settled(MOST);
-        let run = |before| case::after(before, 0, scene, plan, until, 1, &mut StopFlag(&self.stop));
-        match run(before) {
-            // A live run's grid need not be that of a scene with its knobs turned.
-            Some((record, _)) if record.end == CaseEnd::Stalled && before.is_some() => run(None),
-            ran => ran,
+    fn begin_next(&mut self) -> bool {
+        let Some((side, value)) = self.next() else {
+            return false;
+        };
+        // Both sides begin at the run, however many workers there are.
+        if self.last_side.replace(side) != Some(side) {
+            self.before = self.work.ground.start();
+        }
+        let mut scene = self.work.scene.clone();
+        self.work.along.put(&mut scene, value);
+        if let Ok(case) = case_of(scene, CHAIN) {
+            return self.begin(case, false);
+        }
+        // What is no scene has no life; the next value may be one.
+        self.done.fetch_add(1, Ordering::Relaxed);
+        true
+    }
+
+    fn begin(&mut self, (scene, plan): (Scene, Plan), is_second: bool) -> bool {
+        let before = self.before.as_ref().filter(|_| !is_second);
+        let from = (case::neighbour(before, &scene), case::Until::Settled(MOST));
+        match RunningCase::begin(0, &scene, &plan, from, 1) {
+            Ok(running) => {
+                self.case = Some(ValueCase {
+                    scene,
+                    plan,
+                    running,
+                    is_second,
+                });
+                true
+            }
+            Err(record) => self.ended((scene, plan), &record, None, is_second),
         }
     }
 
-    fn next(&self) -> Option<f64> {
+    fn ended(
+        &mut self,
+        (scene, plan): (Scene, Plan),
+        record: &CaseRecord,
+        state: Option<State>,
+        is_second: bool,
+    ) -> bool {
+        // A live run's grid need not be that of a scene with its knobs turned.
+        if record.end == CaseEnd::Stalled && self.before.is_some() && !is_second {
+            return self.begin((scene, plan), true);
+        }
+        let converged = record.end == CaseEnd::Converged;
+        if converged && self.found.send(found(&scene, record)).is_err() {
+            return false;
+        }
+        // A case in trouble is no start; the run itself is one.
+        let own = || self.work.ground.start();
+        self.before = state.map(|state| (scene, state)).or_else(own);
+        self.done.fetch_add(1, Ordering::Relaxed);
+        true
+    }
+
+    fn next(&self) -> Option<(usize, f64)> {
         let sides = self.work.sides.lock();
         take_next(
             &mut sides.unwrap_or_else(PoisonError::into_inner),
@@ -288,11 +358,11 @@ mod tests {
         assert_eq!(
             taken,
             [
-                Some(0.5),
-                Some(0.25),
-                Some(0.75),
-                Some(0.0),
-                Some(-0.25),
+                Some((0, 0.5)),
+                Some((1, 0.25)),
+                Some((0, 0.75)),
+                Some((1, 0.0)),
+                Some((1, -0.25)),
                 None
             ]
         );

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::spec::ChainKeys;
 use crate::plan::{OtherFilms, Plan};
+use crate::run::Clock;
 use crate::scene::{CycleBasis, Scene, Surface};
 use crate::sim::{SimError, Simulation, State, Summary};
 
@@ -86,11 +87,11 @@ pub(super) enum Until {
 }
 
 impl Until {
-    fn is_met(self, sim: &Simulation, plan: &Plan) -> bool {
+    fn is_met(self, sim: &Simulation, steps: u64) -> bool {
         let Self::Settled(times) = self else {
             return sim.is_done();
         };
-        sim.is_done() && (has_settled(sim) || sim.passage_steps() >= times * plan.steps)
+        sim.is_done() && (has_settled(sim) || sim.passage_steps() >= times * steps)
     }
 }
 
@@ -138,9 +139,17 @@ pub(super) fn after(
     threads: usize,
     watch: &mut dyn Watch,
 ) -> Ran {
-    let neighbour = before.filter(|(before, _)| may_follow(before, scene));
-    let state = neighbour.map(|(_, state)| state);
-    run(index, scene, plan, (state, until), threads, watch)
+    let from = (neighbour(before, scene), until);
+    run(index, scene, plan, from, threads, watch)
+}
+
+/// The end of the case before, where another may start from it.
+pub(super) fn neighbour<'a>(
+    before: Option<&'a (Scene, State)>,
+    scene: &Scene,
+) -> Option<&'a State> {
+    let (before, state) = before?;
+    may_follow(before, scene).then_some(state)
 }
 
 /// Runs a case, from the end of its neighbour where there is one.
@@ -148,55 +157,103 @@ pub(super) fn run(
     index: usize,
     scene: &Scene,
     plan: &Plan,
-    (neighbour, until): (Option<&State>, Until),
+    from: (Option<&State>, Until),
     threads: usize,
     watch: &mut dyn Watch,
 ) -> Ran {
-    let started = std::time::Instant::now();
-    let mut record = blank(index, plan);
-    let mut sim = match begin(scene, plan, neighbour, threads) {
-        Ok((sim, began)) => {
-            record.began = began;
-            sim
-        }
-        Err(error) => {
-            record.end = CaseEnd::Stalled;
-            record.failure = Some(error.to_string());
-            return Some((record, None));
-        }
+    let mut case = match RunningCase::begin(index, scene, plan, from, threads) {
+        Ok(case) => case,
+        Err(record) => return Some((*record, None)),
     };
-    let mut failure = None;
-    while !until.is_met(&sim, plan) {
-        if let Err(error) = sim.step() {
-            failure = Some(error.to_string());
-            break;
-        }
-        if sim.passage_steps() == 0 && !sim.metrics().converged {
-            record.start_up_not_converged += 1;
-        }
-        if !watch.step(sim.progress()) {
+    while case.step() {
+        if !watch.step(case.sim.progress()) {
             return None;
         }
     }
-    if sim.passage_steps() > 0 {
-        record.summary = sim.summary();
-        record.lambda_ratio = sim.metrics().lambda_ratio;
+    Some(case.end())
+}
+
+/// A case under way, for who makes its steps.
+pub(super) struct RunningCase {
+    sim: Simulation,
+    until: Until,
+    /// Steps of the plan.
+    steps: u64,
+    record: CaseRecord,
+    failure: Option<String>,
+    started: Clock,
+}
+
+impl RunningCase {
+    /// Makes it; the record of one that cannot be made says why not.
+    pub(super) fn begin(
+        index: usize,
+        scene: &Scene,
+        plan: &Plan,
+        (neighbour, until): (Option<&State>, Until),
+        threads: usize,
+    ) -> Result<Self, Box<CaseRecord>> {
+        let started = Clock::start();
+        let mut record = blank(index, plan);
+        match begin(scene, plan, neighbour, threads) {
+            Ok((sim, began)) => {
+                record.began = began;
+                Ok(Self {
+                    sim,
+                    until,
+                    steps: plan.steps,
+                    record,
+                    failure: None,
+                    started,
+                })
+            }
+            Err(error) => {
+                record.end = CaseEnd::Stalled;
+                record.failure = Some(error.to_string());
+                Err(Box::new(record))
+            }
+        }
     }
-    let unconverged = record.start_up_not_converged + record.summary.steps_not_converged;
-    if failure.is_none() && matches!(until, Until::Settled(_)) && !has_settled(&sim) {
-        record.failure = Some("the average of the life has not settled".to_owned());
+
+    /// One step; false: there is none to make any more.
+    pub(super) fn step(&mut self) -> bool {
+        if self.failure.is_some() || self.until.is_met(&self.sim, self.steps) {
+            return false;
+        }
+        if let Err(error) = self.sim.step() {
+            self.failure = Some(error.to_string());
+            return false;
+        }
+        if self.sim.passage_steps() == 0 && !self.sim.metrics().converged {
+            self.record.start_up_not_converged += 1;
+        }
+        true
     }
-    record.end = match (&failure, unconverged) {
-        (Some(_), _) => CaseEnd::Stalled,
-        (None, 0) if record.failure.is_none() => CaseEnd::Converged,
-        (None, _) => CaseEnd::NotConverged,
-    };
-    record.summary.converged = record.end == CaseEnd::Converged;
-    // A neighbour in trouble is no start: the next case begins cold.
-    let state = (record.end == CaseEnd::Converged).then(|| sim.save());
-    record.failure = failure.or(record.failure);
-    record.seconds = started.elapsed().as_secs_f64();
-    Some((record, state))
+
+    /// What it leaves.
+    pub(super) fn end(self) -> (CaseRecord, Option<State>) {
+        let (sim, mut record) = (self.sim, self.record);
+        if sim.passage_steps() > 0 {
+            record.summary = sim.summary();
+            record.lambda_ratio = sim.metrics().lambda_ratio;
+        }
+        let unconverged = record.start_up_not_converged + record.summary.steps_not_converged;
+        let is_awaited = self.failure.is_none() && matches!(self.until, Until::Settled(_));
+        if is_awaited && !has_settled(&sim) {
+            record.failure = Some("the average of the life has not settled".to_owned());
+        }
+        record.end = match (&self.failure, unconverged) {
+            (Some(_), _) => CaseEnd::Stalled,
+            (None, 0) if record.failure.is_none() => CaseEnd::Converged,
+            (None, _) => CaseEnd::NotConverged,
+        };
+        record.summary.converged = record.end == CaseEnd::Converged;
+        // A neighbour in trouble is no start: the next case begins cold.
+        let state = (record.end == CaseEnd::Converged).then(|| sim.save());
+        record.failure = self.failure.or(record.failure);
+        record.seconds = self.started.elapsed_s();
+        (record, state)
+    }
 }
 
 fn begin(

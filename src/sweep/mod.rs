@@ -33,7 +33,7 @@ mod table;
 mod window;
 
 pub use axis::{MOST_CASES, VariedKey, WARM};
-pub use background::{Along, Background, CurveOrder, CurvePoint, Found, Ground};
+pub use background::{Along, Background, CurveOrder, CurvePoint, Found, Ground, SweepWorker};
 pub use case::{CaseEnd, CaseRecord, CaseStart};
 pub use chain::Shard;
 pub use cold::{ColdComparison, against_cold};

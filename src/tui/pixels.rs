@@ -17,6 +17,7 @@ pub(super) mod kitty;
 pub(super) mod sixel;
 
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 
 /// How the map is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -78,6 +79,26 @@ impl Pixels {
             Self::Page => "the page's pixels",
         }
     }
+}
+
+/// Curves in a part of the screen, where a page draws them as lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PixelPlot {
+    /// The cells in which they are; what goes beyond is cut off.
+    pub area: Rect,
+    /// The curves, each over those before it.
+    pub curves: Vec<PixelCurve>,
+}
+
+/// A curve, or a row of dots.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PixelCurve {
+    /// Its colour.
+    pub color: Color,
+    /// Whether its points are dots, not joined.
+    pub is_dotted: bool,
+    /// Columns and rows of cells from the left upper corner of the plot; NaN breaks the line.
+    pub points: Vec<[f32; 2]>,
 }
 
 /// Pixels for a part of the screen.

@@ -152,10 +152,12 @@ pub extern "C" fn pointer(act: u32, column: u32, row: u32) {
     }
 }
 
-/// One time step. Gives 0 when there is none to make: paused, or ended.
+/// One time step: 1 of the run, 2 of the sweep beside it, 3 of both. Gives 0 when there is none to make: paused or ended,
+/// and nothing to sweep.
 #[unsafe(no_mangle)]
 pub extern "C" fn step() -> u32 {
-    on_page(|page| u32::from(page.step())).unwrap_or(0)
+    let [stepped, swept] = on_page(WebPage::step).unwrap_or_default();
+    u32::from(stepped) | u32::from(swept) << 1
 }
 
 /// Takes the news of the run and gives the cells that changed (see `cells.rs`), so many ms after the start.
@@ -168,6 +170,12 @@ pub extern "C" fn draw(now_ms: f64) -> u32 {
     };
     give(bytes);
     u32::from(goes_on)
+}
+
+/// The curves (see `curves.rs`), where they have changed; else nothing.
+#[unsafe(no_mangle)]
+pub extern "C" fn curves() {
+    give(on_page(WebPage::curves).unwrap_or_default());
 }
 
 /// The map's pixels: six numbers (left, top, columns, rows of cells; width, height), then the colours; or nothing.

@@ -195,3 +195,102 @@ fn shown(text: &str) -> String {
     let text: String = text.chars().filter(|c| !c.is_control()).take(40).collect();
     format!("\"{text}\"")
 }
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+
+    fn refused(text: &str) -> String {
+        match PageLink::read(text) {
+            Ok(_) => panic!("{text:?} is taken"),
+            Err(reason) => reason,
+        }
+    }
+
+    #[test]
+    fn a_link_turns_knobs_and_sets_keys() {
+        let link = "scene=twin_disc\nS=0.2\nload=900\nnodes=129\ncontrast=light\n\nlubricant.viscosity_pa_s=0.02";
+        let link = PageLink::read(link).unwrap();
+        assert_eq!((link.name.as_str(), link.nodes), ("twin_disc", Some(129)));
+        assert_eq!(link.contrast, Contrast::Light);
+        assert_eq!(link.scene.motion.slide_roll, 0.2);
+        let load = Knob::of_load(link.scene.contact.kind);
+        assert!([Knob::ForceN, Knob::ForceNPerM].contains(&load));
+        assert_eq!(link.scene.lubricant.unwrap().viscosity_pa_s, 0.02);
+        let nothing = PageLink::read("").unwrap();
+        assert_eq!(
+            (nothing.name.as_str(), nothing.nodes),
+            (presets::QUICK, None)
+        );
+        assert!(PageLink::read("lesson=load").unwrap().lesson.is_some());
+    }
+
+    /// What is refused, and the word that says which part of it.
+    #[test]
+    fn hostile_links_are_refused_by_key_and_range() {
+        for (text, named) in [
+            ("scene=<script>", "<script>"),
+            ("scene=../../etc/passwd", "is not a scene"),
+            ("scene=", "is not a scene"),
+            ("S=NaN", "S ="),
+            ("S=inf", "S ="),
+            ("S=1e300", "S ="),
+            ("S=-2.1", "S ="),
+            ("load=-1", "load ="),
+            ("load=0", "load ="),
+            ("A1=1", "A1 ="),
+            ("U=0", "U ="),
+            ("nodes=64", "33, 65, 129 or 257"),
+            ("nodes=17", "33, 65, 129 or 257"),
+            ("nodes=513", "33, 65, 129 or 257"),
+            ("nodes=-65", "33, 65, 129 or 257"),
+            ("nodes=99999999999999999999", "33, 65, 129 or 257"),
+            ("lesson=none", "is not a lesson"),
+            ("contrast=pink", "normal, high or light"),
+            ("x=1", "a key of a scene"),
+            ("grid=1", "a key of a scene"),
+            ("S", "key=value"),
+            ("motion.slide_roll=[[[", "motion.slide_roll"),
+            ("motion.slide_roll=7", "motion.slide_roll"),
+            ("grid.nodes=1000000", "grid.nodes"),
+            ("no.such=1", "no"),
+            ("\0=\u{fffd}", "is not a key"),
+        ] {
+            let reason = refused(text);
+            assert!(reason.contains(named), "{text:?}: {reason}");
+            assert!(!reason.contains('\0'), "{reason:?}");
+        }
+        assert!(refused(&"S=0.1\n".repeat(50_000)).contains("bytes"));
+        let long = refused(&format!("S={}", "9".repeat(1000)));
+        assert!(long.len() < 200, "{long}");
+    }
+
+    #[test]
+    fn a_file_is_a_lesson_or_a_scene_or_refused() {
+        let scene = PageLink::read("scene=twin_disc").unwrap().scene;
+        let dropped = PageLink::from_file(&scene.to_toml()).unwrap();
+        assert_eq!((dropped.scene, dropped.lesson.is_none()), (scene, true));
+        for text in ["no = [scene", "", "[[beat]]\n", "a = 1", "\u{feff}"] {
+            assert!(PageLink::from_file(text).is_err(), "{text:?}");
+        }
+        assert!(PageLink::from_file(&" ".repeat(LONGEST + 1)).is_err());
+    }
+
+    /// Of every scene there is: on the page's nodes, or on as many more as it needs, never more than its own.
+    #[test]
+    fn every_scene_has_a_plan_in_the_page() {
+        for preset in presets::all() {
+            let scene = PageLink::read(&format!("scene={}", preset.name))
+                .unwrap()
+                .scene;
+            let (on_page, _) = on_nodes(&scene, NODES).unwrap();
+            let nodes = on_page.grid.nodes;
+            assert!(
+                (NODES..=scene.grid.nodes.clamp(NODES, MOST_NODES)).contains(&nodes),
+                "{}",
+                preset.name
+            );
+        }
+    }
+}

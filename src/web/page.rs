@@ -13,11 +13,13 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::cells::changed;
+use super::curves::written as written_curves;
 use super::link::{NODES, PageLink, on_nodes, written};
 use super::rows::KeptRows;
 use crate::math::number::sig;
 use crate::run::{Cooperative, Ending, LoopTurn, NearEnd, Request, Watcher};
 use crate::scene::{Knob, Scene};
+use crate::sweep::{Background, Ground, SweepWorker};
 use crate::tui::event::ScreenEvent;
 use crate::tui::pixels::Pixels;
 use crate::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
@@ -32,6 +34,9 @@ struct PageRun {
     rows: KeptRows,
 }
 
+/// The sweep beside the run, where there is one.
+type Beside = Rc<RefCell<Option<SweepWorker>>>;
+
 /// Files to save: name and text.
 type Files = Rc<RefCell<Vec<(String, String)>>>;
 
@@ -39,10 +44,14 @@ type Files = Rc<RefCell<Vec<(String, String)>>>;
 pub(super) struct WebPage {
     explorer: Explorer,
     run: Rc<RefCell<PageRun>>,
+    beside: Beside,
     files: Files,
     nodes: usize,
     shown: Buffer,
     cell: (u16, u16),
+    /// Curves as they were given last, and those that are new.
+    curves: Vec<u8>,
+    new_curves: Vec<u8>,
     last: Duration,
     has_quit: bool,
 }
@@ -54,12 +63,13 @@ impl WebPage {
         let files = Files::default();
         let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
         let run = Rc::new(RefCell::new(run));
-        let mut wiring = wiring(&run.borrow().session, setup, &files);
+        let beside = Beside::default();
+        let mut wiring = wiring(&run.borrow().session, setup, &beside, &files);
         wiring.lesson = link.lesson;
-        let (place, kept) = (Rc::clone(&run), Rc::clone(&files));
+        let (place, sweep, kept) = (Rc::clone(&run), Rc::clone(&beside), Rc::clone(&files));
         wiring.rebuild = Some(Box::new(move |scene, name| {
             let (next, setup) = start(scene, name, nodes, Ending::OnStop)?;
-            let wiring = self::wiring(&next.session, setup, &kept);
+            let wiring = self::wiring(&next.session, setup, &sweep, &kept);
             place.replace(next);
             Ok(wiring)
         }));
@@ -75,10 +85,13 @@ impl WebPage {
         Ok(Self {
             explorer,
             run,
+            beside,
             files,
             nodes,
             shown: Buffer::default(),
             cell: (8, 16),
+            curves: Vec::new(),
+            new_curves: Vec::new(),
             last: Duration::ZERO,
             has_quit: false,
         })
@@ -88,6 +101,7 @@ impl WebPage {
     pub(super) fn resize(&mut self, columns: u16, rows: u16, cell: (u16, u16)) {
         self.shown = Buffer::empty(Rect::new(0, 0, columns, rows));
         self.cell = cell;
+        self.curves.clear();
     }
 
     /// Takes what a person does.
@@ -96,14 +110,22 @@ impl WebPage {
         self.has_quit |= control == Control::Stop;
     }
 
-    /// One step; whether there was one to make.
-    pub(super) fn step(&mut self) -> bool {
-        matches!(self.run.borrow_mut().session.turn(), LoopTurn::Stepped)
+    /// One step of the run and one of the sweep beside it; whether there were such.
+    pub(super) fn step(&mut self) -> [bool; 2] {
+        let stepped = matches!(self.run.borrow_mut().session.turn(), LoopTurn::Stepped);
+        let mut beside = self.beside.borrow_mut();
+        let swept = beside.as_mut().is_some_and(SweepWorker::turn);
+        if !swept {
+            *beside = None;
+        }
+        [stepped, swept]
     }
 
     /// The news of the run, and the cells that changed; whether it goes on.
     pub(super) fn draw(&mut self, now_ms: f64) -> (bool, Vec<u8>) {
-        let now = Duration::from_secs_f64((1e-3 * now_ms).clamp(0.0, 1e9));
+        let seconds = (1e-3 * now_ms).clamp(0.0, 1e9);
+        // A time that is no number is none.
+        let now = Duration::try_from_secs_f64(seconds).unwrap_or(self.last);
         self.explorer.app.tick(now);
         let wall = now.saturating_sub(self.last);
         self.last = now;
@@ -111,11 +133,20 @@ impl WebPage {
         self.has_quit |= control == Control::Stop;
         let area = self.shown.area;
         let mut next = Buffer::empty(area);
-        view::render(&self.explorer.app, area, &mut next);
+        let curves = written_curves(&view::render(&self.explorer.app, area, &mut next));
+        if curves != self.curves {
+            self.curves.clone_from(&curves);
+            self.new_curves = curves;
+        }
         let picture = view::picture_area(&self.explorer.app, area).unwrap_or_default();
         let bytes = changed(&self.shown, &next, picture);
         self.shown = next;
         (!self.has_quit, bytes)
+    }
+
+    /// The curves, where they have changed.
+    pub(super) fn curves(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.new_curves)
     }
 
     /// The map's pixels.
@@ -239,8 +270,10 @@ fn start(
     Ok((PageRun { session, rows }, setup))
 }
 
-fn wiring(session: &NearEnd, setup: Setup, files: &Files) -> Wiring {
+fn wiring(session: &NearEnd, setup: Setup, beside: &Beside, files: &Files) -> Wiring {
     let status = session.status_reader();
+    let (ground, scene) = (session.settled_reader(), Arc::clone(&setup.scene));
+    let place = Rc::clone(beside);
     let (saves, writes) = (Rc::clone(files), Rc::clone(files));
     let name = setup.name.replace('/', "-");
     let file = format!("{name}.toml");
@@ -253,7 +286,15 @@ fn wiring(session: &NearEnd, setup: Setup, files: &Files) -> Wiring {
             recorder: None,
         }),
         settled: Box::new(session.settled_reader()),
-        start_sweep: None,
+        start_sweep: Some(Box::new(move |order| {
+            let ground = Ground {
+                scene: Arc::clone(&scene),
+                state: ground()?.state.clone()?,
+            };
+            let (sweep, worker) = Background::cooperative(ground, order);
+            place.replace(worker);
+            Some(sweep)
+        })),
         interrupt: Arc::new(AtomicBool::new(false)),
         toggle_recording: None,
         open_viewer: None,
@@ -273,5 +314,148 @@ fn wiring(session: &NearEnd, setup: Setup, files: &Files) -> Wiring {
             heard
         })),
         lesson: None,
+    }
+}
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "tests")]
+mod tests {
+    use super::*;
+    use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct};
+
+    fn page(link: &str) -> WebPage {
+        let mut page = WebPage::open(PageLink::read(link).unwrap()).unwrap();
+        page.resize(120, 40, (8, 16));
+        page
+    }
+
+    fn press(page: &mut WebPage, key: KeyName) {
+        page.take(ScreenEvent::Key(Chord::new(key, Modifiers::default())));
+    }
+
+    /// Draws until something holds, stepping in between.
+    fn until(page: &mut WebPage, what: &str, holds: impl Fn(&WebPage) -> bool) {
+        for turn in 0..4000 {
+            if holds(page) {
+                return;
+            }
+            page.step();
+            page.draw(20.0 * f64::from(turn));
+        }
+        panic!("{what}: {}", page.spoken());
+    }
+
+    #[test]
+    fn a_link_is_written_as_it_is_read() {
+        let mut page = page("scene=twin_disc\nnodes=33");
+        assert_eq!(page.link(), "scene=twin_disc&nodes=33");
+        press(&mut page, KeyName::Right);
+        let link = page.link();
+        let turned = PageLink::read(&link.replace('&', "\n")).unwrap();
+        let aim = page.explorer.app.target(Knob::SlideRoll);
+        assert_eq!(turned.scene.motion.slide_roll, aim, "{link}");
+        let scene = PageLink::from_file(&page.scene()).unwrap().scene;
+        assert_eq!(scene.motion.slide_roll, aim);
+        assert_eq!(
+            page.spoken().split(" S ").next(),
+            Some("No simulated life yet.")
+        );
+    }
+
+    #[test]
+    fn a_run_without_a_screen_leaves_its_table_and_counters() {
+        let text = measured(&PageLink::read("nodes=33").unwrap(), 3).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        let passage = lines.iter().filter(|line| line.contains("passage")).count();
+        assert!(passage >= 3 && lines[0].contains("h_central_m"), "{text}");
+        let counters: serde_json::Value = serde_json::from_str(lines.last().unwrap()).unwrap();
+        assert!(counters["steps"].as_u64() >= Some(3), "{counters}");
+    }
+
+    /// Any size, key and pointer, on the panels and on what lies over them.
+    #[test]
+    fn no_event_breaks_it() {
+        let mut page = page("nodes=33");
+        until(&mut page, "a frame", |page| {
+            page.explorer.app.frame().is_some()
+        });
+        let sizes = [
+            (0, 0),
+            (1, 1),
+            (40, 30),
+            (48, 44),
+            (59, 20),
+            (60, 20),
+            (300, 4),
+            (200, 60),
+        ];
+        let acts = [
+            PointerAct::Press,
+            PointerAct::Drag,
+            PointerAct::WheelUp,
+            PointerAct::WheelDown,
+            PointerAct::SecondPress,
+        ];
+        let keys = "?tei\u{1b}mzpPycug1=5\r+-bxo s\tw";
+        let mut time = 1e5;
+        for (n, key) in keys.chars().enumerate() {
+            press(&mut page, KeyName::Char(key));
+            let (columns, rows) = sizes[n % sizes.len()];
+            page.resize(columns, rows, (1 + n as u16 % 9, 1 + n as u16 % 19));
+            for (k, act) in acts.into_iter().enumerate() {
+                let at = |side: u16| (side / 5 * k as u16).saturating_add(n as u16 % 7);
+                let (column, row) = (at(columns), at(rows));
+                page.take(ScreenEvent::Pointer(Pointer { act, column, row }));
+                time += 20.0;
+                let (goes_on, _) = page.draw(time);
+                assert!(goes_on);
+                drop((
+                    page.picture(),
+                    page.curves(),
+                    page.link(),
+                    page.table(),
+                    page.saved(),
+                ));
+            }
+            page.step();
+        }
+        for time in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
+            page.draw(time);
+        }
+        press(&mut page, KeyName::Esc);
+        press(&mut page, KeyName::Char('q'));
+        assert!(!page.draw(time).0, "it has quit");
+    }
+
+    /// Curves are given when they have changed, and again for another size.
+    #[test]
+    fn curves_come_once() {
+        let mut page = page("nodes=33");
+        until(&mut page, "a frame", |page| {
+            page.explorer.app.frame().is_some()
+        });
+        page.draw(1e6);
+        assert!(page.curves().len() > 100);
+        page.draw(1e6);
+        assert!(page.curves().is_empty());
+        page.resize(120, 40, (8, 16));
+        page.draw(1e6);
+        assert!(page.curves().len() > 100);
+        // Under an overlay there are none.
+        press(&mut page, KeyName::Char('?'));
+        page.draw(1e6);
+        assert_eq!(page.curves(), [0; 4]);
+    }
+
+    /// A run that has settled is swept between the turns of the page, a knob ends that.
+    #[test]
+    fn a_settled_run_is_swept() {
+        let mut page = page("nodes=33\nA1=0\nA2=0");
+        until(&mut page, "a sweep", |page| page.beside.borrow().is_some());
+        let swept = |page: &WebPage| page.explorer.app.all_simulated().count();
+        until(&mut page, "two points", |page| swept(page) >= 2);
+        press(&mut page, KeyName::Right);
+        page.step();
+        assert!(page.beside.borrow().is_none());
     }
 }

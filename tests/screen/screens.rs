@@ -30,6 +30,28 @@ fn live_screens() {
     }
 }
 
+/// Held upright: one picture, life and knobs; what the picture is goes by the panel that the keys speak of.
+#[test]
+fn narrow_screens() {
+    let mut app = running(plain());
+    for (width, height) in [(40, 30), (48, 43)] {
+        insta::assert_snapshot!(
+            format!("narrow_{width}x{height}"),
+            text(&app, width, height)
+        );
+    }
+    for kind in [PanelKind::CentreLine, PanelKind::Point] {
+        app.apply(Action::Focus(kind));
+        let name = kind.name().replace(' ', "_");
+        insta::assert_snapshot!(format!("narrow_{name}_48x43"), text(&app, 48, 43));
+    }
+    app.apply(Action::Enter);
+    insta::assert_snapshot!("narrow_enlarged_48x43", text(&app, 48, 43));
+    app.apply(Action::Close);
+    app.apply(Action::Help);
+    insta::assert_snapshot!("narrow_help_48x43", text(&app, 48, 43));
+}
+
 /// Each panel in place of all.
 #[test]
 fn enlarged_panels() {

@@ -245,6 +245,37 @@ fn a_sweep_finds_the_lives_of_runs_of_their_own() {
     }
 }
 
+/// Who makes the turns makes no difference, bit for bit: a page, or one thread.
+#[test]
+fn a_sweep_in_turns_is_that_of_one_thread() {
+    let scene = repeating();
+    let order = CurveOrder {
+        along: Along::SlideRoll,
+        values: vec![0.25, 1.0, 0.0, 0.75],
+        scene: scene.clone(),
+    };
+    let ground = Ground {
+        state: state_of(&scene, &[]),
+        scene: Arc::new(scene),
+    };
+    let one_thread = Background::start(ground.clone(), order.clone(), 1);
+    let (in_turns, worker) = Background::cooperative(ground, order);
+    let mut worker = worker.unwrap();
+    let mut turns = 0;
+    while worker.turn() {
+        turns += 1;
+    }
+    assert_eq!(in_turns.progress(), Some((4, 4)));
+    drop(worker);
+    assert_eq!(in_turns.progress(), None);
+    while one_thread.progress().is_some() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let found = in_turns.take();
+    assert!(found.len() == 4 && turns > 4 * 10, "{turns}");
+    assert_eq!(found, one_thread.take());
+}
+
 /// The same along the speed, for Stribeck's curve: λ and friction go their ways.
 #[test]
 fn a_sweep_of_the_speed_goes_along_stribecks_curve() {

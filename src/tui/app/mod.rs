@@ -287,6 +287,11 @@ impl App {
         self.pixels != Pixels::Blocks && self.theme.paints() && !covered
     }
 
+    /// Whether curves are left to a page, which draws them as lines.
+    pub(crate) fn is_in_lines(&self) -> bool {
+        self.pixels == Pixels::Page && self.is_in_pixels()
+    }
+
     /// The map that is shown.
     pub fn map(&self) -> MapKind {
         self.map

@@ -6,6 +6,8 @@ use crate::tui::app::PanelKind;
 
 /// Least size of the screen, columns and rows.
 pub const LEAST: (u16, u16) = (60, 20);
+/// Least size of a narrower one: a phone held upright.
+pub const LEAST_NARROW: (u16, u16) = (40, 30);
 
 /// How much room there is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,6 +25,15 @@ pub enum Banner {
     None,
     /// A lesson or a script says something that takes so many rows.
     Caption(u16),
+}
+
+impl Banner {
+    fn rows(self) -> u16 {
+        match self {
+            Self::None => 0,
+            Self::Caption(rows) => rows.min(MOST_WORDS),
+        }
+    }
 }
 
 /// Where the panels are.
@@ -48,12 +59,17 @@ pub struct Areas {
     pub status: Rect,
     /// Left of the map the one that was frozen, where there is room for two.
     pub frozen: Rect,
+    /// Whether there is room for one picture only, with life and knobs below it.
+    pub is_narrow: bool,
 }
 
 impl Areas {
     /// The panels on a screen; `None` where it is too small.
     pub fn of(screen: Rect, banner: Banner) -> Option<Self> {
-        if screen.width < LEAST.0 || screen.height < LEAST.1 {
+        if screen.width < LEAST.0 {
+            return Self::narrow(screen, banner);
+        }
+        if screen.height < LEAST.1 {
             return None;
         }
         let density = if screen.width >= 110 && screen.height >= 32 {
@@ -62,10 +78,7 @@ impl Areas {
             PanelSpacing::Compact
         };
         let (left, right) = side_widths(screen.width, density);
-        let caption_rows = match banner {
-            Banner::None => 0,
-            Banner::Caption(rows) => rows.min(MOST_WORDS),
-        };
+        let caption_rows = banner.rows();
         let (point_rows, status_rows) = match density {
             // Six rows for the trace, its title and its ticks, once the life has its own.
             PanelSpacing::Compact => {
@@ -94,19 +107,72 @@ impl Areas {
             point: Rect::new(screen.x, below, screen.width, point_rows),
             status: Rect::new(screen.x, below + point_rows, screen.width, status_rows),
             frozen: Rect::default(),
+            is_narrow: false,
+        })
+    }
+
+    /// One picture, life and knobs, one below the other.
+    fn narrow(screen: Rect, banner: Banner) -> Option<Self> {
+        /// Rows of the sentence on a knob, of the run's state, and of the keys.
+        const STATUS: u16 = 3;
+        if screen.width < LEAST_NARROW.0 || screen.height < LEAST_NARROW.1 {
+            return None;
+        }
+        let caption_rows = banner.rows();
+        let body_rows = screen.height - 1 - caption_rows - STATUS;
+        // Three rows a knob are a finger's width; two where rows are few.
+        let knob_rows = if body_rows >= 36 { 16 } else { 11 };
+        let life_rows = ((body_rows - knob_rows) * 2 / 5).clamp(5, LIFE_ROWS);
+        let map_rows = body_rows - knob_rows - life_rows;
+        let mut next = screen.y;
+        let mut rows = |height: u16| {
+            next += height;
+            Rect::new(screen.x, next - height, screen.width, height)
+        };
+        Some(Self {
+            density: PanelSpacing::Compact,
+            header: rows(1),
+            caption: rows(caption_rows),
+            map: rows(map_rows),
+            life: rows(life_rows),
+            knobs: rows(knob_rows),
+            status: rows(STATUS),
+            centre_line: Rect::default(),
+            point: Rect::default(),
+            frozen: Rect::default(),
+            is_narrow: true,
         })
     }
 }
 
 impl Areas {
+    /// The same, on a narrow screen with another picture than the map.
+    #[must_use]
+    pub(super) fn with_picture(self, panel: PanelKind) -> Self {
+        let none = Rect::default();
+        match panel {
+            PanelKind::CentreLine if self.is_narrow => Self {
+                centre_line: self.map,
+                map: none,
+                ..self
+            },
+            PanelKind::Point if self.is_narrow => Self {
+                point: self.map,
+                map: none,
+                ..self
+            },
+            _ => self,
+        }
+    }
+
     /// The same screen with one panel in place of all.
     #[must_use]
     pub fn enlarged(self, panel: PanelKind) -> Self {
         let whole = Rect {
             x: self.header.x,
-            y: self.knobs.y,
+            y: self.caption.bottom(),
             width: self.header.width,
-            height: self.status.y - self.knobs.y,
+            height: self.status.y - self.caption.bottom(),
         };
         let of = |own: PanelKind| if own == panel { whole } else { Rect::default() };
         Self {
@@ -119,9 +185,12 @@ impl Areas {
         }
     }
 
-    /// The same with one more of the last lines, taken from the panel above them.
+    /// The same with one more of the last lines, taken from the panel above them; a narrow screen has it anyway.
     #[must_use]
     pub(super) fn with_a_line(mut self) -> Self {
+        if self.is_narrow {
+            return self;
+        }
         self.point.height -= 1;
         self.status.y -= 1;
         self.status.height += 1;

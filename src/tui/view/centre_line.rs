@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 
 use crate::sim::Frame;
 use crate::tui::app::{App, PanelKind, Zoom};
+use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
 use crate::tui::view::chart::{CurvePanel, Pen};
@@ -15,7 +16,7 @@ use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
 /// Columns of the numbers on either side.
 const AXIS: u16 = 5;
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
     let inner = panel(
         app,
         areas,
@@ -23,9 +24,9 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         heading(app, areas),
         buffer,
     );
-    let Some(frame) = app.frame() else { return };
+    let frame = app.frame()?;
     if inner.height < 3 || inner.width < 2 * AXIS + 8 {
-        return;
+        return None;
     }
     let plot = Rect {
         x: inner.x + AXIS,
@@ -34,8 +35,9 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
         ..inner
     };
     let x = x_range(app, frame);
-    curves(app, frame, plot, x, buffer);
+    let curves = curves(app, frame, plot, x, buffer);
     axes(app, inner, plot, x, buffer);
+    curves
 }
 
 fn heading(app: &App, areas: &Areas) -> Line<'static> {
@@ -66,11 +68,17 @@ fn x_range(app: &App, frame: &Frame) -> [f64; 2] {
     }
 }
 
-fn curves(app: &App, frame: &Frame, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
+fn curves(
+    app: &App,
+    frame: &Frame,
+    plot: Rect,
+    x: [f64; 2],
+    buffer: &mut Buffer,
+) -> Option<PixelPlot> {
     let theme = app.theme;
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let hertz = frame.p_hertz_pa / app.reached.pressure_pa.max(1.0);
-    let mut chart = CurvePanel::new(plot, x, [0.0, 1.0]);
+    let mut chart = CurvePanel::of(app, plot, x, [0.0, 1.0]);
     let fine = usize::from(plot.width) * 2;
     chart.scatter(
         (0..=fine).filter_map(|i| {
@@ -86,7 +94,7 @@ fn curves(app: &App, frame: &Frame, plot: Rect, x: [f64; 2], buffer: &mut Buffer
     if let Some(point) = &frame.material_point {
         chart.upright(point.x_m / frame.a_m, pen(Role::Dim, ':'));
     }
-    chart.render(theme.is_ascii(), buffer);
+    chart.render(theme.is_ascii(), buffer)
 }
 
 /// The middle row of a field: x/a and the value over the range's end.

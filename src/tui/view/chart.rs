@@ -1,4 +1,4 @@
-//! Curves in a rectangle of cells: two by four Braille dots each, or one character without them.
+//! Curves in a rectangle of cells: two by four Braille dots each, or one character without them; in a page lines.
 //!
 //! Ratatui's `Canvas` and `Chart` have colours only: no weight of a pen and no dashes, by which curves are told apart
 //! without colours, and one character for all curves of a layer. With a shape for the dashes a `Canvas` would save 40 lines
@@ -8,6 +8,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
+use crate::tui::app::App;
+use crate::tui::pixels::{PixelCurve, PixelPlot};
 use crate::tui::theme::{Role, Theme};
 
 /// Bit of a dot in a Braille cell, `[row][column]`.
@@ -27,6 +29,8 @@ pub(super) struct CurvePanel {
     x: [f64; 2],
     y: [f64; 2],
     cells: Vec<Cell>,
+    /// Instead of the cells, where a page draws them.
+    curves: Option<Vec<PixelCurve>>,
 }
 
 /// How a curve looks.
@@ -77,11 +81,30 @@ impl CurvePanel {
     /// An empty chart with its ranges.
     pub(super) fn new(area: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
         let cells = vec![Cell::default(); usize::from(area.width) * usize::from(area.height)];
-        Self { area, x, y, cells }
+        Self {
+            area,
+            x,
+            y,
+            cells,
+            curves: None,
+        }
+    }
+
+    /// The same as the explorer draws it: dots, or a page's lines.
+    pub(super) fn of(app: &App, area: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
+        Self {
+            curves: app.is_in_lines().then(Vec::new),
+            ..Self::new(area, x, y)
+        }
     }
 
     /// A curve through points; one that is not finite breaks it, what lies outside is cut off.
     pub(super) fn line(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: Pen) {
+        if self.curves.is_some() {
+            let points = points.into_iter().map(|(x, y)| self.dot(x, y)).collect();
+            self.leave(points, false, pen);
+            return;
+        }
         let mut last: Option<(f64, f64)> = None;
         for (x, y) in points {
             let here = self.dot(x, y);
@@ -96,6 +119,11 @@ impl CurvePanel {
 
     /// Single dots.
     pub(super) fn scatter(&mut self, points: impl IntoIterator<Item = (f64, f64)>, pen: Pen) {
+        if self.curves.is_some() {
+            let points = points.into_iter().map(|(x, y)| self.dot(x, y)).collect();
+            self.leave(points, true, pen);
+            return;
+        }
         for (x, y) in points {
             if let Some(place) = self.dot(x, y) {
                 self.set(place, pen);
@@ -108,13 +136,37 @@ impl CurvePanel {
         let Some((column, _)) = self.dot(x, self.y[0]) else {
             return;
         };
-        for row in (0..self.rows()).step_by(2) {
-            self.set((column, row as f64), pen);
+        let places = (0..self.rows()).step_by(2).map(|row| (column, row as f64));
+        if self.curves.is_some() {
+            self.leave(places.map(Some).collect(), true, pen);
+            return;
+        }
+        for place in places {
+            self.set(place, pen);
         }
     }
 
-    /// Draws it; cells that no curve touched stay as they are.
-    pub(super) fn render(&self, ascii: bool, buffer: &mut Buffer) {
+    /// Leaves a curve to the page: from dots to cells.
+    fn leave(&mut self, dots: Vec<Option<(f64, f64)>>, is_dotted: bool, pen: Pen) {
+        let place = |dot: Option<(f64, f64)>| {
+            dot.map_or([f32::NAN; 2], |(column, row)| {
+                [0.5 * (column + 0.5), 0.25 * (row + 0.5)].map(|cells| cells as f32)
+            })
+        };
+        let curve = PixelCurve {
+            color: pen.style.fg.unwrap_or_default(),
+            is_dotted,
+            points: dots.into_iter().map(place).collect(),
+        };
+        self.curves.get_or_insert_default().push(curve);
+    }
+
+    /// Draws it, or gives it to the page; cells that no curve touched stay as they are.
+    pub(super) fn render(&mut self, ascii: bool, buffer: &mut Buffer) -> Option<PixelPlot> {
+        if let Some(curves) = self.curves.take() {
+            let area = self.area;
+            return Some(PixelPlot { area, curves });
+        }
         for (place, cell) in self.cells.iter().enumerate() {
             if cell.dots == 0 {
                 continue;
@@ -130,6 +182,7 @@ impl CurvePanel {
                 target.set_char(letter).set_style(cell.style);
             }
         }
+        None
     }
 
     fn columns(&self) -> usize {
@@ -192,7 +245,7 @@ impl CurvePanel {
 mod tests {
     use super::*;
 
-    fn drawn(chart: &CurvePanel, ascii: bool) -> Vec<String> {
+    fn drawn(chart: &mut CurvePanel, ascii: bool) -> Vec<String> {
         let mut buffer = Buffer::empty(chart.area);
         chart.render(ascii, &mut buffer);
         (0..chart.area.height)
@@ -230,18 +283,18 @@ mod tests {
     fn corners_are_the_outermost_dots() {
         let mut chart = CurvePanel::new(Rect::new(0, 0, 2, 2), [0.0, 1.0], [0.0, 1.0]);
         chart.scatter([(0.0, 0.0), (1.0, 1.0)], pen());
-        assert_eq!(drawn(&chart, false), [" ⠈", "⡀ "]);
-        assert_eq!(drawn(&chart, true), [" *", "* "]);
+        assert_eq!(drawn(&mut chart, false), [" ⠈", "⡀ "]);
+        assert_eq!(drawn(&mut chart, true), [" *", "* "]);
     }
 
     #[test]
     fn what_is_outside_or_no_number_draws_nothing() {
         let mut chart = CurvePanel::new(Rect::new(0, 0, 3, 1), [0.0, 1.0], [0.0, 1.0]);
         chart.line([(f64::NAN, 0.0), (0.5, f64::INFINITY), (5.0, 7.0)], pen());
-        assert_eq!(drawn(&chart, true), ["   "]);
+        assert_eq!(drawn(&mut chart, true), ["   "]);
         // A curve that leaves is drawn up to the edge.
         chart.line([(0.0, 0.0), (0.0, 1e30)], pen());
-        assert_eq!(drawn(&chart, true), ["*  "]);
+        assert_eq!(drawn(&mut chart, true), ["*  "]);
     }
 
     #[test]
@@ -249,6 +302,6 @@ mod tests {
         let mut chart = CurvePanel::new(Rect::new(0, 0, 0, 0), [0.0, 0.0], [1.0, 1.0]);
         chart.line([(0.0, 1.0), (2.0, 3.0)], pen());
         chart.upright(0.0, pen());
-        assert!(drawn(&chart, false).is_empty());
+        assert!(drawn(&mut chart, false).is_empty());
     }
 }

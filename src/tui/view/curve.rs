@@ -9,6 +9,7 @@ use ratatui::text::{Line, Span};
 
 use crate::tui::action::Action;
 use crate::tui::app::App;
+use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::view::chart::{CurvePanel, Pen};
 use crate::tui::view::{ascii_text, put, put_right};
@@ -50,8 +51,8 @@ pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {
     })
 }
 
-/// Draws what there is room for, and says where the curve's plot is.
-pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
+/// Draws what there is room for; says where the curve's plot is, and what it leaves to a page.
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> (Option<Rect>, Vec<PixelPlot>) {
     let below = |rows: u16, from: u16| Rect {
         y: area.y + from,
         height: rows,
@@ -61,21 +62,30 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Rect>
     if area.height >= CURVE_ROWS + 5 {
         let rows = (area.height / 3).clamp(4, 8);
         let curve = area.height - rows - 1;
-        history::render(app, below(rows, 1 + curve), buffer);
-        return Some(draw(app, &figure(), below(curve, 1), buffer));
+        let history = history::render(app, below(rows, 1 + curve), buffer);
+        let (plot, curve) = draw(app, &figure(), below(curve, 1), buffer);
+        (Some(plot), history.into_iter().chain(curve).collect())
     } else if area.height > CURVE_ROWS {
-        return Some(draw(app, &figure(), below(area.height - 1, 1), buffer));
+        let (plot, curve) = draw(app, &figure(), below(area.height - 1, 1), buffer);
+        (Some(plot), curve.into_iter().collect())
     } else if area.height >= 2 {
-        history::render(app, area, buffer);
+        let history = history::render(app, area, buffer);
+        (None, history.into_iter().collect())
+    } else {
+        (None, Vec::new())
     }
-    None
 }
 
 fn pen(app: &App, role: Role, letter: char) -> Pen {
     Pen::new(app.theme, role, letter)
 }
 
-fn draw(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) -> Rect {
+fn draw(
+    app: &App,
+    figure: &CurveFigure,
+    area: Rect,
+    buffer: &mut Buffer,
+) -> (Rect, Option<PixelPlot>) {
     let theme = app.theme;
     heading(app, figure, area, buffer);
     let plot = Rect {
@@ -84,14 +94,14 @@ fn draw(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) -> Rec
         width: area.width.saturating_sub(AXIS),
         height: area.height.saturating_sub(2),
     };
-    let mut chart = CurvePanel::new(plot, figure.x, figure.y);
+    let mut chart = CurvePanel::of(app, plot, figure.x, figure.y);
     chart.upright(figure.knob, pen(app, Role::Dim, ':'));
     chart.line(figure.formula.iter().copied(), pen(app, Role::Formula, '.'));
     for &(x, _, band) in &figure.points {
         let ends = band.into_iter().flatten().map(|y| (x, y));
         chart.line(ends, pen(app, Role::Good, '|'));
     }
-    chart.render(theme.is_ascii(), buffer);
+    let curves = chart.render(theme.is_ascii(), buffer);
     let simulated = theme.pick("•", "o");
     for &(x, y, _) in &figure.points {
         spot(app, figure, plot, (x, y), (simulated, Role::Good), buffer);
@@ -101,7 +111,7 @@ fn draw(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) -> Rec
         spot(app, figure, plot, (figure.knob, now), here, buffer);
     }
     axes(app, figure, area, plot, buffer);
-    plot
+    (plot, curves)
 }
 
 /// A mark on a place, where that is in the plot.

@@ -50,11 +50,12 @@ pub(super) fn under(app: &App, areas: &Areas, at: Position) -> Option<usize> {
     (0..app.dials.len()).find(|place| slot(areas, *place).contains(at))
 }
 
-/// A press: on the slider's row it moves the slider, elsewhere it chooses the knob.
+/// A press: on the slider's row or below it moves the slider (a finger is wider than a row), on the name it chooses the
+/// knob.
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let place = under(app, areas, at)?;
     let track = track(slot(areas, place));
-    if at.y == track.y {
+    if at.y >= track.y {
         return Some(Action::Slide(place, fraction(track, at.x)));
     }
     Some(Action::Choose(place))

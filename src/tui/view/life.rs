@@ -13,6 +13,7 @@ use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, Leading, PanelKind};
+use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::view::{Areas, PanelSpacing, curve, panel, put, title};
 
@@ -22,12 +23,16 @@ pub(super) fn pressed(app: &App, areas: &Areas, screen: Rect, at: Position) -> O
         return None;
     }
     // Where the curve is depends on all that stands above it: as it is drawn.
-    let plot = render(app, areas, &mut Buffer::empty(screen))?;
-    curve::pressed(app, plot, at)
+    let (plot, _) = render(app, areas, &mut Buffer::empty(screen));
+    curve::pressed(app, plot?, at)
 }
 
-/// Draws it, and says where the curve's plot is.
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Rect> {
+/// Draws it; says where the curve's plot is, and what it leaves to a page.
+pub(super) fn render(
+    app: &App,
+    areas: &Areas,
+    buffer: &mut Buffer,
+) -> (Option<Rect>, Vec<PixelPlot>) {
     let theme = app.theme;
     let inner = panel(
         app,
@@ -78,7 +83,11 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Re
 }
 
 /// A scene that asks for no life: it is not waited for.
-fn without_life(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) -> Option<Rect> {
+fn without_life(
+    app: &App,
+    rows: &mut RowAllotment,
+    buffer: &mut Buffer,
+) -> (Option<Rect>, Vec<PixelPlot>) {
     let dim = app.theme.style(Role::Dim);
     let words = ["no life in this scene", "(no [life] table)"];
     for text in words {

@@ -18,7 +18,7 @@ use crate::sim::Frame;
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::kymograph::SHOWN;
-use crate::tui::pixels::Bitmap;
+use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::sig;
 use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, title};
@@ -29,23 +29,22 @@ use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 /// Columns of the colour bar with its numbers.
 const BAR: u16 = 8;
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
     let (theme, title) = (app.theme, heading(app, areas));
     let inner = panel(app, areas, PanelKind::Map, title, buffer);
     let Some(frame) = app.frame() else {
         waiting(app, inner, buffer);
-        return;
+        return None;
     };
     if app.map == MapKind::Profile {
-        profile::side_view(app, frame, inner, buffer);
-        return;
+        return profile::side_view(app, frame, inner, buffer);
     }
     let (picture, bar) = split(areas, inner);
     let look = look(app);
     let window = window(app, frame, picture);
     let image = image_area(app.map, &window, picture);
     if image.is_empty() {
-        return;
+        return None;
     }
     let pixels = (usize::from(image.width), rows(theme, image));
     match picture_of(app, frame, &window, pixels) {
@@ -74,6 +73,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     color_bar(theme, &look, app.map, bar, buffer);
     motion(app, frame, areas, inner, buffer);
     probe(app, frame, (picture, image), buffer);
+    None
 }
 
 /// The cells that the map fills.

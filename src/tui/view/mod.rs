@@ -28,13 +28,14 @@ use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
 use crate::tui::action::Action;
 use crate::tui::app::{App, Overlay, PanelKind};
 use crate::tui::event::{Pointer, PointerAct};
-use crate::tui::pixels::Bitmap;
+use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::{Role, Theme};
-pub use areas::{Areas, Banner, LEAST, PanelSpacing};
+pub use areas::{Areas, Banner, LEAST, LEAST_NARROW, PanelSpacing};
 
 /// The panels of the screen as it is now.
 fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
     let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
+    let areas = areas.with_picture(app.focus);
     let areas = if app.why().is_some() {
         areas.with_a_line()
     } else {
@@ -56,12 +57,13 @@ pub fn draw(app: &App, frame: &mut Frame<'_>) {
     render(app, screen, frame.buffer_mut());
 }
 
-/// Draws the whole screen into a buffer.
-pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) {
-    draw_panels(app, screen, buffer);
+/// Draws the whole screen into a buffer; gives the curves that it leaves to a page, which draws them as lines.
+pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
+    let plots = draw_panels(app, screen, buffer);
     if let Some(page) = app.theme.page() {
         on_page(page, screen, buffer);
     }
+    plots
 }
 
 /// Gives paper and ink to all that has no colour of its own.
@@ -77,11 +79,12 @@ fn on_page(page: Style, screen: Rect, buffer: &mut Buffer) {
     }
 }
 
-fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
+fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
     let Some(areas) = areas_of(app, screen) else {
         too_small(app, screen, buffer);
-        return;
+        return Vec::new();
     };
+    let mut plots = Vec::new();
     header::render(app, areas.header, buffer);
     for panel in PanelKind::ALL {
         if areas.of_panel(panel).is_empty() {
@@ -89,10 +92,10 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
         }
         match panel {
             PanelKind::Knobs => knobs::render(app, &areas, buffer),
-            PanelKind::Map => map::render(app, &areas, buffer),
-            PanelKind::CentreLine => centre_line::render(app, &areas, buffer),
-            PanelKind::Life => drop(life::render(app, &areas, buffer)),
-            PanelKind::Point => point::render(app, &areas, buffer),
+            PanelKind::Map => plots.extend(map::render(app, &areas, buffer)),
+            PanelKind::CentreLine => plots.extend(centre_line::render(app, &areas, buffer)),
+            PanelKind::Life => plots.extend(life::render(app, &areas, buffer).1),
+            PanelKind::Point => plots.extend(point::render(app, &areas, buffer)),
         }
     }
     if let Some(ghost) = app.ghost.as_ref().filter(|_| !areas.frozen.is_empty()) {
@@ -116,7 +119,10 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) {
         (None, Overlay::Lessons) => lesson_list::lessons(app, body, buffer),
         (None, Overlay::None) => {}
     }
-    status::message(app, &areas, screen, buffer);
+    if let Some(over) = status::message(app, &areas, screen, buffer) {
+        plots.retain(|plot| !plot.area.intersects(over));
+    }
+    plots
 }
 
 /// The cells that the terminal's own pixels fill; `None`: none, or something lies over them.
@@ -183,8 +189,8 @@ fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
 
 fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
     let text = format!(
-        "{} x {} is too small: {} x {} shows the explorer. q quits.",
-        screen.width, screen.height, LEAST.0, LEAST.1
+        "{} x {} is too small: {} x {} shows the explorer, {} x {} a part of it. q quits.",
+        screen.width, screen.height, LEAST.0, LEAST.1, LEAST_NARROW.0, LEAST_NARROW.1
     );
     Paragraph::new(text)
         .style(app.theme.style(Role::Warn))
@@ -320,8 +326,42 @@ mod tests {
                 panels_at(screen, Banner::Caption(5));
             }
         }
-        assert_eq!(Areas::of(Rect::new(0, 0, 59, 20), Banner::None), None);
-        assert_eq!(Areas::of(Rect::new(0, 0, 60, 19), Banner::None), None);
+        for (width, height) in [(59, 29), (60, 19), (39, 100)] {
+            assert_eq!(
+                Areas::of(Rect::new(0, 0, width, height), Banner::None),
+                None
+            );
+        }
+    }
+
+    #[test]
+    fn a_narrow_screen_has_one_picture_life_and_knobs() {
+        for (width, height) in [(40, 30), (59, 30), (48, 44), (40, 100)] {
+            for banner in [Banner::None, Banner::Caption(6)] {
+                let Some(areas) = Areas::of(Rect::new(0, 0, width, height), banner) else {
+                    panic!("{width} x {height} is large enough")
+                };
+                for picture in [PanelKind::Map, PanelKind::CentreLine, PanelKind::Point] {
+                    let areas = areas.with_picture(picture);
+                    let mut next = areas.caption.bottom();
+                    for panel in [
+                        areas.of_panel(picture),
+                        areas.life,
+                        areas.knobs,
+                        areas.status,
+                    ] {
+                        assert_eq!((panel.y, panel.width), (next, width));
+                        assert!(panel.height >= 3, "{width} x {height}: {panel}");
+                        next = panel.bottom();
+                    }
+                    assert_eq!(next, height);
+                    let drawn = PanelKind::ALL
+                        .iter()
+                        .filter(|kind| !areas.of_panel(**kind).is_empty());
+                    assert_eq!(drawn.count(), 3);
+                }
+            }
+        }
     }
 
     fn panels_at(screen: Rect, banner: Banner) {

@@ -254,7 +254,7 @@ fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
 }
 
 /// Words that are too long for the last line, in a box at the foot of the screen.
-pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) {
+pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) -> Rect {
     let theme = app.theme;
     let wide = 100.min(screen.width);
     let text = text.lines().map(|line| ascii_text(theme, line));
@@ -275,6 +275,7 @@ pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) 
             buffer,
         );
     }
+    foot
 }
 
 /// A line in rows of so many columns, broken between words.

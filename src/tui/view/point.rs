@@ -8,16 +8,17 @@ use ratatui::text::{Line, Span};
 use crate::sim::{Frame, Stage};
 use crate::tui::action::Action;
 use crate::tui::app::{App, PanelKind, PointNow, PointQuantity};
+use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
 use crate::tui::units::{nice_ceiling, sig_or_dash, tick};
 use crate::tui::view::chart::{CurvePanel, Pen};
 use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
     let theme = app.theme;
     let inner = panel(app, areas, PanelKind::Point, heading(app), buffer);
-    let Some(frame) = app.frame() else { return };
+    let frame = app.frame()?;
     let Some(point) = app.point_now() else {
         let text = match (frame.stage, &app.setup.scene.stress) {
             (_, None) => "no stress is computed in this scene, so no material point is followed",
@@ -30,7 +31,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             &Line::styled(text, theme.style(Role::Dim)),
             buffer,
         );
-        return;
+        return None;
     };
     let words = words(areas);
     let left = Rect {
@@ -40,12 +41,13 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     numbers(app, frame, &point, left, buffer);
     let area = plot(areas);
     if area.is_empty() {
-        return;
+        return None;
     }
     let plot = TracePlot { area, x: X_RANGE };
-    trace(app, frame, plot, buffer);
+    let curves = trace(app, frame, plot, buffer);
     peaks_ticked(app, frame, plot, buffer);
     axis(app, frame, area, point.depth_m, buffer);
+    curves
 }
 
 /// The trace alone, over the places of the picture above it.
@@ -54,12 +56,13 @@ pub(super) fn under_profile(
     frame: &Frame,
     (area, x): (Rect, [f64; 2]),
     buffer: &mut Buffer,
-) {
-    let Some(point) = app.point_now() else { return };
+) -> Option<PixelPlot> {
+    let point = app.point_now()?;
     let plot = TracePlot { area, x };
-    trace(app, frame, plot, buffer);
+    let curves = trace(app, frame, plot, buffer);
     peaks_ticked(app, frame, plot, buffer);
     axis(app, frame, area, point.depth_m, buffer);
+    curves
 }
 
 /// Where a trace is drawn, and which x/a that is.
@@ -69,9 +72,11 @@ struct TracePlot {
     x: [f64; 2],
 }
 
-/// Columns of the numbers.
+/// Columns of the numbers; a narrow screen leaves them to the trace, unless it is all that is shown.
 fn words(areas: &Areas) -> u16 {
-    if areas.density == PanelSpacing::Full {
+    if areas.is_narrow && !areas.knobs.is_empty() {
+        0
+    } else if areas.density == PanelSpacing::Full {
         27
     } else {
         24
@@ -197,10 +202,10 @@ fn hertz_pa(x: f64, frame: &Frame) -> f64 {
     frame.p_hertz_pa * (1.0 - x * x).max(0.0).sqrt()
 }
 
-fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) {
+fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) -> Option<PixelPlot> {
     let theme = app.theme;
     let range = range(app, frame);
-    let mut chart = CurvePanel::new(plot.area, plot.x, range);
+    let mut chart = CurvePanel::of(app, plot.area, plot.x, range);
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let quantity = app.quantity;
     let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
@@ -235,7 +240,7 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) {
         PointQuantity::Effective => Role::Peaks,
     };
     chart.line(points(app.trace.current()), pen(role, '*'));
-    chart.render(theme.is_ascii(), buffer);
+    let curves = chart.render(theme.is_ascii(), buffer);
     if let Some(last) = app.trace.current().last() {
         let row = row_of(plot.area, range, value(quantity, last, frame));
         mark(
@@ -248,6 +253,7 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) {
             buffer,
         );
     }
+    curves
 }
 
 /// The crossing that was frozen, and the frame beside it.

@@ -31,7 +31,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     }
     if let Some(frame) = app.frame() {
         let mut words = progress(app, frame);
-        if areas.density == PanelSpacing::Full {
+        if areas.density == PanelSpacing::Full || area.height > row + 2 {
             write(app, area, row, &words, buffer);
             row += 1;
             words = quality(app, frame);
@@ -238,12 +238,12 @@ fn one_line(message: &str, columns: u16) -> bool {
     !message.contains('\n') && message.chars().count() < usize::from(columns)
 }
 
-/// A message that the last line cannot hold, whole, above it.
-pub(super) fn message(app: &App, areas: &Areas, screen: Rect, buffer: &mut Buffer) {
-    let Some(message) = app.message() else { return };
+/// A message that the last line cannot hold, whole, above it; gives the rows that it lies over.
+pub(super) fn message(app: &App, areas: &Areas, screen: Rect, buffer: &mut Buffer) -> Option<Rect> {
+    let message = app.message()?;
     let recorder = recorder(app).width() as u16 + 1;
     if one_line(message, areas.status.width.saturating_sub(recorder)) {
-        return;
+        return None;
     }
-    overlay::message(app, message, screen, buffer);
+    Some(overlay::message(app, message, screen, buffer))
 }

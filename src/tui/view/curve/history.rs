@@ -6,6 +6,7 @@ use ratatui::text::{Line, Span};
 
 use super::pen;
 use crate::tui::app::App;
+use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::view::chart::CurvePanel;
 use crate::tui::view::{ascii_text, put};
@@ -13,10 +14,10 @@ use crate::tui::view::{ascii_text, put};
 /// Half of the least range, decades: noise stays small.
 const LEAST: f64 = 0.17;
 
-pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
     let theme = app.theme;
     let (Some(first), Some(last)) = (app.history.front(), app.history.back()) else {
-        return;
+        return None;
     };
     let plot = Rect {
         y: area.y + 1,
@@ -35,7 +36,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     ]);
     put(area, 0, &heading, buffer);
     if span <= 0.0 || plot.is_empty() {
-        return;
+        return None;
     }
     let samples = app.history.iter();
     let points = samples.map(|sample| (sample.passages, sample.life_relative.log10()));
@@ -47,7 +48,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let middle = 0.5 * (low + high);
     let half = (0.55 * (high - low)).max(LEAST);
     let passages = [first.passages, last.passages];
-    let mut chart = CurvePanel::new(plot, passages, [middle - half, middle + half]);
+    let mut chart = CurvePanel::of(app, plot, passages, [middle - half, middle + half]);
     chart.line(points, pen(app, Role::Good, '*'));
-    chart.render(theme.is_ascii(), buffer);
+    chart.render(theme.is_ascii(), buffer)
 }

@@ -9,7 +9,7 @@ use super::raster::MapWindow;
 use crate::picture::profile::{Matter, ProfileColumn, ProfileScale, SurfaceProfile};
 use crate::sim::Frame;
 use crate::tui::app::{App, Zoom};
-use crate::tui::pixels::Bitmap;
+use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
 use crate::tui::view::{ascii_text, point, put, put_right};
@@ -76,15 +76,16 @@ pub(super) fn rooms(inner: Rect) -> (Rect, Option<Rect>) {
 }
 
 /// Both surfaces with the oil between them, and below them the trace of the point that rides on one.
-pub(super) fn side_view(app: &App, frame: &Frame, inner: Rect, buffer: &mut Buffer) {
-    let Some(profile) = of(app, frame) else {
-        return;
-    };
+pub(super) fn side_view(
+    app: &App,
+    frame: &Frame,
+    inner: Rect,
+    buffer: &mut Buffer,
+) -> Option<PixelPlot> {
+    let profile = of(app, frame)?;
     let (area, below) = rooms(inner);
     draw(app, (&profile, frame), (area, inner), buffer);
-    if let Some(below) = below {
-        point::under_profile(app, frame, (below, profile.x), buffer);
-    }
+    point::under_profile(app, frame, (below?, profile.x), buffer)
 }
 
 /// Draws the profile, where it is not left to the terminal's own pixels, and its numbers.
