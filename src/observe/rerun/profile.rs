@@ -10,7 +10,7 @@ use super::centre_line::line;
 use super::colour::{GREEN, GREY, WHITE, faded};
 use super::geometry::Geometry;
 use super::picture::{Field, PixelField};
-use super::plot::{AxisTick, Labels, Margin, PlotBox, ticks_at};
+use super::plot::{AxisTick, Labels, Margin, PlotBox, dot, ticks_at};
 use super::raster::{Height, RasterEntity};
 use super::stream::{Holds, Stream};
 use super::waiting::Curves;
@@ -290,11 +290,7 @@ fn log_looks(stream: &Stream, radius_mm: f64) -> Result<(), ObserveError> {
         .with_radii([Radius::new_scene_units(radius_mm as f32)])
         .with_draw_order(15.0);
     stream.log_static(OIL, &oil)?;
-    let point = Points2D::update_fields()
-        .with_radii([Radius::new_ui_points(6.0)])
-        .with_colors([faded(GREEN, u8::MAX)])
-        .with_draw_order(26.0);
-    stream.log_static(POINT, &point)
+    stream.log_static(POINT, &dot(GREEN, 6.0))
 }
 
 #[cfg(test)]
