@@ -1,7 +1,10 @@
 //! The terminal itself: entered, left, and left again whatever happens. The only place that names crossterm.
 
 mod canvas;
+mod line;
+mod pace;
 mod show;
+mod typist;
 
 use std::cell::Cell;
 use std::io::{self, Write, stdout};
@@ -11,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crossterm::cursor::Show;
 use crossterm::event::{
@@ -20,18 +23,21 @@ use crossterm::event::{
 };
 use crossterm::execute;
 use crossterm::terminal::{
-    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode,
+    enable_raw_mode, size,
 };
 use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
+use ratatui::layout::Size;
 
 use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct, ScreenEvent};
+pub use line::TerminalLine;
+use pace::LinePace;
 pub use show::explore;
 
 /// The terminal while the explorer has it; dropped, it is as it was.
 pub(super) struct Screen {
     /// What is drawn on.
-    pub(super) terminal: Terminal<CrosstermBackend<io::Stdout>>,
+    pub(super) terminal: Terminal<TerminalLine<io::Stdout>>,
 }
 
 impl Screen {
@@ -40,8 +46,10 @@ impl Screen {
     /// # Errors
     /// When it cannot be switched.
     pub(super) fn enter() -> io::Result<Self> {
+        // Asked before the terminal is taken: what is asked for lines is not for screens.
+        let pace = LinePace::of(pace::baud(), Instant::now());
         take()?;
-        match Terminal::new(CrosstermBackend::new(stdout())) {
+        match on_line(pace) {
             Ok(terminal) => Ok(Self { terminal }),
             Err(error) => {
                 give_back();
@@ -71,9 +79,14 @@ impl Screen {
     pub(super) fn clear(&mut self) -> io::Result<()> {
         // Ratatui's own `clear` would ask where the cursor is, and not every line answers.
         execute!(stdout(), Clear(ClearType::All))?;
-        self.terminal = Terminal::new(CrosstermBackend::new(stdout()))?;
+        self.terminal = on_line(self.terminal.backend().pace().clone())?;
         Ok(())
     }
+}
+
+fn on_line(pace: LinePace) -> io::Result<Terminal<TerminalLine<io::Stdout>>> {
+    let size = Size::from(size()?);
+    Terminal::new(TerminalLine::at_pace(stdout(), size, pace))
 }
 
 impl Drop for Screen {

@@ -23,8 +23,7 @@ use asperity::scene::{Scene, presets};
 use asperity::sim::Stage;
 use asperity::tui::app::App;
 use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-use asperity::tui::{RunStatus, Setup, view};
-use ratatui::backend::CrosstermBackend;
+use asperity::tui::{RunStatus, Setup, TerminalLine, view};
 use ratatui::layout::Rect;
 use ratatui::{Terminal, TerminalOptions, Viewport};
 
@@ -54,7 +53,7 @@ impl Write for Sink {
 struct Show {
     session: Session,
     app: App,
-    terminal: Terminal<CrosstermBackend<Sink>>,
+    terminal: Terminal<TerminalLine<Sink>>,
     bytes: Arc<AtomicUsize>,
     start: Instant,
     drawings: u32,
@@ -91,11 +90,11 @@ impl Show {
             viewport: Viewport::Fixed(screen),
         };
         let bytes = Arc::default();
-        let backend = CrosstermBackend::new(Sink(Arc::clone(&bytes)));
+        let line = TerminalLine::new(Sink(Arc::clone(&bytes)), screen.as_size());
         Self {
             session: Session::start(request).unwrap(),
             app: App::new(setup, Vec::new(), theme),
-            terminal: Terminal::with_options(backend, options).unwrap(),
+            terminal: Terminal::with_options(line, options).unwrap(),
             bytes,
             start: Instant::now(),
             drawings: 0,

@@ -57,9 +57,16 @@ impl Terminal {
         let lag = Arc::clone(&lag_ms);
         std::thread::spawn(move || {
             let mut bytes = [0; 4096];
-            while let Ok(n @ 1..) = reader.read(&mut bytes) {
+            loop {
+                let lag = lag.load(Ordering::Relaxed);
+                // A slow line brings little at a time, not all at the end of a pause.
+                let most = if lag > 100 { 64 } else { bytes.len() };
+                let Ok(n @ 1..) = reader.read(&mut bytes[..most]) else {
+                    return;
+                };
                 screen.lock().unwrap().process(&bytes[..n]);
-                std::thread::sleep(Duration::from_millis(lag.load(Ordering::Relaxed)));
+                let pause = lag * if lag > 100 { n as u64 } else { 4096 } / 4096;
+                std::thread::sleep(Duration::from_millis(pause));
             }
         });
         let mut terminal = Self {

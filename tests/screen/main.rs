@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod lessons;
+mod line;
 mod memory;
 mod numbers;
 mod screens;

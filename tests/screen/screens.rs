@@ -66,6 +66,29 @@ fn enlarged_panels() {
     }
 }
 
+/// What a map is of stands in its heading, whole, also on a narrow screen.
+#[test]
+fn headings_of_maps_are_not_cut() {
+    let mut app = running(plain());
+    for _ in 0..9 {
+        app.apply(Action::NextMap);
+        let words = match app.map() {
+            MapKind::PressureWaves | MapKind::FilmWaves => "now below ",
+            MapKind::Stress => "y = 0 ",
+            _ => continue,
+        };
+        for (width, height) in [(80, 24), (100, 30), (120, 36), (160, 48)] {
+            let text = text(&app, width, height);
+            let name = app.map().name();
+            let heading = text
+                .lines()
+                .find(|line| line.contains(&format!("m {name} ")));
+            let heading = heading.unwrap_or_else(|| panic!("{name} at {width}:\n{text}"));
+            assert!(heading.contains(words), "{name} at {width}: {heading}");
+        }
+    }
+}
+
 /// Both surfaces passing each other: in its panel and on the whole screen, sliding and rolling.
 #[test]
 fn profiles() {

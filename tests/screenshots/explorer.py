@@ -146,7 +146,8 @@ def shoot(program, folder, name, size, script):
                 wait_for(text, patience)
             time.sleep(1)
             image = draw(tmux("capture-pane", "-e", "-p", "-t", "shot"), size)
-            image.save(folder / name, optimize=True)
+            few = image.quantize(128, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+            few.save(folder / name, optimize=True)
             print(folder / name)
         finally:
             tmux("kill-server")

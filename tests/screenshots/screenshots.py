@@ -8,6 +8,9 @@ On a machine without a graphics card the viewer draws in software; on Debian and
     apt-get install --no-install-recommends mesa-vulkan-drivers libvulkan1 libgl1 libegl1 \
         libxkbcommon-x11-0 libxkbcommon0 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libwayland-client0
 
+`--sheet SHEET.png` puts every tab into one small picture too (`pip install pillow`), as the `all_...` are: a recording,
+a size and a theme each.
+
 One picture per tab of the layout that the recording brings with it: `contact.png`, `maps.png`, ...
 The viewer follows the theme of the system; `--theme light` or `--theme dark` draws in its browser form with that theme
 asked for, which needs `pip install playwright` and Chromium (`--chromium PATH`).
@@ -40,6 +43,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("recording", type=pathlib.Path, help=".rrd file")
     parser.add_argument("folder", type=pathlib.Path, help="where the pictures go")
+    parser.add_argument("--sheet", type=pathlib.Path, help="also all of them in this one picture")
     parser.add_argument("--size", default="1600x900", help="window size in pixels (default: %(default)s)")
     parser.add_argument("--port", type=int, default=9988, help="free port (default: %(default)s)")
     parser.add_argument("--wait", type=float, default=15.0, help="seconds for loading (default: %(default)s)")
@@ -165,6 +169,26 @@ def written(file, seconds=30):
         time.sleep(0.2)
 
 
+def save_sheet(files, sheet):
+    """All pictures in two columns, in few colours: what the viewer draws has few."""
+    from PIL import Image
+
+    gap, columns = 4, 2
+    width = (1284 - gap) // columns
+    small = []
+    for file in files:
+        picture = Image.open(file).convert("RGB")
+        small.append(picture.resize((width, picture.height * width // picture.width), Image.Resampling.LANCZOS))
+    height = small[0].height + gap
+    rows = -(-len(small) // columns)
+    whole = Image.new("RGB", (columns * (width + gap) - gap, rows * height - gap), (90, 90, 90))
+    for place, picture in enumerate(small):
+        whole.paste(picture, (place % columns * (width + gap), place // columns * height))
+    few = whole.quantize(64, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    few.save(sheet, optimize=True)
+    print(sheet, flush=True)
+
+
 def main():
     arguments = parse_arguments()
     if rr.__version__ != VERSION:
@@ -173,6 +197,7 @@ def main():
     application, chunks, root, tabs = layout(arguments.recording)
     url = f"rerun+http://127.0.0.1:{arguments.port}/proxy"
     shown = in_browser if arguments.theme else native
+    files = []
     with shown(arguments, url) as save:
         for name, tab in tabs:
             activate(application, chunks, root, tab, url)
@@ -180,7 +205,10 @@ def main():
             file = arguments.folder / (re.sub(r"[^a-z0-9]+", "_", name.lower()) + ".png")
             save(file)
             written(file)
+            files.append(file)
             print(file, flush=True)
+    if arguments.sheet:
+        save_sheet(files, arguments.sheet)
 
 
 if __name__ == "__main__":

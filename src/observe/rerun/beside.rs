@@ -336,7 +336,9 @@ impl Written<'_> {
     fn tell(&self, names: &[&str], by: ComparedBy) -> Result<(), ObserveError> {
         let by = match by {
             ComparedBy::Time => "simulated time",
-            ComparedBy::Place => "the place of a crest of body 1 (the distance that body 1 has gone)",
+            ComparedBy::Place => {
+                "the place of a crest of body 1 (the distance that body 1 has gone)"
+            }
         };
         let list = RUNS.iter().zip(names);
         let list: Vec<String> = list

@@ -12,8 +12,9 @@ use rerun::external::arrow::datatypes::{ArrowNativeType, DataType, Field};
 use rerun::log::{Chunk, ChunkError, ChunkId};
 use rerun::{ComponentDescriptor, EntityPath, LineStrips2D, Mesh3D, SerializedComponentColumn};
 
+use super::colour::packed;
 use super::moment::{Moment, time_columns};
-use super::weight::Compression;
+use super::weight::{Compression, TEXT};
 
 /// What a row adds.
 #[derive(Debug, Clone, Copy)]
@@ -206,10 +207,8 @@ impl Sheets {
             return None;
         }
         let (numbers, ends) = self.colours.take();
-        let length = numbers.len() / size_of::<u32>();
-        let colours = UInt32Array::new(ScalarBuffer::new(numbers, 0, length), None);
         let mut columns = vec![SerializedComponentColumn::new(
-            list(Arc::new(colours), &ends, Nullable::Yes),
+            list(colours(numbers), &ends, Nullable::Yes),
             Mesh3D::descriptor_vertex_colors(),
         )];
         let (numbers, ends) = self.positions.take();
@@ -239,6 +238,8 @@ pub(super) struct Strips {
 pub(super) struct LineStyle {
     /// x and y of each point; a row for each curve.
     points: GatheredColumn<f32>,
+    /// Of each curve, where they change; a row for each moment.
+    colours: GatheredColumn<u32>,
 }
 
 impl LineStyle {
@@ -257,6 +258,11 @@ impl LineStyle {
         }
     }
 
+    /// Gives a curve its colour: all of an entity's have one, or none.
+    pub(super) fn tint(&mut self, rgb: [u8; 3]) {
+        self.colours.values.push(packed(rgb));
+    }
+
     /// A whole curve.
     pub(super) fn draw(&mut self, curve: &[[f32; 2]]) {
         self.points.values.extend(curve.iter().flatten());
@@ -271,6 +277,7 @@ impl Strips {
             rows: GatheredRows::of(entity),
             pen: LineStyle {
                 points: GatheredColumn::default(),
+                colours: GatheredColumn::default(),
             },
             ends: Vec::new(),
             density: Compression::default(),
@@ -279,15 +286,20 @@ impl Strips {
 
     /// Adds the curves of a moment.
     pub(super) fn push(&mut self, at: Moment, fill: impl FnOnce(&mut LineStyle)) -> Added {
-        let before = self.pen.points.values().len();
+        let before = (
+            self.pen.points.values().len(),
+            self.pen.colours.values().len(),
+        );
         self.rows.moments.push(at);
         fill(&mut self.pen);
         self.pen.lift();
         self.ends.push(self.pen.points.ends.len());
-        let row = &self.pen.points.values[before..];
+        self.pen.colours.end_row();
+        let row = &self.pen.points.values[before.0..];
+        let colours = size_of_val(&self.pen.colours.values[before.1..]);
         Added {
-            bytes: size_of_val(row),
-            weight: self.density.weigh(row),
+            bytes: size_of_val(row) + colours,
+            weight: self.density.weigh(row) + TEXT * colours as f64,
         }
     }
 
@@ -300,12 +312,28 @@ impl Strips {
         let ends: Vec<usize> = ends.into_iter().map(|end| end / 2).collect();
         let curves = list(points(numbers, 2), &ends, Nullable::No);
         let rows = std::mem::take(&mut self.ends);
-        let column = SerializedComponentColumn::new(
+        let mut columns = vec![SerializedComponentColumn::new(
             list(Arc::new(curves), &rows, Nullable::Yes),
             LineStrips2D::descriptor_strips(),
-        );
-        Some(self.rows.chunk(vec![column]))
+        )];
+        let (numbers, ends) = self.pen.colours.take();
+        if !numbers.is_empty() {
+            columns.push(SerializedComponentColumn::new(
+                list(colours(numbers), &ends, Nullable::Yes),
+                LineStrips2D::descriptor_colors(),
+            ));
+        }
+        Some(self.rows.chunk(columns))
     }
+}
+
+/// Colours as the library has them.
+fn colours(numbers: Buffer) -> ArrayRef {
+    let length = numbers.len() / size_of::<u32>();
+    Arc::new(UInt32Array::new(
+        ScalarBuffer::new(numbers, 0, length),
+        None,
+    ))
 }
 
 /// Points of two or three numbers.
@@ -340,7 +368,7 @@ fn list(values: ArrayRef, ends: &[usize], nullable: Nullable) -> ListArray {
 
 #[cfg(test)]
 mod tests {
-    use rerun::{AsComponents as _, SegmentationImage};
+    use rerun::{AsComponents as _, Color, SegmentationImage};
 
     use super::*;
 
@@ -389,13 +417,15 @@ mod tests {
 
     #[test]
     fn curves_are_those_that_the_library_would_make() {
+        const RGB: [[u8; 3]; 2] = [[1, 2, 3], [250, 128, 0]];
         let curve = [[0.0, 1.0], [0.5, -1.0], [2.0, 0.25]];
         let rows: [&[&[[f32; 2]]]; 3] = [&[&curve, &curve[1..]], &[], &[&curve[..2]]];
         let mut strips = Strips::new(entity());
         for (step, row) in (1..).zip(rows) {
             strips.push(moment(step), |pen| {
-                for curve in row {
+                for (curve, rgb) in row.iter().zip(RGB) {
                     pen.draw(curve);
+                    pen.tint(rgb);
                     // No curve.
                     pen.draw(&curve[..1]);
                 }
@@ -403,11 +433,14 @@ mod tests {
         }
         let chunk = strips.take().expect("curves").expect("a chunk");
         for (row, curves) in rows.into_iter().enumerate() {
-            let theirs = LineStrips2D::new(curves.iter().map(|curve| curve.to_vec()));
-            let batch = &theirs.as_serialized_batches()[0];
-            let ours = chunk.component_batch_raw(batch.descriptor.component, row);
-            let ours = ours.expect("a row").expect("a value");
-            assert_eq!(*ours, *batch.array);
+            let theirs = LineStrips2D::update_fields()
+                .with_strips(curves.iter().map(|curve| curve.to_vec()))
+                .with_colors(RGB.into_iter().take(curves.len()).map(Color::from));
+            for batch in theirs.as_serialized_batches() {
+                let ours = chunk.component_batch_raw(batch.descriptor.component, row);
+                let ours = ours.expect("a row").expect("a value");
+                assert_eq!(*ours, *batch.array, "{}", batch.descriptor);
+            }
         }
         assert!(strips.take().is_none());
     }

@@ -4,16 +4,15 @@
 //! The viewer has no such axis, so rows are resampled ([`LogDepths`]) and the ticks say the depths. What was computed is in
 //! the file beside it ([`super::slice`]).
 
-use rerun::{Points2D, Radius};
+use rerun::Points2D;
 
-use super::colour::{GREEN, WHITE, faded};
+use super::colour::GREEN;
 use super::depths::LogDepths;
 use super::geometry::Geometry;
 use super::picture::{Field, PixelField};
-use super::plot::{HertzCurve, PlotBox, ticks_at};
+use super::plot::{HertzCurve, PlotBox, dot};
 use super::raster::{Height, RasterEntity};
 use super::stream::Stream;
-use crate::math::number::{MM, ticks};
 use crate::observe::ObserveError;
 use crate::picture::{Look, Ranges, Subject};
 use crate::scene::ContactKind;
@@ -31,8 +30,6 @@ pub(super) const HERTZ: &str = "slice_over_log_depth/hertz_width";
 /// Rows of the picture, and its columns at most.
 const ROWS: usize = 48;
 const COLUMNS: usize = 160;
-/// Height of the picture over its width.
-const HEIGHT: f64 = 0.72;
 
 /// Both images.
 pub(super) struct OverLog {
@@ -66,7 +63,7 @@ impl OverLog {
             first: [geometry.x_min, plot.y[1] / ROWS as f64 * 0.5],
             size: [geometry.dx * every as f64, plot.y[1] / ROWS as f64],
         };
-        let plot = plot_box(geometry, &depths);
+        let plot = PlotBox::below_surface(geometry, |height| depths.ticks(height));
         let image = |entity, subject| {
             let look = Look::of(subject, ranges);
             let place = pixels(&plot);
@@ -76,11 +73,7 @@ impl OverLog {
         for (entity, (colour, radius)) in
             MARKED.into_iter().zip([(GREEN, 5.0), ([u8::MAX; 3], 3.5)])
         {
-            let dot = Points2D::update_fields()
-                .with_radii([Radius::new_ui_points(radius)])
-                .with_colors([faded(colour, u8::MAX)])
-                .with_draw_order(26.0);
-            stream.log_static(entity, &dot)?;
+            stream.log_static(entity, &dot(colour, radius))?;
         }
         Ok(Some(Self {
             geometry,
@@ -120,7 +113,7 @@ impl OverLog {
         let greatest = m.sigma_eff_max_x_m.zip(m.sigma_eff_max_depth_m);
         let marks = [point.map(|point| (point.x_m, point.depth_m)), greatest];
         for (entity, at) in MARKED.into_iter().zip(marks) {
-            let at = at.and_then(|at| self.place(at));
+            let at = at.and_then(|(x_m, z_m)| self.plot.at_depth(x_m, self.depths.share(z_m)?));
             stream.log(entity, &Points2D::update_fields().with_positions(at))?;
         }
         Ok(())
@@ -143,28 +136,5 @@ impl OverLog {
         let (nx, every) = (self.geometry.nx, self.every);
         self.depths.resample(field, nx, every, &mut self.rows);
         self.images[image].1.log(stream, Field::TopDown(&self.rows))
-    }
-
-    /// Where a place lies in the view; `None` outside of the picture.
-    fn place(&self, (x_m, depth_m): (f64, f64)) -> Option<[f32; 2]> {
-        let (x, share) = (x_m * MM, self.depths.share(depth_m)?);
-        let [left, right] = self.plot.x;
-        (left..=right)
-            .contains(&x)
-            .then_some([x as f32, (self.plot.y[1] * share) as f32])
-    }
-}
-
-fn plot_box(g: Geometry, depths: &LogDepths) -> PlotBox {
-    let x = [g.x_min - 0.5 * g.dx, g.x_max() + 0.5 * g.dx];
-    let height = HEIGHT * (x[1] - x[0]);
-    PlotBox {
-        x,
-        y: [0.0, height],
-        x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
-        left_ticks: depths.ticks(height),
-        x_title: "x, mm".into(),
-        titles: vec![(0.13, "depth z, µm".into(), WHITE)],
-        ..PlotBox::default()
     }
 }

@@ -6,8 +6,9 @@
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREY, WHITE, faded, for_text};
+use super::geometry::Geometry;
 use super::stream::{Holds, Stream};
-use crate::math::number::{MM, plain, sig};
+use crate::math::number::{self, MM, plain, sig};
 use crate::observe::ObserveError;
 use crate::scene::ContactKind;
 use crate::sim::Frame;
@@ -64,6 +65,30 @@ impl PlotBox {
                 self.y[1] + if h < 0.65 * w { 0.32 } else { 0.22 } * h,
             ],
         ]
+    }
+
+    /// Of a plane below the surface: x as the nodes have it, depth down with the ticks that a height is given.
+    pub(super) fn below_surface(g: Geometry, ticks: impl FnOnce(f64) -> Vec<AxisTick>) -> Self {
+        /// Height of the picture over its width.
+        const HEIGHT: f64 = 0.72;
+        let x = [g.x_min - 0.5 * g.dx, g.x_max() + 0.5 * g.dx];
+        let height = HEIGHT * (x[1] - x[0]);
+        Self {
+            x,
+            y: [0.0, height],
+            x_ticks: ticks_at(&number::ticks(x[0], x[1], 5), |x| x),
+            left_ticks: ticks(height),
+            x_title: "x, mm".into(),
+            titles: vec![(0.13, "depth z, µm".into(), WHITE)],
+            ..Self::default()
+        }
+    }
+
+    /// Where a place lies in it, its depth as a share of the height; `None` beside it.
+    pub(super) fn at_depth(&self, x_m: f64, share: f64) -> Option<[f32; 2]> {
+        let (x, [left, right]) = (x_m * MM, self.x);
+        let inside = (left..=right).contains(&x);
+        inside.then_some([x as f32, (self.y[1] * share) as f32])
     }
 
     /// Draws the frame once for the whole recording.
@@ -253,6 +278,14 @@ fn edges(strips: &[Vec<[f64; 2]>]) -> LineStrips2D {
         .with_colors([faded(WHITE, 150)])
         .with_radii([Radius::new_ui_points(0.75)])
         .with_draw_order(15.0)
+}
+
+/// How a point that moves looks: its colour and how many points its radius has.
+pub(super) fn dot(colour: [u8; 3], radius: f32) -> Points2D {
+    Points2D::update_fields()
+        .with_radii([Radius::new_ui_points(radius)])
+        .with_colors([faded(colour, u8::MAX)])
+        .with_draw_order(26.0)
 }
 
 /// The viewer's single-precision points.

@@ -7,10 +7,10 @@
 use rerun::{LineStrips2D, Points2D, Radius};
 
 use super::centre_line::line;
-use super::colour::{GREEN, GREY, WHITE, faded};
+use super::colour::{GREEN, GREY, WHITE};
 use super::geometry::Geometry;
 use super::picture::{Field, PixelField};
-use super::plot::{AxisTick, Labels, Margin, PlotBox, ticks_at};
+use super::plot::{AxisTick, Labels, Margin, PlotBox, dot, ticks_at};
 use super::raster::{Height, RasterEntity};
 use super::stream::{Holds, Stream};
 use super::waiting::Curves;
@@ -46,6 +46,7 @@ pub(super) struct ProfileEntity {
     foot: f64,
     stress: Option<RasterEntity>,
     surfaces: [Curves; 2],
+    oil: Curves,
     under: Curves,
     /// Speeds that the arrows tell, m/s.
     shown_m_s: Option<[f64; 2]>,
@@ -94,6 +95,7 @@ impl ProfileEntity {
             plot,
             stress: stress.transpose()?,
             surfaces: [surface(1)?, surface(2)?],
+            oil: stream.curves(OIL),
             under: {
                 let under = format!("{POINT}/under");
                 stream.log_static(under.as_str(), &line(GREEN, 0.75))?;
@@ -200,21 +202,19 @@ impl ProfileEntity {
         a_mm: f64,
     ) -> Result<(), ObserveError> {
         let round = ROUND * (self.plot.x[1] - self.plot.x[0]) / COLUMNS as f64;
-        let strips = columns.iter().map(|column| {
-            let x = (column.x * a_mm) as f32;
-            let [lower, upper] = column.surfaces.map(|z| self.at(z));
-            // Its round ends reach as far as the surfaces.
-            let ends = round.min(0.5 * (lower - upper));
-            [[x, (lower - ends) as f32], [x, (upper + ends) as f32]]
-        });
-        let colours = columns.iter().map(|column| match column.gap {
-            Matter::Oil(share) => faded(oil(share), u8::MAX),
-            _ => faded(CONTACT, u8::MAX),
-        });
-        let oil = LineStrips2D::update_fields()
-            .with_strips(strips)
-            .with_colors(colours);
-        stream.log(OIL, &oil)
+        stream.log_curves(self.oil, |pen| {
+            for column in columns {
+                let x = (column.x * a_mm) as f32;
+                let [lower, upper] = column.surfaces.map(|z| self.at(z));
+                // Its round ends reach as far as the surfaces.
+                let ends = round.min(0.5 * (lower - upper));
+                pen.draw(&[[x, (lower - ends) as f32], [x, (upper + ends) as f32]]);
+                pen.tint(match column.gap {
+                    Matter::Oil(share) => oil(share),
+                    _ => CONTACT,
+                });
+            }
+        })
     }
 
     /// The point on its body's surface, and a line from it to its trace.
@@ -290,11 +290,7 @@ fn log_looks(stream: &Stream, radius_mm: f64) -> Result<(), ObserveError> {
         .with_radii([Radius::new_scene_units(radius_mm as f32)])
         .with_draw_order(15.0);
     stream.log_static(OIL, &oil)?;
-    let point = Points2D::update_fields()
-        .with_radii([Radius::new_ui_points(6.0)])
-        .with_colors([faded(GREEN, u8::MAX)])
-        .with_draw_order(26.0);
-    stream.log_static(POINT, &point)
+    stream.log_static(POINT, &dot(GREEN, 6.0))
 }
 
 #[cfg(test)]

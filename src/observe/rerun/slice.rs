@@ -5,15 +5,15 @@
 
 use rerun::{LineStrips2D, Points2D, Radius};
 
-use super::colour::{GREEN, WHITE, faded};
+use super::colour::{GREEN, faded};
 use super::depths::Depths;
 use super::geometry::Geometry;
 use super::picture::{Field, PixelField};
-use super::plot::{HertzCurve, PlotBox, ticks_at};
+use super::plot::{HertzCurve, PlotBox, dot};
 use super::raster::{Height, RasterEntity};
 use super::stream::Stream;
 use super::text::Widened;
-use crate::math::number::{MM, ticks};
+use crate::math::number::MM;
 use crate::observe::ObserveError;
 use crate::picture::{Look, Ranges, Subject};
 use crate::sim::Frame;
@@ -27,8 +27,6 @@ const POINT_NOW: &str = "slice_y0/material_point/now";
 pub(super) const PEAK: &str = "slice_y0/greatest_stress";
 /// Hertz's contact on the surface.
 pub(super) const HERTZ: &str = "slice_y0/hertz_width";
-/// Height of the picture over its width.
-const HEIGHT: f64 = 0.72;
 
 /// The images of the slice.
 pub(super) struct Slice {
@@ -56,7 +54,7 @@ impl Slice {
         let Some(depths) = Depths::down_to(&slice.depths_m, f64::INFINITY) else {
             return Ok(None);
         };
-        let plot = plot_box(geometry, &depths);
+        let plot = PlotBox::below_surface(geometry, |height| depths.ticks(height));
         let row_height = plot.y[1] / depths.len() as f64;
         let pixels = PixelField {
             columns: geometry.nx,
@@ -64,7 +62,8 @@ impl Slice {
             first: [geometry.x_min, 0.5 * row_height],
             size: [geometry.dx, row_height],
         };
-        log_dots(stream)?;
+        stream.log_static(POINT_NOW, &dot(GREEN, 5.0))?;
+        stream.log_static(PEAK, &dot([u8::MAX; 3], 3.5).with_draw_order(25.0))?;
         let image = |entity, subject| {
             let look = Look::of(subject, ranges);
             RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed)
@@ -131,11 +130,7 @@ impl Slice {
 
     /// Where a place lies in the view; `None` outside of the picture.
     fn place(&self, x_m: f64, depth_m: f64) -> Option<[f32; 2]> {
-        let (x, share) = (x_m * MM, self.depths.share(depth_m)?);
-        let [left, right] = self.plot.x;
-        (left..=right)
-            .contains(&x)
-            .then_some([x as f32, (self.plot.y[1] * share) as f32])
+        self.plot.at_depth(x_m, self.depths.share(depth_m)?)
     }
 
     /// A dot where the effective stress is greatest.
@@ -164,31 +159,5 @@ impl Slice {
         }
         let here = self.place(point.x_m, point.depth_m);
         stream.log(POINT_NOW, &Points2D::update_fields().with_positions(here))
-    }
-}
-
-/// How the dots look: the followed point and the greatest stress.
-fn log_dots(stream: &Stream) -> Result<(), ObserveError> {
-    let dot = |colour, radius, order| {
-        Points2D::update_fields()
-            .with_radii([Radius::new_ui_points(radius)])
-            .with_colors([faded(colour, 255)])
-            .with_draw_order(order)
-    };
-    stream.log_static(POINT_NOW, &dot(GREEN, 5.0, 26.0))?;
-    stream.log_static(PEAK, &dot([255, 255, 255], 3.5, 25.0))
-}
-
-fn plot_box(g: Geometry, depths: &Depths) -> PlotBox {
-    let x = [g.x_min - 0.5 * g.dx, g.x_max() + 0.5 * g.dx];
-    let height = HEIGHT * (x[1] - x[0]);
-    PlotBox {
-        x,
-        y: [0.0, height],
-        x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
-        left_ticks: depths.ticks(height),
-        x_title: "x, mm".into(),
-        titles: vec![(0.13, "depth z, µm".into(), WHITE)],
-        ..PlotBox::default()
     }
 }

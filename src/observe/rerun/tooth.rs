@@ -5,7 +5,7 @@ use rerun::{LineStrips2D, Points2D, Radius};
 
 use super::centre_line::line;
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, SKY, WHITE, faded};
-use super::plot::{Labels, PlotBox, points, ticks_at};
+use super::plot::{Labels, PlotBox, dot, points, ticks_at};
 use super::stream::Stream;
 use super::waiting::Curves;
 use crate::math::number::{GPA, MM, nice_ceiling, sig, ticks};
@@ -187,20 +187,15 @@ impl PathCurve {
         let curve = line(colour, 1.5).with_strips([strip]);
         stream.log_static(format!("{entity}/curve"), &curve)?;
         log_places(stream, entity, &plot, line_of_action)?;
-        let dot = format!("{entity}/now");
-        let style = Points2D::update_fields()
-            .with_radii([Radius::new_ui_points(5.0)])
-            .with_colors([faded(GREEN, u8::MAX)])
-            .with_show_labels(true)
-            .with_draw_order(26.0);
-        stream.log_static(dot.as_str(), &style)?;
+        let now = format!("{entity}/now");
+        stream.log_static(now.as_str(), &dot(GREEN, 5.0).with_show_labels(true))?;
         let under = format!("{entity}/line_at_now");
         stream.log_static(under.as_str(), &line(GREEN, 1.0))?;
         Ok(Self {
             plot,
             range,
             now: stream.curves(under),
-            dot,
+            dot: now,
         })
     }
 
@@ -300,9 +295,6 @@ fn log_line(
     );
     labels.add([0.66 * across, -0.97 * high], "wheel (body 2) →", WHITE);
     labels.log(stream, &format!("{GEARS}/names"))?;
-    let contact = Points2D::update_fields()
-        .with_radii([Radius::new_ui_points(7.0)])
-        .with_colors([faded(ORANGE, u8::MAX)])
-        .with_draw_order(28.0);
+    let contact = dot(ORANGE, 7.0).with_draw_order(28.0);
     stream.log_static(format!("{GEARS}/contact"), &contact)
 }

@@ -14,8 +14,9 @@ pub(super) const ROW: f64 = 45.0;
 pub(super) const MESSAGE: f64 = 2.6e3;
 /// Share that compression leaves of texts and of what changes seldom.
 pub(super) const TEXT: f64 = 0.65;
-/// Rows from one measurement to the next, but for the first ones.
-const SELDOM: u64 = 16;
+/// The first rows, each of which is measured, and from then on rows from one measurement to the next.
+const FIRST: u64 = 8;
+const SELDOM: u64 = 32;
 
 /// How well rows of one kind are compressed.
 #[derive(Debug, Default)]
@@ -31,7 +32,7 @@ impl Compression {
         if values.is_empty() {
             return ROW;
         }
-        if self.rows < SELDOM || self.rows.is_multiple_of(SELDOM) {
+        if self.rows < FIRST || self.rows.is_multiple_of(SELDOM) {
             let left = lz4_flex::block::compress(values.to_byte_slice()).len() as f64;
             self.share = left / bytes;
         }

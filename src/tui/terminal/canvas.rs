@@ -4,8 +4,8 @@ use std::io::{self, Write, stdout};
 use std::time::{Duration, Instant};
 
 use crossterm::cursor::MoveTo;
-use crossterm::queue;
-use crossterm::terminal::window_size;
+use crossterm::terminal::{BeginSynchronizedUpdate, EndSynchronizedUpdate, window_size};
+use crossterm::{execute, queue};
 use ratatui::backend::{Backend as _, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -54,7 +54,7 @@ impl Canvas {
         };
         let area = picture.area;
         let mut out = stdout().lock();
-        queue!(out, MoveTo(area.x, area.y))?;
+        queue!(out, BeginSynchronizedUpdate, MoveTo(area.x, area.y))?;
         match app.pixels() {
             Pixels::Sixel => out.write_all(&sixel::encode(&picture))?,
             Pixels::Kitty => out.write_all(&kitty::encode(&picture))?,
@@ -65,7 +65,7 @@ impl Canvas {
             (cell.symbol() != " ").then_some((at.x, at.y, cell))
         });
         CrosstermBackend::new(&mut out).draw(letters)?;
-        out.flush()?;
+        execute!(out, EndSynchronizedUpdate)?;
         self.drawn = Some((app.pixels(), area));
         self.last = Some(Instant::now());
         Ok(())

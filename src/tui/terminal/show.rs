@@ -5,8 +5,6 @@ use std::io::{self, ErrorKind};
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
-use crossterm::terminal::{BeginSynchronizedUpdate, EndSynchronizedUpdate};
-use crossterm::{execute, queue};
 use ratatui::layout::Rect;
 
 use super::canvas::Canvas;
@@ -23,6 +21,8 @@ use crate::tui::wiring::{TuiError, Wiring};
 const FRAME_TIME: Duration = Duration::from_millis(25);
 /// Least pause between two drawings, for a terminal that is slower.
 const LEAST_WAIT: Duration = Duration::from_millis(5);
+/// Time from one picture to the next on a slow line, unless a key asks for one.
+const SLOW_FRAME_TIME: Duration = Duration::from_millis(500);
 
 /// Shows the explorer until the user quits, the process is asked to end, or the terminal fails.
 ///
@@ -50,6 +50,7 @@ pub fn explore(wiring: Wiring) -> Result<(), TuiError> {
             explorer: &mut explorer,
             panics: &panics,
             canvas: Canvas::default(),
+            due: Instant::now(),
         };
         let control = show.explorer.teach_asked();
         let shown = show.follow(control).and_then(|_| show.go_on(&input));
@@ -67,6 +68,8 @@ struct Show<'a> {
     explorer: &'a mut Explorer,
     panics: &'a Panics,
     canvas: Canvas,
+    /// When a slow line gets the next picture.
+    due: Instant,
 }
 
 impl Show<'_> {
@@ -116,15 +119,18 @@ impl Show<'_> {
         }
     }
 
-    /// One picture, shown whole: the terminal is told when it begins and when it ends.
+    /// One picture; on a slow line what has not come of the last one, until the next is due.
     fn draw(&mut self) -> io::Result<()> {
-        queue!(io::stdout(), BeginSynchronizedUpdate)?;
-        let drawn = self.draw_all();
-        execute!(io::stdout(), EndSynchronizedUpdate)?;
-        drawn
-    }
-
-    fn draw_all(&mut self) -> io::Result<()> {
+        let line = self.stage.terminal.backend_mut();
+        if line.is_slow() {
+            let now = Instant::now();
+            if now < self.due {
+                return line.send();
+            }
+            self.due = now + SLOW_FRAME_TIME;
+            // Pixels are far too many bytes.
+            self.explorer.app.set_pixels(Pixels::Blocks);
+        }
         let app = &self.explorer.app;
         let size = self.stage.terminal.size()?;
         let screen = Rect::new(0, 0, size.width, size.height);
@@ -139,6 +145,7 @@ impl Show<'_> {
         if event == ScreenEvent::Resize {
             self.canvas.forget();
         }
+        self.due = Instant::now();
         let size = self.stage.terminal.size()?;
         let screen = Rect::new(0, 0, size.width, size.height);
         let control = self.explorer.take_event(event, screen);

@@ -182,12 +182,20 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
         line.push_span(Span::styled(note, theme.style(Role::Dim)));
         return line;
     }
-    let note = match (app.map, app.zoom) {
-        (MapKind::Stress, _) => "x–z plane, y = 0 ",
-        (MapKind::PressureWaves | MapKind::FilmWaves, _) => "y = 0, last 2a of travel, now below ",
-        (_, Zoom::Domain) => "whole domain ",
-        (_, Zoom::Contact) => "",
+    let notes: &[&str] = match (app.map, app.zoom) {
+        (MapKind::Stress, _) => &["x–z plane, y = 0 ", "y = 0 "],
+        (MapKind::PressureWaves | MapKind::FilmWaves, _) => &[
+            "y = 0, last 2a of travel, now below ",
+            "y = 0, now below ",
+            "now below ",
+        ],
+        (_, Zoom::Domain) => &["whole domain ", "domain "],
+        (_, Zoom::Contact) => &[],
     };
+    // As many words as there is room for, beside the key at the right.
+    let room = usize::from(areas.map.width).saturating_sub(line.width() + 5);
+    let fits = |note: &&&str| note.chars().count() <= room;
+    let note = notes.iter().find(fits).copied().unwrap_or_default();
     line.push_span(Span::styled(
         ascii_text(theme, note),
         theme.style(Role::Dim),

@@ -1,7 +1,7 @@
 //! What lies over the screen: keys, plan, a fault.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Margin, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType, Borders, Clear, Paragraph, Widget, Wrap};
@@ -30,8 +30,14 @@ pub(super) fn boxed(
         height,
     };
     Clear.render(area, buffer);
+    // As wide as the screen it needs no more than its title: a frame would be half of what a slow line has to carry of it.
+    let borders = if area.width == within.width {
+        Borders::TOP
+    } else {
+        Borders::ALL
+    };
     let block = Block::new()
-        .borders(Borders::ALL)
+        .borders(borders)
         .border_style(theme.style(role))
         .title_top(match title {
             "" => Line::default(),
@@ -42,13 +48,8 @@ pub(super) fn boxed(
     } else {
         block.border_type(BorderType::Rounded)
     };
-    let inner = block.inner(area);
     block.render(area, buffer);
-    Rect {
-        x: inner.x + 1,
-        width: inner.width.saturating_sub(2),
-        ..inner
-    }
+    area.inner(Margin::new(2, 1))
 }
 
 /// The key table in two columns where they fit; headings go where rows are short, and where even
