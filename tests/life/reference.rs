@@ -179,7 +179,17 @@ fn a_ride_ends_where_a_cold_run_there_begins() {
 /// that (they are up to 2 % apart).
 #[test]
 fn a_rough_ride_ends_where_a_cold_run_there_begins() {
-    for name in ["fzg_point_a", "cam_nose"] {
+    rough_rides(&["fzg_point_a", "cam_nose"]);
+}
+
+#[test]
+#[ignore = "half a minute: two more points of the tooth of the test above"]
+fn rough_rides_along_a_tooth() {
+    rough_rides(&["fzg_point_b", "fzg_point_e"]);
+}
+
+fn rough_rides(names: &[&str]) {
+    for &name in names {
         let own = scene(name, &["stress.depths=12", "time.passages=6"]);
         let pair = compare(name, &own, &along(&own));
         pair.has_one_reference(0.01);
