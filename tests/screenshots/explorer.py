@@ -146,7 +146,7 @@ def shoot(program, folder, name, size, script):
                 wait_for(text, patience)
             time.sleep(1)
             image = draw(tmux("capture-pane", "-e", "-p", "-t", "shot"), size)
-            few = image.quantize(128, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+            few = image.quantize(192, method=Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE)
             few.save(folder / name, optimize=True)
             print(folder / name)
         finally:

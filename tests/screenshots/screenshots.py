@@ -184,7 +184,8 @@ def save_sheet(files, sheet):
     whole = Image.new("RGB", (columns * (width + gap) - gap, rows * height - gap), (90, 90, 90))
     for place, picture in enumerate(small):
         whole.paste(picture, (place % columns * (width + gap), place // columns * height))
-    few = whole.quantize(64, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    # Refined, or colours that few pixels have would become those of others.
+    few = whole.quantize(96, method=Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE)
     few.save(sheet, optimize=True)
     print(sheet, flush=True)
 

@@ -46,13 +46,13 @@ pub(super) fn is_block(cell: &Cell) -> bool {
 
 /// Colours and weight of what is written next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Pen {
+struct TypistPen {
     ink: Color,
     paper: Color,
     weight: Modifier,
 }
 
-impl Pen {
+impl TypistPen {
     const PLAIN: Self = Self {
         ink: Color::Reset,
         paper: Color::Reset,
@@ -64,7 +64,7 @@ impl Pen {
 #[derive(Debug)]
 pub(super) struct Typist {
     bytes: Vec<u8>,
-    pen: Pen,
+    pen: TypistPen,
     at: Option<Position>,
 }
 
@@ -72,7 +72,7 @@ impl Typist {
     pub(super) fn new() -> Self {
         Self {
             bytes: Vec::new(),
-            pen: Pen::PLAIN,
+            pen: TypistPen::PLAIN,
             at: None,
         }
     }
@@ -84,7 +84,7 @@ impl Typist {
 
     /// What it has written, with the pen put back.
     pub(super) fn finish(mut self) -> Vec<u8> {
-        self.take(Pen::PLAIN);
+        self.take(TypistPen::PLAIN);
         self.bytes
     }
 
@@ -163,7 +163,7 @@ impl Typist {
             let between = usize::from(at.x)..usize::from(x);
             let pen = self.pen;
             let same = |(goal, shown): (&Cell, &Cell)| {
-                let own = Pen {
+                let own = TypistPen {
                     ink: goal.fg,
                     paper: goal.bg,
                     weight: goal.modifier,
@@ -209,7 +209,7 @@ impl Typist {
 
     /// Blanks the rest of the row.
     fn erase(&mut self) {
-        self.take(Pen::PLAIN);
+        self.take(TypistPen::PLAIN);
         self.bytes.extend_from_slice(b"\x1b[K");
     }
 
@@ -223,8 +223,8 @@ impl Typist {
     }
 
     /// What shows a cell with the least change of the pen.
-    fn drawn<'a>(&self, cell: &'a Cell) -> (&'a str, Pen) {
-        let pen = Pen {
+    fn drawn<'a>(&self, cell: &'a Cell) -> (&'a str, TypistPen) {
+        let pen = TypistPen {
             ink: cell.fg,
             paper: cell.bg,
             weight: cell.modifier,
@@ -232,7 +232,7 @@ impl Typist {
         let as_blank = |paper| {
             let weight = self.pen.weight.difference(ON_BLANK);
             let ink = self.pen.ink;
-            (" ", Pen { ink, paper, weight })
+            (" ", TypistPen { ink, paper, weight })
         };
         match cell.symbol() {
             " " if !cell.modifier.intersects(ON_BLANK) => as_blank(cell.bg),
@@ -240,12 +240,12 @@ impl Typist {
                 if pen.ink == pen.paper && pen.ink != Color::Reset {
                     return as_blank(pen.paper);
                 }
-                let turned = Pen {
+                let turned = TypistPen {
                     ink: pen.paper,
                     paper: pen.ink,
                     ..pen
                 };
-                let changes = |pen: Pen| {
+                let changes = |pen: TypistPen| {
                     u8::from(pen.ink != self.pen.ink) + u8::from(pen.paper != self.pen.paper)
                 };
                 // The terminal's own paper and ink are two colours of one name.
@@ -261,11 +261,11 @@ impl Typist {
     }
 
     /// Takes another pen: by what changes, or from a plain one, whichever is shorter.
-    fn take(&mut self, pen: Pen) {
+    fn take(&mut self, pen: TypistPen) {
         if pen == self.pen {
             return;
         }
-        if pen == Pen::PLAIN {
+        if pen == TypistPen::PLAIN {
             self.bytes.extend_from_slice(b"\x1b[m");
             self.pen = pen;
             return;
@@ -275,7 +275,7 @@ impl Typist {
         self.changes(self.pen, pen);
         let (middle, changed) = (self.bytes.len(), self.bytes.len() - start);
         self.bytes.extend_from_slice(b"\x1b[0;");
-        self.changes(Pen::PLAIN, pen);
+        self.changes(TypistPen::PLAIN, pen);
         if self.bytes.len() - middle < changed {
             self.bytes.drain(start..middle);
         } else {
@@ -288,7 +288,7 @@ impl Typist {
         self.pen = pen;
     }
 
-    fn changes(&mut self, from: Pen, to: Pen) {
+    fn changes(&mut self, from: TypistPen, to: TypistPen) {
         /// Modifiers, and the codes that begin and end them.
         const WEIGHTS: [(Modifier, u16, u16); 8] = [
             (Modifier::BOLD, 1, 22),

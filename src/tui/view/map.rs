@@ -4,6 +4,7 @@
 //! circle. A cell holds two pixels (half blocks); without colour one character of more or less ink.
 
 mod axes;
+mod heading;
 mod motion;
 mod paint;
 mod profile;
@@ -11,7 +12,7 @@ mod raster;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::picture::{Picture, Subject};
 use crate::sim::Frame;
@@ -20,8 +21,8 @@ use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::{Role, Theme};
-use crate::tui::units::sig;
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, title};
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put};
+use heading::heading;
 use motion::motion;
 use paint::{MapMark, Pixel, color_bar, look, paint};
 use raster::{MapWindow, Raster, rasterize, rasterize_lines};
@@ -164,43 +165,6 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
             window.y_at(part(at.y, image.y, image.height)),
         )
     })
-}
-
-fn heading(app: &App, areas: &Areas) -> Line<'static> {
-    let theme = app.theme;
-    if app.is_frozen {
-        let slide_roll = app.frame().map_or(0.0, |frame| frame.metrics.slide_roll);
-        let text = format!(" frozen: {} at S {slide_roll:.2} ", app.map.name());
-        return Line::styled(ascii_text(theme, &text), theme.style(Role::Formula));
-    }
-    let mut line = title(theme, "m", app.map.name());
-    if app.map == MapKind::Profile {
-        let (area, _) = profile::rooms(inside(areas, areas.map));
-        let times = profile::exaggeration(app, area);
-        let note = format!("y = 0, heights × {} ", sig(times, 2));
-        let note = ascii_text(theme, &note);
-        line.push_span(Span::styled(note, theme.style(Role::Dim)));
-        return line;
-    }
-    let notes: &[&str] = match (app.map, app.zoom) {
-        (MapKind::Stress, _) => &["x–z plane, y = 0 ", "y = 0 "],
-        (MapKind::PressureWaves | MapKind::FilmWaves, _) => &[
-            "y = 0, last 2a of travel, now below ",
-            "y = 0, now below ",
-            "now below ",
-        ],
-        (_, Zoom::Domain) => &["whole domain ", "domain "],
-        (_, Zoom::Contact) => &[],
-    };
-    // As many words as there is room for, beside the key at the right.
-    let room = usize::from(areas.map.width).saturating_sub(line.width() + 5);
-    let fits = |note: &&&str| note.chars().count() <= room;
-    let note = notes.iter().find(fits).copied().unwrap_or_default();
-    line.push_span(Span::styled(
-        ascii_text(theme, note),
-        theme.style(Role::Dim),
-    ));
-    line
 }
 
 fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {

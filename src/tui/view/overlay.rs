@@ -30,11 +30,12 @@ pub(super) fn boxed(
         height,
     };
     Clear.render(area, buffer);
-    // As wide as the screen it needs no more than its title: a frame would be half of what a slow line has to carry of it.
-    let borders = if area.width == within.width {
-        Borders::TOP
-    } else {
-        Borders::ALL
+    // As wide as the screen it needs no sides, which would be a third of what a slow line has to carry of it, and no foot
+    // where nothing is below.
+    let borders = match (area.width == within.width, area.height == within.height) {
+        (true, true) => Borders::TOP,
+        (true, false) => Borders::TOP | Borders::BOTTOM,
+        _ => Borders::ALL,
     };
     let block = Block::new()
         .borders(borders)
