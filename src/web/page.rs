@@ -35,7 +35,7 @@ struct PageRun {
 }
 
 /// The sweep beside the run, where there is one.
-type Beside = Rc<RefCell<Option<SweepWorker>>>;
+type PageSweep = Rc<RefCell<Option<SweepWorker>>>;
 
 /// Files to save: name and text.
 type Files = Rc<RefCell<Vec<(String, String)>>>;
@@ -44,7 +44,7 @@ type Files = Rc<RefCell<Vec<(String, String)>>>;
 pub(super) struct WebPage {
     explorer: Explorer,
     run: Rc<RefCell<PageRun>>,
-    beside: Beside,
+    beside: PageSweep,
     files: Files,
     nodes: usize,
     /// Keys of the link, until another scene is run.
@@ -65,7 +65,7 @@ impl WebPage {
         let files = Files::default();
         let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
         let run = Rc::new(RefCell::new(run));
-        let beside = Beside::default();
+        let beside = PageSweep::default();
         let mut wiring = wiring(&run.borrow().session, setup, &beside, &files);
         wiring.lesson = link.lesson;
         let keys = Rc::new(RefCell::new(link.keys));
@@ -276,7 +276,7 @@ fn start(
     Ok((PageRun { session, rows }, setup))
 }
 
-fn wiring(session: &NearEnd, setup: Setup, beside: &Beside, files: &Files) -> Wiring {
+fn wiring(session: &NearEnd, setup: Setup, beside: &PageSweep, files: &Files) -> Wiring {
     let status = session.status_reader();
     let (ground, scene) = (session.settled_reader(), Arc::clone(&setup.scene));
     let place = Rc::clone(beside);
