@@ -1,5 +1,6 @@
 //! What a link asks for: lines `key=value`, as `scene=twin_disc`, `S=0.5`, `nodes=129`, or any key of a scene.
 
+use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::plan::Plan;
@@ -29,6 +30,8 @@ pub(super) struct PageLink {
     pub(super) lesson: Option<Arc<Lesson>>,
     /// Contrast.
     pub(super) contrast: Contrast,
+    /// Its keys of a scene, as a link has them.
+    pub(super) keys: String,
 }
 
 impl PageLink {
@@ -40,6 +43,7 @@ impl PageLink {
         let mut name = presets::QUICK.to_owned();
         let (mut nodes, mut lesson, mut contrast) = (None, None, Contrast::default());
         let (mut overrides, mut knobs) = (Vec::new(), Vec::new());
+        let mut keys = Vec::new();
         for line in text.lines().filter(|line| !line.trim().is_empty()) {
             let (key, value) = line.split_once('=').ok_or_else(|| not_a_pair(line))?;
             let (key, value) = (key.trim(), value.trim());
@@ -51,6 +55,7 @@ impl PageLink {
                 "S" | "load" | "A1" | "A2" | "U" => knobs.push((key, number(key, value)?)),
                 _ if key.contains('.') => {
                     overrides.push(line.parse::<Override>().map_err(|e| e.to_string())?);
+                    keys.push(format!("&{key}={}", escaped(value)));
                 }
                 _ => return Err(format!("{} is not a key of a link: {KEYS}", shown(key))),
             }
@@ -70,6 +75,7 @@ impl PageLink {
             nodes,
             lesson,
             contrast,
+            keys: keys.concat(),
         })
     }
 
@@ -110,12 +116,28 @@ pub(super) fn on_nodes(scene: &Scene, nodes: usize) -> Result<(Scene, Plan), Str
     }
 }
 
-/// The link that shows what is shown now: the scene's name, nodes, and the knobs that were turned.
-pub(super) fn written(app: &App, nodes: usize) -> String {
+/// The link that shows what is shown now: the scene's name, nodes, its keys in the link that opened it, and the knobs that
+/// were turned.
+pub(super) fn written(app: &App, nodes: usize, keys: &str) -> String {
     let turned = app.dials.iter().filter(|dial| dial.target != dial.home);
     let knobs = turned.map(|dial| format!("&{}={}", short(dial.knob), dial.target));
     let knobs: String = knobs.collect();
-    format!("scene={}&nodes={nodes}{knobs}", app.setup.name)
+    format!("scene={}&nodes={nodes}{keys}{knobs}", app.setup.name)
+}
+
+/// A value in an address: what is no letter, digit or plain sign as `%` and its bytes.
+fn escaped(value: &str) -> String {
+    let mut text = String::with_capacity(value.len());
+    for byte in value.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {
+                text.push(char::from(byte));
+            }
+            // Writing to a string cannot fail.
+            _ => drop(write!(text, "%{byte:02X}")),
+        }
+    }
+    text
 }
 
 /// A knob's name in links.
@@ -264,6 +286,12 @@ mod tests {
         assert!(refused(&"S=0.1\n".repeat(50_000)).contains("bytes"));
         let long = refused(&format!("S={}", "9".repeat(1000)));
         assert!(long.len() < 200, "{long}");
+    }
+
+    #[test]
+    fn values_are_escaped_in_an_address() {
+        assert_eq!(escaped("4e-4"), "4e-4");
+        assert_eq!(escaped("\"a&b=%\" #µ"), "%22a%26b%3D%25%22%20%23%C2%B5");
     }
 
     #[test]

@@ -35,7 +35,7 @@ struct PageRun {
 }
 
 /// The sweep beside the run, where there is one.
-type Beside = Rc<RefCell<Option<SweepWorker>>>;
+type PageSweep = Rc<RefCell<Option<SweepWorker>>>;
 
 /// Files to save: name and text.
 type Files = Rc<RefCell<Vec<(String, String)>>>;
@@ -44,9 +44,11 @@ type Files = Rc<RefCell<Vec<(String, String)>>>;
 pub(super) struct WebPage {
     explorer: Explorer,
     run: Rc<RefCell<PageRun>>,
-    beside: Beside,
+    beside: PageSweep,
     files: Files,
     nodes: usize,
+    /// Keys of the link, until another scene is run.
+    keys: Rc<RefCell<String>>,
     shown: Buffer,
     cell: (u16, u16),
     /// Curves as they were given last, and those that are new.
@@ -63,14 +65,17 @@ impl WebPage {
         let files = Files::default();
         let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
         let run = Rc::new(RefCell::new(run));
-        let beside = Beside::default();
+        let beside = PageSweep::default();
         let mut wiring = wiring(&run.borrow().session, setup, &beside, &files);
         wiring.lesson = link.lesson;
+        let keys = Rc::new(RefCell::new(link.keys));
         let (place, sweep, kept) = (Rc::clone(&run), Rc::clone(&beside), Rc::clone(&files));
+        let left = Rc::clone(&keys);
         wiring.rebuild = Some(Box::new(move |scene, name| {
             let (next, setup) = start(scene, name, nodes, Ending::OnStop)?;
             let wiring = self::wiring(&next.session, setup, &sweep, &kept);
             place.replace(next);
+            left.borrow_mut().clear();
             Ok(wiring)
         }));
         let mut theme = Theme::new(Capabilities {
@@ -88,6 +93,7 @@ impl WebPage {
             beside,
             files,
             nodes,
+            keys,
             shown: Buffer::default(),
             cell: (8, 16),
             curves: Vec::new(),
@@ -208,7 +214,7 @@ impl WebPage {
 
     /// The link to what is shown now.
     pub(super) fn link(&self) -> String {
-        written(&self.explorer.app, self.nodes)
+        written(&self.explorer.app, self.nodes, &self.keys.borrow())
     }
 
     /// The table of the run's last steps.
@@ -270,7 +276,7 @@ fn start(
     Ok((PageRun { session, rows }, setup))
 }
 
-fn wiring(session: &NearEnd, setup: Setup, beside: &Beside, files: &Files) -> Wiring {
+fn wiring(session: &NearEnd, setup: Setup, beside: &PageSweep, files: &Files) -> Wiring {
     let status = session.status_reader();
     let (ground, scene) = (session.settled_reader(), Arc::clone(&setup.scene));
     let place = Rc::clone(beside);
@@ -347,8 +353,9 @@ mod tests {
 
     #[test]
     fn a_link_is_written_as_it_is_read() {
-        let mut page = page("scene=twin_disc\nnodes=33");
-        assert_eq!(page.link(), "scene=twin_disc&nodes=33");
+        let key = "body_1.surface.wavelength_x_m";
+        let mut page = page(&format!("scene=twin_disc\nnodes=33\n{key} = 4e-4"));
+        assert_eq!(page.link(), format!("scene=twin_disc&nodes=33&{key}=4e-4"));
         press(&mut page, KeyName::Right);
         let link = page.link();
         let turned = PageLink::read(&link.replace('&', "\n")).unwrap();
