@@ -75,31 +75,31 @@ mod tests {
     use super::*;
     use crate::cli::args::{Cli, CliCommand};
 
-    fn parsed(words: &[&str]) -> StudyArgs {
-        match Cli::try_parse_from(words).unwrap().command {
-            Some(CliCommand::Study(args)) => args,
-            other => panic!("{other:?}"),
-        }
-    }
-
-    /// What a shell makes of the line, words and single quotes only.
-    fn split(line: &str) -> Vec<String> {
-        let mut words = vec![String::new()];
-        let mut is_quoted = false;
-        let mut letters = line.chars();
-        while let Some(letter) = letters.next() {
-            match letter {
-                '\'' => is_quoted = !is_quoted,
-                '\\' if !is_quoted => words.last_mut().unwrap().extend(letters.next()),
-                ' ' if !is_quoted => words.push(String::new()),
-                _ => words.last_mut().unwrap().push(letter),
-            }
-        }
-        words
-    }
-
     #[test]
     fn the_command_of_a_report_parses_back_to_the_study_that_made_it() {
+        fn parsed(words: &[&str]) -> StudyArgs {
+            match Cli::try_parse_from(words).unwrap().command {
+                Some(CliCommand::Study(args)) => args,
+                other => panic!("{other:?}"),
+            }
+        }
+
+        /// What a shell makes of the line, words and single quotes only.
+        fn split(line: &str) -> Vec<String> {
+            let mut words = vec![String::new()];
+            let mut is_quoted = false;
+            let mut letters = line.chars();
+            while let Some(letter) = letters.next() {
+                match letter {
+                    '\'' => is_quoted = !is_quoted,
+                    '\\' if !is_quoted => words.last_mut().unwrap().extend(letters.next()),
+                    ' ' if !is_quoted => words.push(String::new()),
+                    _ => words.last_mut().unwrap().push(letter),
+                }
+            }
+            words
+        }
+
         for kind in StudyKind::value_variants() {
             let name = kind.to_possible_value().unwrap();
             for form in [None, Some("--quick"), Some("--full")] {
