@@ -35,22 +35,21 @@ impl StudyArgs {
 
     /// The command that prints this report again, less the folder it goes to.
     pub(crate) fn command(&self) -> String {
-        let mut words = "asperity study".to_owned();
-        if let Some(kind) = self.kind.to_possible_value() {
-            words += &format!(" {}", kind.get_name());
-        }
-        words += match (self.quick, self.full) {
-            (true, _) => " --quick",
-            (_, true) => " --full",
-            _ => "",
+        let kind = self.kind.to_possible_value();
+        let form = match (self.quick, self.full) {
+            (true, _) => Some("--quick".to_owned()),
+            (_, true) => Some("--full".to_owned()),
+            _ => None,
         };
-        if let Some(only) = &self.only {
-            words += &format!(" --only '{}'", only.replace('\'', r"'\''"));
-        }
-        if let Some(threads) = self.threads {
-            words += &format!(" --threads {threads}");
-        }
-        words
+        let quoted = |only: &String| format!("--only '{}'", only.replace('\'', r"'\''"));
+        let words = [
+            Some("asperity study".to_owned()),
+            kind.map(|kind| kind.get_name().to_owned()),
+            form,
+            self.only.as_ref().map(quoted),
+            self.threads.map(|threads| format!("--threads {threads}")),
+        ];
+        words.into_iter().flatten().collect::<Vec<_>>().join(" ")
     }
 }
 
