@@ -1,6 +1,6 @@
 """Pictures of a recording in the real viewer, without a screen.
 
-    python3 -m venv venv && venv/bin/pip install rerun-sdk==0.36.3 numpy
+    python3 -m venv venv && venv/bin/pip install rerun-sdk==0.36.3 numpy pillow
     venv/bin/python tests/screenshots/screenshots.py recording.rrd assets/screenshots
 
 On a machine without a graphics card the viewer draws in software; on Debian and Ubuntu that needs
@@ -8,8 +8,8 @@ On a machine without a graphics card the viewer draws in software; on Debian and
     apt-get install --no-install-recommends mesa-vulkan-drivers libvulkan1 libgl1 libegl1 \
         libxkbcommon-x11-0 libxkbcommon0 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libwayland-client0
 
-`--sheet SHEET.png` puts every tab into one small picture too (`pip install pillow`), as the `all_...` are: a recording,
-a size and a theme each.
+`--sheet SHEET.png` puts every tab into one small picture too, as the `all_...` are: a recording, a size and a theme each.
+A tab's picture is taken when it differs from the tab before and two looks at it are the same.
 
 One picture per tab of the layout that the recording brings with it: `contact.png`, `maps.png`, ...
 The viewer follows the theme of the system; `--theme light` or `--theme dark` draws in its browser form with that theme
@@ -22,6 +22,7 @@ viewer (`src/observe/rerun/layout.rs`): if a picture shows the default camera, i
 
 import argparse
 import contextlib
+import io
 import os
 import pathlib
 import re
@@ -47,7 +48,8 @@ def parse_arguments():
     parser.add_argument("--size", default="1600x900", help="window size in pixels (default: %(default)s)")
     parser.add_argument("--port", type=int, default=9988, help="free port (default: %(default)s)")
     parser.add_argument("--wait", type=float, default=15.0, help="seconds for loading (default: %(default)s)")
-    parser.add_argument("--settle", type=float, default=4.0, help="seconds per tab (default: %(default)s)")
+    parser.add_argument("--settle", type=float, default=4.0, help="seconds between two looks at a tab (default: %(default)s)")
+    parser.add_argument("--patience", type=float, default=90.0, help="most seconds for a tab (default: %(default)s)")
     parser.add_argument("--theme", choices=["light", "dark"], help="theme of the viewer in a browser (default: no browser)")
     parser.add_argument("--chromium", default="/usr/bin/chromium", help="browser for --theme (default: %(default)s)")
     return parser.parse_args()
@@ -169,6 +171,32 @@ def written(file, seconds=30):
         time.sleep(0.2)
 
 
+def share_that_differs(one, other):
+    """Share of the pixels that are not the same in two pictures."""
+    from PIL import Image
+
+    first, second = (np.asarray(Image.open(io.BytesIO(raw)).convert("RGB"), dtype=int) for raw in (one, other))
+    return np.mean(np.abs(first - second).max(axis=2) > 8)
+
+
+def picture_of_tab(save, file, before, arguments):
+    """Saves a tab's picture once it is another than the one `before` and stands still: a busy machine draws late."""
+    until = time.monotonic() + arguments.patience
+    last = None
+    while time.monotonic() < until:
+        time.sleep(arguments.settle)
+        file.unlink(missing_ok=True)
+        save(file)
+        written(file)
+        picture = file.read_bytes()
+        other_than_before = before is None or share_that_differs(before, picture) > 0.02
+        stands_still = last is not None and share_that_differs(last, picture) < 0.002
+        if other_than_before and stands_still:
+            return picture
+        last = picture
+    sys.exit(f"{file}: no picture of its own that stands still within {arguments.patience:.0f} s")
+
+
 def save_sheet(files, sheet):
     """All pictures in two columns, in few colours: what the viewer draws has few."""
     from PIL import Image
@@ -198,14 +226,12 @@ def main():
     application, chunks, root, tabs = layout(arguments.recording)
     url = f"rerun+http://127.0.0.1:{arguments.port}/proxy"
     shown = in_browser if arguments.theme else native
-    files = []
+    files, picture = [], None
     with shown(arguments, url) as save:
         for name, tab in tabs:
             activate(application, chunks, root, tab, url)
-            time.sleep(arguments.settle)
             file = arguments.folder / (re.sub(r"[^a-z0-9]+", "_", name.lower()) + ".png")
-            save(file)
-            written(file)
+            picture = picture_of_tab(save, file, picture, arguments)
             files.append(file)
             print(file, flush=True)
     if arguments.sheet:
