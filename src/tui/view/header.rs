@@ -40,7 +40,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     );
 }
 
-/// The scene's title, which may hold numbers; where knobs were turned its name, and which.
+/// The scene's title, which may hold numbers; where knobs were turned, or the scene moves them, its name, and which.
 fn title(app: &App) -> String {
     let away = |dial: &&Dial| (dial.target - dial.home).abs() > 1e-6 * dial.home.abs();
     let turned = app
@@ -51,7 +51,12 @@ fn title(app: &App) -> String {
     if turned.is_empty() {
         return app.setup.scene.title.clone();
     }
-    format!("{}, turned: {}", app.setup.name, turned.join(", "))
+    let by = if app.moves_by_script() {
+        "moved by its script"
+    } else {
+        "turned"
+    };
+    format!("{}, {by}: {}", app.setup.name, turned.join(", "))
 }
 
 /// As many whole words as fit, and a sign that there are more.
