@@ -157,7 +157,7 @@ mod from_a_recording {
         let decoder =
             png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).unwrap()));
         let mut reader = decoder.read_info().unwrap();
-        let mut bytes = vec![0; reader.output_buffer_size()];
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut bytes).unwrap();
         bytes
     }

@@ -161,7 +161,7 @@ fn exported(file: &Path) -> (Vec<Rgb>, [usize; 2]) {
     const BELOW_THEM: usize = 58;
     let reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(file).unwrap()));
     let mut reader = reader.read_info().unwrap();
-    let mut bytes = vec![0; reader.output_buffer_size()];
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut bytes).unwrap();
     assert_eq!(info.color_type, png::ColorType::Rgb);
     let (width, height) = (info.width as usize, info.height as usize);

@@ -40,6 +40,24 @@ pub(crate) fn font() -> Result<(), String> {
     }
 }
 
+/// Pixels of three bytes as PNG.
+///
+/// # Errors
+/// What the encoder says.
+pub(crate) fn png_of(pixels: &[u8], (wide, tall): (u32, u32)) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, wide, tall);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer
+            .write_image_data(pixels)
+            .and_then(|()| writer.finish())
+    });
+    written.map_err(|error| error.to_string())?;
+    Ok(bytes)
+}
+
 /// Whether there was something to draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Drawn {
@@ -72,7 +90,12 @@ pub(crate) trait Chart {
     /// # Errors
     /// What the drawing library says, a full disk included.
     fn png(&self, path: &Path) -> Result<Drawn, String> {
-        self.on(&BitMapBackend::new(path, SIZE).into_drawing_area())
+        let mut pixels = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];
+        let area = BitMapBackend::with_buffer(&mut pixels, SIZE).into_drawing_area();
+        let drawn = self.on(&area)?;
+        drop(area);
+        std::fs::write(path, png_of(&pixels, SIZE)?).map_err(|error| error.to_string())?;
+        Ok(drawn)
     }
 
     /// Draws and finishes.

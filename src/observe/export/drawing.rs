@@ -1,7 +1,5 @@
 //! Drawing of maps and curves on white: axes, colour bar, title, state.
 
-use std::path::Path;
-
 use plotters::chart::SeriesAnno;
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -11,8 +9,9 @@ use crate::math::number::{MM, plain};
 use crate::observe::chart::{FONT, font};
 use crate::picture::{NodeAxis, Picture};
 
-/// Width of a picture's axes, pixels.
+/// Width of a picture's axes, pixels, in a file of its own and where it moves.
 const WIDE: u32 = 720;
+const MOVING_WIDE: u32 = 400;
 /// Room around the axes, pixels.
 pub(super) const LEFT: u32 = 92;
 pub(super) const ABOVE: u32 = 74;
@@ -31,33 +30,28 @@ pub(super) struct Drawing {
     pub(super) x_title: &'static str,
 }
 
-/// Where it is drawn.
+/// What becomes of the pixels, three bytes each.
 pub(super) enum PictureTarget<'a> {
-    /// Into a file.
-    File(&'a Path),
-    /// As pixels of three bytes, of axes so many pixels wide.
-    Pixels(&'a mut Vec<u8>, u32),
+    /// A file of its own.
+    Still(&'a mut Vec<u8>),
+    /// One of a picture that moves.
+    Moving(&'a mut Vec<u8>),
 }
 
 impl<'a> PictureTarget<'a> {
     /// Width of the axes.
     pub(super) fn wide(&self) -> u32 {
         match self {
-            Self::File(_) => WIDE,
-            Self::Pixels(_, wide) => *wide,
+            Self::Still(_) => WIDE,
+            Self::Moving(_) => MOVING_WIDE,
         }
     }
 
     fn area(self, size: (u32, u32)) -> Area<'a> {
-        match self {
-            Self::File(path) => BitMapBackend::new(path, size),
-            Self::Pixels(buffer, _) => {
-                buffer.clear();
-                buffer.resize(3 * (size.0 * size.1) as usize, 0);
-                BitMapBackend::with_buffer(buffer, size)
-            }
-        }
-        .into_drawing_area()
+        let (Self::Still(pixels) | Self::Moving(pixels)) = self;
+        pixels.clear();
+        pixels.resize(3 * (size.0 * size.1) as usize, 0);
+        BitMapBackend::with_buffer(pixels, size).into_drawing_area()
     }
 }
 

@@ -24,6 +24,7 @@ use self::drawing::PictureTarget;
 use self::fields::{write_netcdf, write_npz};
 use self::pages::{Page, Pictures};
 pub use self::paper::PrintSize;
+use super::chart::png_of;
 use super::{
     NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
 };
@@ -74,9 +75,6 @@ impl Format {
 pub fn picture_names() -> Vec<&'static str> {
     Pictures::names().collect()
 }
-
-/// Width of the axes of moving pictures, pixels.
-const MOVING_WIDE: u32 = 400;
 
 /// Writes fields and pictures.
 #[derive(Debug)]
@@ -191,15 +189,13 @@ impl Export {
             let (pictures, print) = (&mut self.pictures, self.print);
             self.overwrite.write_by(&path, |at| {
                 let drawn = if format == Format::Png {
-                    let drawn = pictures.draw(frame, page, PictureTarget::File(at));
-                    drawn.map(drop)
+                    let mut pixels = Vec::new();
+                    let size = pictures.draw(frame, page, PictureTarget::Still(&mut pixels));
+                    size.and_then(|size| png_of(&pixels, size))
                 } else {
-                    let printed = pictures.print(frame, page, (&print, format == Format::Pdf));
-                    printed.and_then(|bytes| {
-                        std::fs::write(at, bytes).map_err(|error| error.to_string())
-                    })
+                    pictures.print(frame, page, (&print, format == Format::Pdf))
                 };
-                drawn.map_err(std::io::Error::other)
+                std::fs::write(at, drawn.map_err(std::io::Error::other)?)
             })?;
             bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
         }
@@ -219,11 +215,8 @@ impl Export {
             let animation = self.moving.entry(name).or_default();
             if animation.wants(frame.passages) {
                 let mut pixels = Vec::new();
-                let drawn = self.pictures.draw(
-                    frame,
-                    page,
-                    PictureTarget::Pixels(&mut pixels, MOVING_WIDE),
-                );
+                let canvas = PictureTarget::Moving(&mut pixels);
+                let drawn = self.pictures.draw(frame, page, canvas);
                 let size = drawn.map_err(|reason| self.failed(&std::io::Error::other(reason)))?;
                 self.moving.entry(name).or_default().push(size, pixels);
             }

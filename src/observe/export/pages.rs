@@ -122,9 +122,9 @@ impl Pictures {
         let drawing = Drawing {
             title: format!("{name}: {}", page.title()),
             state: match canvas {
-                PictureTarget::File(_) => state(frame),
+                PictureTarget::Still(_) => state(frame),
                 // Half as wide.
-                PictureTarget::Pixels(..) => moving_state(frame),
+                PictureTarget::Moving(_) => moving_state(frame),
             },
             x_title: page.x_title(),
         };

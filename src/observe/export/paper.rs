@@ -361,18 +361,3 @@ impl Paper {
         }
     }
 }
-
-/// A field as PNG.
-fn png_of(area: &PixelArea) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, area.pixels[0], area.pixels[1]);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let written = encoder.write_header().and_then(|mut writer| {
-        writer
-            .write_image_data(&area.rgb)
-            .and_then(|()| writer.finish())
-    });
-    written.map_err(|error| error.to_string())?;
-    Ok(bytes)
-}

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use ab_glyph::{Font as _, FontRef, OutlineCurve, Point};
 
-use super::{Paper, PaperText, TextAnchor, png_of};
+use crate::observe::chart::png_of;
+
+use super::{Paper, PaperText, TextAnchor};
 
 impl Paper {
     /// The page.
@@ -37,7 +39,10 @@ impl Paper {
                 "/Type /XObject /Subtype /Image /Width {columns} /Height {rows} /ColorSpace /DeviceRGB \
                  /BitsPerComponent 8 /Filter /FlateDecode /DecodeParms << /Predictor 15 /Colors 3 /Columns {columns} >> "
             );
-            objects.push(stream(&head, &packed(&png_of(field)?)));
+            objects.push(stream(
+                &head,
+                &packed(&png_of(&field.rgb, field.pixels.into())?),
+            ));
         }
         Ok(file(&objects))
     }

@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::{PT_PER_MM, Paper, TextAnchor, png_of};
+use crate::observe::chart::png_of;
+
+use super::{PT_PER_MM, Paper, TextAnchor};
 
 impl Paper {
     /// The page.
@@ -26,7 +28,7 @@ impl Paper {
                 svg,
                 "<image x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\" preserveAspectRatio=\"none\" \
                  href=\"data:image/png;base64,{}\"/>",
-                base64(&png_of(field)?)
+                base64(&png_of(&field.rgb, field.pixels.into())?)
             );
         }
         for stroke in &self.strokes {
