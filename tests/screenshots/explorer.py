@@ -135,9 +135,9 @@ def wait_for(text, patience):
         time.sleep(0.2)
 
 
-def shoot(program, folder, name, size, script):
+def shoot(program, folder, name, size, script, scene="demonstration"):
     with tempfile.TemporaryDirectory() as place:
-        command = f"cd {place} && COLORTERM=truecolor LANG=C.UTF-8 {program} explore --no-record"
+        command = f"cd {place} && COLORTERM=truecolor LANG=C.UTF-8 {program} explore {scene} --no-record"
         tmux("new-session", "-d", "-s", "shot", "-x", str(size[0]), "-y", str(size[1]), command)
         try:
             for keys, text, patience in script:
@@ -161,9 +161,9 @@ def main():
     parser.add_argument("--patience", type=float, default=300.0, help="seconds to wait for a screen (default: %(default)s)")
     arguments = parser.parse_args()
     program, patience = arguments.program.resolve(), arguments.patience
-    # The default scene, its period replayed, the curve of life against S filled in.
-    swept = [([], "sweeping S", patience), ([], "sweeping S 15/18", patience)]
-    shoot(program, arguments.folder, "explorer.png", (160, 48), swept)
+    # The default scene on the quick mesh, its period replayed, the curve of life against S filled in.
+    swept = [([], "sweeping S", patience), ([], "sweeping S 15/", patience)]
+    shoot(program, arguments.folder, "explorer.png", (160, 48), swept, "demonstration_quick")
     # The second lesson at S = 0.5, its question answered: the comb.
     comb = [(["t", "2"], "2/10", patience), (["n"], "(2/4)", patience), (["n", "3"], "(3/4)", patience), ([], "Right:", patience)]
     shoot(program, arguments.folder, "explorer_lesson.png", (160, 48), comb)
