@@ -179,6 +179,17 @@ def share_that_differs(one, other):
     return np.mean(np.abs(first - second).max(axis=2) > 8)
 
 
+def first_look(save, arguments):
+    """The picture of the viewer as it opened, which is not kept."""
+    file = arguments.folder / "as_it_opened.png"
+    file.unlink(missing_ok=True)
+    save(file)
+    written(file)
+    picture = file.read_bytes()
+    file.unlink()
+    return picture
+
+
 def picture_of_tab(save, file, before, arguments):
     """Saves a tab's picture once it is another than the one `before` and stands still: a busy machine draws late."""
     until = time.monotonic() + arguments.patience
@@ -189,7 +200,7 @@ def picture_of_tab(save, file, before, arguments):
         save(file)
         written(file)
         picture = file.read_bytes()
-        other_than_before = before is None or share_that_differs(before, picture) > 0.02
+        other_than_before = share_that_differs(before, picture) > 0.02
         stands_still = last is not None and share_that_differs(last, picture) < 0.002
         if other_than_before and stands_still:
             return picture
@@ -226,16 +237,18 @@ def main():
     application, chunks, root, tabs = layout(arguments.recording)
     url = f"rerun+http://127.0.0.1:{arguments.port}/proxy"
     shown = in_browser if arguments.theme else native
-    files, picture = [], None
+    files = []
     with shown(arguments, url) as save:
-        for name, tab in tabs:
+        picture = first_look(save, arguments)
+        # The first tab last: as the viewer opens it is in front, and stands still before it has been filled.
+        for name, tab in tabs[1:] + tabs[:1]:
             activate(application, chunks, root, tab, url)
             file = arguments.folder / (re.sub(r"[^a-z0-9]+", "_", name.lower()) + ".png")
             picture = picture_of_tab(save, file, picture, arguments)
             files.append(file)
             print(file, flush=True)
     if arguments.sheet:
-        save_sheet(files, arguments.sheet)
+        save_sheet(files[-1:] + files[:-1], arguments.sheet)
 
 
 if __name__ == "__main__":
