@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::common::tui_fixture::{
     self, State, app, buffer, frame, plain, play, running, scene, settled, setup_of, text, theme,
 };
-use asperity::scene::{CycleBasis, Event, Scene};
+use asperity::scene::CycleBasis;
 use asperity::sim::{Frame, LubricationRegime, Metrics, Repeat, Rhythm, Stage};
 use asperity::tui::action::Action;
 use asperity::tui::app::{App, ErrandKind};
@@ -31,7 +31,7 @@ fn a_title_with_numbers_goes_when_a_knob_is_turned() {
     app.apply(Action::Turn(1));
     assert!(!top(&app).contains(&scene().title), "{}", top(&app));
     assert!(
-        top(&app).contains("demonstration, turned: S"),
+        top(&app).contains("demonstration, changed: S"),
         "{}",
         top(&app)
     );
@@ -39,25 +39,11 @@ fn a_title_with_numbers_goes_when_a_knob_is_turned() {
 
 #[test]
 fn a_knob_that_the_scene_moves_is_not_said_to_be_turned() {
-    let event = Event {
-        at_s: 0.0,
-        set: [("motion.slide_roll".to_owned(), 1.0)].into(),
-        caption: String::new(),
-    };
-    let scripted = Scene {
-        events: vec![event],
-        ..scene()
-    };
-    let mut app = App::new(setup_of(scripted), Vec::new(), plain());
+    let mut app = App::new(setup_of(scene()), Vec::new(), plain());
     take(&mut app, 1, |metrics| metrics.slide_roll_target = 1.0);
-    let top = |app: &App| text(app, 160, 48).lines().next().unwrap().to_owned();
-    assert!(
-        top(&app).contains("moved by its script: S"),
-        "{}",
-        top(&app)
-    );
-    app.apply(Action::Turn(1));
-    assert!(top(&app).contains("turned: S"), "{}", top(&app));
+    let top = text(&app, 160, 48).lines().next().unwrap().to_owned();
+    assert!(top.contains("demonstration, changed: S"), "{top}");
+    assert!(!top.contains("turned"), "{top}");
 }
 
 #[test]

@@ -78,12 +78,6 @@ impl App {
         shown.or_else(|| told.filter(|_| self.back == 0).map(|(trouble, _)| trouble))
     }
 
-    /// Whether no knob was touched here and the scene turns them itself.
-    pub fn moves_by_script(&self) -> bool {
-        let mut events = self.setup.scene.events.iter();
-        events.any(|event| !event.set.is_empty()) && self.set_at.iter().all(Option::is_none)
-    }
-
     fn take_knobs(&mut self, frame: &Frame) {
         for (dial, set_at) in self.dials.iter_mut().zip(&self.set_at) {
             let quantity = dial.knob.quantity();

@@ -40,23 +40,19 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     );
 }
 
-/// The scene's title, which may hold numbers; where knobs were turned, or the scene moves them, its name, and which.
+/// The scene's title, which may hold numbers; where knobs are no longer what they were, by a key, the scene's script or in what
+/// is replayed, its name, and which.
 fn title(app: &App) -> String {
     let away = |dial: &&Dial| (dial.target - dial.home).abs() > 1e-6 * dial.home.abs();
-    let turned = app
+    let changed = app
         .dials
         .iter()
         .filter(|dial| away(dial) || dial.is_moving());
-    let turned: Vec<&str> = turned.map(Dial::name).collect();
-    if turned.is_empty() {
+    let changed: Vec<&str> = changed.map(Dial::name).collect();
+    if changed.is_empty() {
         return app.setup.scene.title.clone();
     }
-    let by = if app.moves_by_script() {
-        "moved by its script"
-    } else {
-        "turned"
-    };
-    format!("{}, {by}: {}", app.setup.name, turned.join(", "))
+    format!("{}, changed: {}", app.setup.name, changed.join(", "))
 }
 
 /// As many whole words as fit, and a sign that there are more.
