@@ -321,11 +321,20 @@ await test("life against S, as the native sweep finds it", async () => {
   for (const [i, row] of mine.entries()) {
     for (const name of Object.keys(row)) {
       const off = row[name] === native[i][name] ? 0 : Math.abs(row[name] / native[i][name] - 1);
-      // The run's own point is a mean over those frames that its screen took.
-      const isOwn = row.slide_roll === "0.5";
-      if (!isOwn) worst = Math.max(worst, off);
-      assert.ok(off <= (isOwn ? 1e-2 : 1e-4), `${name} at S ${row.slide_roll}: ${row[name]} and ${native[i][name]}`);
+      const told = `${name} at S ${row.slide_roll}: ${row[name]} and ${native[i][name]}`;
+      if (row.slide_roll !== "0.5") {
+        worst = Math.max(worst, off);
+        assert.ok(off <= 1e-4, told);
+      } else if (!name.startsWith("life_")) {
+        // The run's own point goes on as long as the run, so each is of its own moment: friction comes and goes by .9 % within a
+        // period (`run --table`), and its mean is over those frames that the screen took.
+        assert.ok(off <= 2e-2, told);
+      }
     }
+    // Two moments of one run: what the band says of either holds for both.
+    const bands = [row, native[i]].map((found) => [Number(found.life_relative_low), Number(found.life_relative_high)]);
+    const share = Math.min(bands[0][1], bands[1][1]) - Math.max(bands[0][0], bands[1][0]);
+    assert.ok(share > 0, `bands of the life at S ${row.slide_roll}: ${bands.join(" and ")}`);
   }
   console.log(`     ${mine.length} values of S, life ${Number(mine[0].life_relative).toPrecision(3)} to ${Math.max(...mine.map((row) => row.life_relative)).toPrecision(3)}; off by ${worst.toExponential(1)} at most`);
   assert.deepEqual(page.faults, []);
