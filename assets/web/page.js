@@ -11,6 +11,7 @@ const screen_ = at("screen");
 const painter = new Painter(screen_);
 const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 65, link: "", isFast: false, broken: null, refused: null };
 let worker = null;
+let isInstead = false;
 
 function module_() {
   const inline = at("module");
@@ -43,18 +44,27 @@ function tell(words, isBad) {
   box.className = isBad ? "bad" : "";
 }
 
+// A key or a click: what was told has been read.
+function heed() {
+  if (!state.broken) tell("");
+}
+
 function hear(event) {
   const m = event.data;
   if (m.loaded) open();
   if (m.opened) {
     painter.begin(m.opened);
-    state.refused = null;
-    if (!state.broken) tell("");
+    // What opens in the place of a refused link leaves its reason on the page.
+    if (isInstead) isInstead = false;
+    else {
+      state.refused = null;
+      heed();
+    }
   }
   if (m.refused) {
     state.refused = m.refused;
-    tell(m.refused, true);
-    if (!painter.columns) { history.replaceState(null, "", "#"); open(); tell(m.refused, true); }
+    tell(painter.columns ? m.refused : `${m.refused}\nShown instead: the scene that this page begins with.`, true);
+    if (!painter.columns) { isInstead = true; history.replaceState(null, "", "#"); open(); }
   }
   if (m.broken) {
     state.broken = m.broken;
@@ -133,6 +143,7 @@ function press(name, held) {
   if (place < 0 && letters.length !== 1) return false;
   const code = place < 0 ? letters[0].codePointAt(0) : FIRST_NAMED + place;
   if (held === 2 && /^[zq]$/i.test(name)) return true;
+  heed();
   worker.postMessage({ kind: "key", code, held });
   return true;
 }
@@ -149,6 +160,7 @@ function watch() {
   screen_.addEventListener("keydown", key);
   screen_.addEventListener("pointerdown", (event) => {
     screen_.focus();
+    heed();
     if (event.button === 0) { screen_.setPointerCapture(event.pointerId); point(0, event); }
     if (event.button === 2) point(2, event);
   });
