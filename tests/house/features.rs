@@ -1,4 +1,5 @@
-//! The tests ask nothing else of the program's dependencies: `cargo test` after `cargo build` compiles none again.
+//! The tests ask nothing else of the program's dependencies: `cargo test` after `cargo build` compiles none again. Nor do scripts
+//! that build the recorder's crates ask anything else of those that both need and that take long.
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -28,4 +29,17 @@ fn tests_compile_no_dependency_again() {
         others.is_empty(),
         "built with other features by the tests: {others:#?}"
     );
+}
+
+#[test]
+fn build_scripts_compile_no_listed_dependency_again() {
+    let manifest = include_str!("../../Cargo.toml");
+    let manifest: toml::Table = manifest.parse().unwrap();
+    let listed = manifest["build-dependencies"].as_table().unwrap();
+    let packages = packages("normal,build");
+    for name in listed.keys() {
+        let start = format!("{name} v");
+        let built: Vec<&String> = packages.iter().filter(|p| p.starts_with(&start)).collect();
+        assert_eq!(built.len(), 1, "built more than once: {built:#?}");
+    }
 }
