@@ -275,18 +275,23 @@ await test("129 nodes by a button, where the machine carries them", async () => 
   assert.deepEqual(page.faults, []);
 });
 
-// The explorer's own sweep in a pseudo-terminal, on one thread: rows of curves.csv, written once there are so many.
+// The explorer's own sweep in a pseudo-terminal, on one thread: rows of curves.csv, once there are so many.
 async function nativeCurves(sets, count) {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), "asperity-sweep-"));
   const ask = `stty rows 40 cols 120; exec '${program}' explore demonstration_quick ${sets.map((set) => `--set ${set}`).join(" ")} --no-record --threads 1`;
   const terminal = spawn("script", ["-qec", ask, "/dev/null"], { cwd: folder, env: { ...process.env, SHELL: "/bin/sh", TERM: "xterm" }, stdio: ["pipe", "ignore", "inherit"] });
   const over = new Promise((done) => terminal.on("exit", done));
   let found = [];
+  // One table at a time: each comes with fields and pictures, whose writing would take the processors from the sweep. A key that
+  // came before the program is typed again.
+  let [asked, askedAt] = [0, 0];
   for (let wait = 0; wait < 400 && found.length < count; wait++) {
     await new Promise((done) => setTimeout(done, 1000));
-    terminal.stdin.write("w");
     const written = fs.readdirSync(folder).sort().map((name) => path.join(folder, name, "curves.csv")).filter((file) => fs.existsSync(file));
-    if (written.length > 1) found = rows(fs.readFileSync(written.at(-2), "utf8"));
+    if (written.length) found = rows(fs.readFileSync(written.at(-1), "utf8"));
+    if (written.length < asked && wait < askedAt + 30) continue;
+    terminal.stdin.write("w");
+    [asked, askedAt] = [written.length + 1, wait];
   }
   terminal.stdin.write("q");
   await over;
