@@ -218,5 +218,5 @@ worker = newWorker();
 worker.onmessage = hear;
 worker.onerror = (event) => { state.broken = event.message; tell(`The page cannot run: ${event.message}`, true); };
 watch();
-module_().then((bytes) => worker.postMessage({ kind: "load", bytes }, [bytes]), (error) => tell(String(error), true));
+module_().then((bytes) => worker.postMessage({ kind: "load", bytes }, [bytes]), (error) => { state.broken = String(error); tell(state.broken, true); });
 screen_.focus();
