@@ -244,7 +244,7 @@ pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
             .filter(|_| value > 0.0)
             .map_or_else(String::new, |error| {
                 let (value, error) = (sig(100.0 * value, 3), sig(100.0 * error, 2));
-                format!(", {name} {value} ± {error} %")
+                format!(", {name} ({value} ± {error}) %")
             })
     };
     let area = part("touching area", s.contact_ratio, s.error_contact_ratio);
