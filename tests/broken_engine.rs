@@ -22,8 +22,8 @@ mod common;
 
 use std::process::{ExitCode, Termination as _};
 
-use asperity::run::{Request, RunError, Session};
-use asperity::sim::Simulation;
+use asperity_engine::sim::Simulation;
+use asperity_session::run::{Request, RunError, Session};
 
 /// Steps of the passage that go well.
 const GOOD: u64 = 39;

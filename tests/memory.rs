@@ -6,10 +6,10 @@ use std::alloc::System;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use asperity::plan::Plan;
-use asperity::run::{Command, Ending, Request, Session};
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Knob, Simulation};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Knob, Simulation};
+use asperity_session::run::{Command, Ending, Request, Session};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
 #[global_allocator]

@@ -21,9 +21,9 @@ def module():
     flags = f"{os.environ.get('RUSTFLAGS', '')} -C target-feature=+simd128 --remap-path-prefix={ROOT}=."
     subprocess.run(
         ["cargo", "rustc", "--locked", "--profile", "web", "--target", "wasm32-unknown-unknown", "--lib",
-         "--no-default-features", "--features", "web", "--crate-type", "cdylib"],
+         "--package", "asperity-explorer", "--crate-type", "cdylib"],
         cwd=ROOT, check=True, env={**os.environ, "RUSTFLAGS": flags.strip()})
-    return (TARGET / "wasm32-unknown-unknown/web/asperity.wasm").read_bytes()
+    return (TARGET / "wasm32-unknown-unknown/web/asperity_explorer.wasm").read_bytes()
 
 
 def text(name):

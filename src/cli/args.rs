@@ -6,9 +6,9 @@ mod sweep_texts;
 
 use std::path::PathBuf;
 
-use asperity::observe::Format;
-use asperity::scene::{Knob, presets};
-use asperity::sweep::Shard;
+use asperity_engine::scene::{Knob, presets};
+use asperity_picture::export::Format;
+use asperity_session::sweep::Shard;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs};
@@ -57,7 +57,7 @@ threads and on every CPU with the same vector units; between kinds of CPU they d
 #[derive(Debug, Parser)]
 #[command(
     name = "asperity",
-    version = asperity::files::VERSION,
+    version = asperity_session::program::VERSION,
     about = ABOUT,
     long_about = LONG_ABOUT,
     after_long_help = EXAMPLES,

@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::math::number::{GPA, counted, sig};
-use asperity::observe::Overwrite;
-use asperity::observe::rerun::{ComparedBy, RecordedFrames, RunBeside, compare as side_by_side};
+use asperity_engine::math::number::{GPA, counted, sig};
+use asperity_engine::observe::Overwrite;
+use asperity_recorder::{ComparedBy, RecordedFrames, RunBeside, compare as side_by_side};
 
 use super::args::{BesideValues, CompareArgs, CompareBy, HeadlessArgs};
 use super::failure::Failure;
@@ -67,10 +67,9 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<u8, Failure> {
             named[k].0 = format!("{} ({})", named[k].0, k + 1);
         }
     }
-    let clash = args
-        .files
-        .iter()
-        .any(|file| asperity::files::identity(file) == asperity::files::identity(&args.out));
+    let clash = args.files.iter().any(|file| {
+        asperity_engine::files::identity(file) == asperity_engine::files::identity(&args.out)
+    });
     if clash {
         return Err(Failure::input(miette::miette!(
             "--out {} is one of the recordings that are read",

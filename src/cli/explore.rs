@@ -6,13 +6,13 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use asperity::observe::Overwrite;
-use asperity::run::{Activity, Command, Ending, Request, RunError, Session, Status};
-use asperity::sweep::{Background, Ground};
-use asperity::tui::lessons::Lesson;
-use asperity::tui::{
+use asperity_engine::observe::Overwrite;
+use asperity_explorer::tui::lessons::Lesson;
+use asperity_explorer::tui::{
     Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, TuiError, Wiring,
 };
+use asperity_session::run::{Activity, Command, Ending, Request, RunError, Session, Status};
+use asperity_session::sweep::{Background, Ground};
 use miette::miette;
 
 use super::Engine;
@@ -108,7 +108,7 @@ pub(crate) fn explore(
     let runs = Runs::new(RefCell::new(sitting));
     wiring.lesson = lesson.map(Arc::new);
     wiring.rebuild = Some(rebuild(engine, args, Rc::clone(&runs), interrupt));
-    let shown = asperity::tui::explore(wiring);
+    let shown = asperity_explorer::tui::explore(wiring);
     let code = end(&runs)?;
     match shown {
         Ok(()) => Ok(code),

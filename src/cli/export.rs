@@ -6,11 +6,11 @@ use std::{
     time::Instant,
 };
 
-use asperity::{
-    math::number::{bytes, counted, seconds},
-    observe::rerun::RecordedFrames,
-    observe::{Export, Format, Observer as _, Overwrite, PrintSize, RunContext, Table},
-};
+use asperity_engine::math::number::{bytes, counted, seconds};
+use asperity_engine::observe::{Observer as _, Overwrite, RunContext};
+use asperity_picture::export::{Export, Format, PrintSize};
+use asperity_recorder::RecordedFrames;
+use asperity_session::Table;
 
 use super::args::ExportArgs;
 use super::failure::Failure;
@@ -30,7 +30,7 @@ pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
         scene_toml: frames.scene_toml.clone(),
         plan_text: String::new(),
         program: frames.program.clone(),
-        began: asperity::observe::Began::FromScene,
+        began: asperity_engine::observe::Began::FromScene,
     };
     let written =
         pictures(args, &frames, &folder, &context)? + table(args, &frames, &folder, &context)?;
@@ -49,7 +49,7 @@ pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
 }
 
 fn refuse_unknown_pictures(asked: &[String]) -> Result<(), Failure> {
-    let names = asperity::observe::picture_names();
+    let names = asperity_picture::export::picture_names();
     match asked.iter().find(|name| !names.contains(&name.as_str())) {
         Some(unknown) => Err(Failure::input(miette::miette!(
             help = format!("there are {}", names.join(", ")),

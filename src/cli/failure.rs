@@ -4,11 +4,11 @@ use std::borrow::Cow;
 use std::io::IsTerminal as _;
 use std::process::ExitCode;
 
-use asperity::observe::ObserveError;
-use asperity::plan::PlanError;
-use asperity::run::{CheckpointError, RunError};
-use asperity::scene::SceneError;
-use asperity::sweep::SweepError;
+use asperity_engine::observe::ObserveError;
+use asperity_engine::plan::PlanError;
+use asperity_engine::scene::SceneError;
+use asperity_session::run::{CheckpointError, RunError};
+use asperity_session::sweep::SweepError;
 use miette::{MietteDiagnostic, MietteHandlerOpts, Report, miette};
 
 /// An error with its exit code.

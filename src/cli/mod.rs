@@ -29,7 +29,7 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 use args::{Cli, CliCommand, HeadlessArgs, RunArgs};
-use asperity::run::{Request, RunError, Session};
+use asperity_session::run::{Request, RunError, Session};
 use failure::Failure;
 
 /// What the explorer runs: [`Session::start`]. A test puts in an engine that breaks (`tests/broken_engine.rs`).

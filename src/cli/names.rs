@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::files::identity;
-use asperity::observe::is_exported;
-use asperity::scene::{Scene, Surface, presets};
+use asperity_engine::files::identity;
+use asperity_engine::scene::{Scene, Surface, presets};
+use asperity_picture::export::is_exported;
 use miette::miette;
 
 use super::args::{HeadlessArgs, RunArgs};

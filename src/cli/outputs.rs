@@ -3,10 +3,12 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::observe::{Export, Format, ObserveError, Overwrite, Queue, Table, WhenFull};
-use asperity::run::{Switch, Watcher};
-use asperity::scene::Scene;
-use asperity::sim::Summary;
+use asperity_engine::observe::{ObserveError, Overwrite};
+use asperity_engine::scene::Scene;
+use asperity_engine::sim::Summary;
+use asperity_picture::export::{Export, Format};
+use asperity_session::run::{Switch, Watcher};
+use asperity_session::{Queue, Table, WhenFull};
 
 use super::args::RunArgs;
 use super::failure::Failure;
@@ -114,7 +116,7 @@ impl Outputs {
         overwrite: Overwrite,
         pace: RecorderPace,
     ) -> Result<(), ObserveError> {
-        use asperity::observe::rerun::Recorder;
+        use asperity_recorder::Recorder;
         let Some(record) = &scene.record else {
             return Ok(());
         };
@@ -141,7 +143,7 @@ impl Outputs {
     /// One stream, one thread and one queue for each viewer: a slow one delays nobody.
     #[cfg(feature = "rerun")]
     fn open_live(&mut self, args: &RunArgs, scene: &Scene) -> Result<(), Failure> {
-        use asperity::observe::rerun::{Live, Recorder};
+        use asperity_recorder::{Live, Recorder};
         /// Frames that may wait: about half a second of the screen's pace.
         const WAITING: usize = 16;
         let mut viewers = Vec::new();
@@ -175,8 +177,12 @@ impl Outputs {
 
     /// Serves viewers from the first one that comes until the last one has left.
     #[cfg(feature = "rerun")]
-    fn open_held(&mut self, port: u16, record: &asperity::scene::Record) -> Result<(), Failure> {
-        use asperity::observe::rerun::{Gate, Live, Recorder};
+    fn open_held(
+        &mut self,
+        port: u16,
+        record: &asperity_engine::scene::Record,
+    ) -> Result<(), Failure> {
+        use asperity_recorder::{Gate, Live, Recorder};
         /// Frames that may wait: a viewer that is waited for should miss none.
         const WAITING: usize = 256;
         let gate = Gate::open(port, super::signals::stop_on_signals()?)?;

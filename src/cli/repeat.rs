@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use asperity::run::HandTurn;
+use asperity_session::run::HandTurn;
 
 use super::args::RunArgs;
 use super::failure::Failure;
@@ -31,9 +31,9 @@ impl Repetition {
 #[cfg(feature = "rerun")]
 pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
     use super::failure::tell;
-    use asperity::observe::rerun::Recorded;
-    use asperity::scene::Scene;
-    use asperity::sim::Knob;
+    use asperity_engine::scene::Scene;
+    use asperity_engine::sim::Knob;
+    use asperity_recorder::Recorded;
     use miette::miette;
 
     let recorded = Recorded::read(path).map_err(|error| {
@@ -42,7 +42,7 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
             "{error}"
         ))
     })?;
-    let program = asperity::files::PROGRAM;
+    let program = asperity_session::program::PROGRAM;
     if recorded.program != program {
         let by = &recorded.program;
         tell(&format!(
@@ -108,7 +108,7 @@ fn judge_length(path: &Path, prepared: &Prepared, steps: u64) -> Result<(), Fail
         super::failure::tell(&format!(
             "repeats {steps} steps, where the scene asks for {}: about {}",
             plan.steps,
-            asperity::math::number::seconds(seconds)
+            asperity_engine::math::number::seconds(seconds)
         ));
     }
     Ok(())

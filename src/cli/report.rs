@@ -6,10 +6,10 @@ mod motion;
 
 use std::fmt::Write as _;
 
-use asperity::math::number::{counted, seconds, sig};
-use asperity::run::{End, Outcome};
-use asperity::scene::{ContactKind, Scene};
-use asperity::sim::{CATALOGUE, LubricationRegime, Rhythm, Summary};
+use asperity_engine::math::number::{counted, seconds, sig};
+use asperity_engine::scene::{ContactKind, Scene};
+use asperity_engine::sim::{CATALOGUE, LubricationRegime, Rhythm, Summary};
+use asperity_session::run::{End, Outcome};
 
 pub(crate) use self::complaints::complaints;
 use self::life::push_life;

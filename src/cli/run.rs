@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use asperity::observe::{ObserveError, Overwrite};
-use asperity::plan::Plan;
-use asperity::run::{Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session};
-use asperity::scene::Scene;
+use asperity_engine::observe::{ObserveError, Overwrite};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::Scene;
+use asperity_session::run::{
+    Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session,
+};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::HeadlessArgs;
@@ -113,7 +115,7 @@ fn note_in_recording(outcome: &Outcome, recording: Option<&Path>) {
     #[cfg(feature = "rerun")]
     if let (Some(summary), Some(path)) = (&outcome.summary, recording)
         && outcome.output_errors.is_empty()
-        && let Err(error) = asperity::observe::rerun::note_summary(path, summary)
+        && let Err(error) = asperity_recorder::note_summary(path, summary)
     {
         tell(&error.to_string());
     }
@@ -135,7 +137,7 @@ fn save_state(outcome: &Outcome, path: &Path, overwrite: Overwrite) -> Result<()
 /// A state fits whatever program wrote it; the numbers after it are those of one run only if it was this one, and of
 /// the scene's run only if nobody turned a knob.
 fn tell_of_the_past(saved: &Checkpoint) {
-    let (program, now) = (&saved.program, asperity::files::PROGRAM);
+    let (program, now) = (&saved.program, asperity_session::program::PROGRAM);
     if program != now {
         let note = format!("saved by {program}; this is {now}, so numbers may differ");
         tell(&note);

@@ -3,9 +3,9 @@
 use std::io::{ErrorKind, Write as _};
 use std::sync::Arc;
 
-use asperity::observe::ObserveError;
-use asperity::plan::Plan;
-use asperity::scene::{Override, Record, Scene, SceneError, presets};
+use asperity_engine::observe::ObserveError;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Record, Scene, SceneError, presets};
 
 use super::args::{RunArgs, SceneArgs};
 use super::failure::{Failure, visible};

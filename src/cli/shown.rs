@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
-use asperity::observe::{
-    Began, Export, Format, ObserveError, Observer as _, Overwrite, RunContext, is_free,
+use asperity_engine::observe::{
+    Began, ObserveError, Observer as _, Overwrite, RunContext, is_free,
 };
-use asperity::tui::{Shown, WriteShown};
+use asperity_explorer::tui::{Shown, WriteShown};
+use asperity_picture::export::{Export, Format};
 
 use super::scenes::Prepared;
 
@@ -18,7 +19,7 @@ pub(crate) fn writer(prepared: &Prepared) -> WriteShown {
     let context = RunContext {
         scene_toml: String::new(),
         plan_text: prepared.plan.to_string(),
-        program: asperity::files::PROGRAM.to_owned(),
+        program: asperity_session::program::PROGRAM.to_owned(),
         began: Began::default(),
         scene: Arc::clone(&prepared.scene),
     };

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use asperity::files::write_whole;
-use asperity::study::accuracy::{
+use asperity_engine::files::write_whole;
+use asperity_study::accuracy::{
     DEFAULT_PART, accuracy, accuracy_table, accuracy_text, default_scene, default_scene_text,
     life_plot, work_precision_plot,
 };
-use asperity::study::evidence::{
+use asperity_study::evidence::{
     agreement_plot, evidence, evidence_table, evidence_text, experiments_plot,
 };
-use asperity::study::stability::{stability, stability_table, stability_text};
-use asperity::study::{Extent, StudyError, machine, scaling, scaling_text};
+use asperity_study::stability::{stability, stability_table, stability_text};
+use asperity_study::{Extent, StudyError, machine, scaling, scaling_text};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::{StudyArgs, StudyKind};
@@ -161,7 +161,7 @@ fn headed(title: &str, args: &StudyArgs, text: &str) -> String {
     format!(
         "# {title}\n\n`{}`, asperity {}, on {}, {} threads.\n\n{text}",
         args.command(),
-        asperity::files::VERSION,
+        asperity_session::program::VERSION,
         machine(),
         args.threads(),
     )

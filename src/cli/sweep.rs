@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use asperity::sweep::{
+use asperity_session::sweep::{
     CaseEnd, ColdComparison, Existing, Folder, Progress, Rows, Shard, Sweep, SweepError,
     against_cold, cost, points, points_csv, run,
 };
@@ -144,7 +144,7 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
     if !sweep.path.is_empty() {
         folder.write(&root.join("path.csv"), points_csv(sweep)?.as_bytes())?;
     }
-    let pictures = asperity::sweep::draw(sweep, rows, folder)?;
+    let pictures = asperity_session::sweep::draw(sweep, rows, folder)?;
     print(&told(sweep, rows, &table, &pictures))?;
     Ok(match rows.worst() {
         CaseEnd::Converged => 0,
@@ -156,10 +156,11 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
 #[cfg(feature = "parquet")]
 fn write_parquet(folder: &Folder, csv: &str) -> Result<(), Failure> {
     let path = folder.root().join("table.parquet");
-    let bytes = asperity::sweep::parquet_table(csv).map_err(|reason| SweepError::Folder {
-        path: path.display().to_string(),
-        reason,
-    })?;
+    let bytes =
+        asperity_session::sweep::parquet_table(csv).map_err(|reason| SweepError::Folder {
+            path: path.display().to_string(),
+            reason,
+        })?;
     Ok(folder.write(&path, &bytes)?)
 }
 

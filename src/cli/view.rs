@@ -30,7 +30,7 @@ fn how_to_get_it(arguments: &str) -> String {
 
 /// Opens `file` in the viewer and waits until it is closed. What the viewer has to say goes to stderr.
 pub(crate) fn view(file: &Path) -> Result<u8, Failure> {
-    if let Err(error) = asperity::files::open_plain(file) {
+    if let Err(error) = asperity_engine::files::open_plain(file) {
         return Err(Failure::input(miette!(
             help = "asperity run writes a recording; asperity explore too",
             "cannot read the recording {}: {error}",

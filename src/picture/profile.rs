@@ -10,9 +10,9 @@
 //! is filled.
 
 use super::{CONTACT, Look, Ranges, Subject, Tint};
-use crate::math::number::nice_ceiling;
-use crate::scene::Scene;
-use crate::sim::{Frame, StressSlice};
+use asperity_engine::math::number::nice_ceiling;
+use asperity_engine::scene::Scene;
+use asperity_engine::sim::{Frame, StressSlice};
 
 /// Depth to which a body is drawn at the edge of the picture, in half-widths.
 pub const DEEP: f64 = 0.6;

@@ -1,9 +1,9 @@
 //! The ranges that every picture of a run shares: what can come by its script and by the knobs, not what came first.
 
-use crate::math::number::{GPA, MPA, UM, Unit, nice_ceiling};
-use crate::physics::hertz::crest_pressure_pa;
-use crate::scene::{ContactKind, Scene, Surface};
-use crate::sim::{Frame, Knob, Metrics};
+use asperity_engine::math::number::{GPA, MPA, UM, Unit, nice_ceiling};
+use asperity_engine::physics::hertz::crest_pressure_pa;
+use asperity_engine::scene::{ContactKind, Scene, Surface};
+use asperity_engine::sim::{Frame, Knob, Metrics};
 
 /// What ranges begin with: the first frame in figures.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! What the numbers were measured on, as far as it matters for ratios.
 
-use crate::math::number::counted;
+use asperity_engine::math::number::counted;
 
 /// Cores and family of the processor, such as `2 cores of family 6 (x86_64)`.
 pub fn machine() -> String {

@@ -19,11 +19,11 @@ pub use report::scaling_text;
 use rustfft::FftNum;
 
 use super::{Extent, StudyError, StudyProgress, refuse_nothing};
-use crate::math::filter::{Filter, Padding};
-use crate::math::grid::{Grid, Symmetry};
-use crate::plan::Plan;
-use crate::scene::{Override, Scene, presets};
-use crate::sim::{Frame, Simulation, Stage};
+use asperity_engine::math::filter::{Filter, Padding};
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene, presets};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// One measured case.
 #[derive(Debug, Clone, PartialEq)]

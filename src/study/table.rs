@@ -3,7 +3,7 @@
 //! Markdown is eleven lines here. `comfy-table`, which the recorder brings, sets columns in line: every report would be
 //! written anew by a longer cell, and it keeps bars in cells as they are.
 
-use crate::observe::cells::csv_line;
+use asperity_session::cells::csv_line;
 
 /// Columns and rows of text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use asperity::observe::rerun::Recorded;
+use asperity_recorder::Recorded;
 use re_chunk::Chunk;
 use re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;

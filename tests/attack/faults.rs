@@ -4,8 +4,8 @@ use std::cell::Cell;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use asperity::observe::rerun::Recorded;
-use asperity::run::Checkpoint;
+use asperity_recorder::Recorded;
+use asperity_session::run::Checkpoint;
 
 use super::child::{self, Ended, Place};
 use super::report::Tally;

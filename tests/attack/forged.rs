@@ -4,7 +4,7 @@
 pub(crate) fn forged_recording<'a>(notes: impl Iterator<Item = &'a [u8]>) -> Vec<u8> {
     let mut bytes = b"RRF2\0\x24\x03\0\x01\x02\0\0".to_vec();
     for body in notes {
-        let digest = asperity::files::fnv(body);
+        let digest = asperity_engine::files::fnv(body);
         let head = format!("asperity note 2 {digest:016x} {} ", body.len());
         let mut message = vec![5 << 3 | 2];
         let mut left = head.len() + body.len();

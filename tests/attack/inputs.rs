@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 
-use asperity::scene::{Scene, presets};
+use asperity_engine::scene::{Scene, presets};
 
 use super::child::{Ended, MEMORY, Place};
 use super::forged::forged_recording;
@@ -114,7 +114,7 @@ pub(crate) fn map(ending: &str, bytes: &[u8], place: &Place) -> Vec<String> {
 
 /// A saved state whose digest fits whatever it holds.
 pub(crate) fn sealed_state(body: &str) -> Vec<u8> {
-    let digest = asperity::files::fnv(body.as_bytes());
+    let digest = asperity_engine::files::fnv(body.as_bytes());
     format!("asperity state 3 {digest:016x}\n{body}").into_bytes()
 }
 
@@ -128,7 +128,7 @@ fn hostile_case(random: &mut Random, bytes: &[u8]) -> Vec<u8> {
         mutate::json(random, &mut value);
     }
     let body = value.to_string();
-    let digest = asperity::files::fnv(body.as_bytes());
+    let digest = asperity_engine::files::fnv(body.as_bytes());
     format!("{magic} {digest:016x}\n{body}\n").into_bytes()
 }
 

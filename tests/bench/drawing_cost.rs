@@ -17,13 +17,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use asperity::plan::Plan;
-use asperity::run::{Command, Ending, Request, Session};
-use asperity::scene::{Scene, presets};
-use asperity::sim::Stage;
-use asperity::tui::app::App;
-use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-use asperity::tui::{RunStatus, Setup, TerminalLine, view};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Scene, presets};
+use asperity_engine::sim::Stage;
+use asperity_explorer::tui::app::App;
+use asperity_explorer::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
+use asperity_explorer::tui::{RunStatus, Setup, TerminalLine, view};
+use asperity_session::run::{Command, Ending, Request, Session};
 use ratatui::layout::Rect;
 use ratatui::{Terminal, TerminalOptions, Viewport};
 

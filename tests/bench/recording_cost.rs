@@ -15,13 +15,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use asperity::observe::rerun::Recorder;
-use asperity::observe::{
-    Began, FramePool, Observer, Overwrite, Queue, RunContext, RunEvent, RunEventKind, WhenFull,
-};
-use asperity::plan::Plan;
-use asperity::scene::{Scene, presets};
-use asperity::sim::{Frame, Simulation, Stage};
+use asperity_engine::observe::{Began, Observer, Overwrite, RunContext, RunEvent, RunEventKind};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Scene, presets};
+use asperity_engine::sim::{Frame, Simulation, Stage};
+use asperity_recorder::Recorder;
+use asperity_session::{FramePool, Queue, WhenFull};
 
 /// Steps of a block: an eighth of a passage.
 const BLOCK: usize = 16;

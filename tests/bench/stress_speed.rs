@@ -3,8 +3,8 @@
 
 use std::time::Instant;
 
-use asperity::physics::cycles::BodyId;
-use asperity::solve::stress::{SliceOut, StressEngine, StressLaw, StressSpec, Symmetry};
+use asperity_engine::physics::cycles::BodyId;
+use asperity_engine::solve::stress::{SliceOut, StressEngine, StressLaw, StressSpec, Symmetry};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 

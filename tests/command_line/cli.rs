@@ -324,7 +324,7 @@ fn check_says_what_is_left_out_and_why() {
 #[test]
 fn check_tells_that_the_spacing_of_crests_is_assumed() {
     let folder = tempfile::tempdir().unwrap();
-    for preset in asperity::scene::presets::all() {
+    for preset in asperity_engine::scene::presets::all() {
         let output = asperity(folder.path(), &["check", preset.name]);
         let told = text(&output.stdout);
         let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -343,7 +343,7 @@ fn check_tells_that_the_spacing_of_crests_is_assumed() {
 fn scenes_lists_and_prints_what_can_be_read_back() {
     let folder = tempfile::tempdir().unwrap();
     let list = text(&asperity(folder.path(), &["scenes"]).stdout);
-    for preset in asperity::scene::presets::all() {
+    for preset in asperity_engine::scene::presets::all() {
         assert!(list.contains(preset.name));
         let printed = asperity(folder.path(), &["scenes", preset.name]);
         std::fs::write(folder.path().join("copy.toml"), &printed.stdout).unwrap();

@@ -5,10 +5,10 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use asperity::physics::gear::{GearPair, GearTeeth, LoadSharing};
-use asperity::scene::{CycleBasis, Scene, presets};
-use asperity::study::Extent;
-use asperity::study::evidence::{
+use asperity_engine::physics::gear::{GearPair, GearTeeth, LoadSharing};
+use asperity_engine::scene::{CycleBasis, Scene, presets};
+use asperity_study::Extent;
+use asperity_study::evidence::{
     Comparison, Evidence, EvidenceSet, Grade, evidence, evidence_table, evidence_text, planned,
     word,
 };
@@ -115,7 +115,8 @@ fn scenes_of_evidence_are_those_of_the_set_and_of_the_folder() {
         .collect();
     let built_in = presets::evidence().iter().map(|p| p.name.to_owned());
     assert_eq!(used, built_in.collect::<BTreeSet<_>>());
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/evidence");
+    let folder =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/engine/assets/evidence");
     let files: BTreeSet<String> = std::fs::read_dir(&folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())

@@ -1,9 +1,9 @@
 //! The studies in their quick forms: orders, counters and bounds, never seconds.
 
-use asperity::study::Extent;
-use asperity::study::accuracy::{Accuracy, Against, StudiedPart, Varied, accuracy, accuracy_table};
-use asperity::study::accuracy::{life_plot, work_precision_plot};
-use asperity::study::stability::{MUST_CONVERGE, TrialEnd, stability, stability_text};
+use asperity_study::Extent;
+use asperity_study::accuracy::{Accuracy, Against, StudiedPart, Varied, accuracy, accuracy_table};
+use asperity_study::accuracy::{life_plot, work_precision_plot};
+use asperity_study::stability::{MUST_CONVERGE, TrialEnd, stability, stability_text};
 
 fn order(result: &Accuracy, part: StudiedPart, quantity: &str, varied: Varied) -> f64 {
     let mut rows = result.rows.iter().filter(|row| {

@@ -7,8 +7,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering;
 
-use asperity::plan::Plan;
-use asperity::sweep::{
+use asperity_engine::plan::Plan;
+use asperity_session::sweep::{
     CaseEnd, CaseStart, ColdComparison, Existing, Folder, Progress, Rows, Shard, Sweep,
     against_cold, cost, points, points_csv, presets, run,
 };
@@ -476,7 +476,7 @@ fn a_ball_meets_its_greatest_load_in_the_middle_of_the_zone() {
     assert!(angle[middle].abs() < 1e-12 && angle[0] == -angle[load.len() - 1]);
     // A 6309-like bearing: 4521 N radial are 2470 N on the ball in the middle, whose pressure the preset has.
     assert!((load[middle] - 2470.0).abs() < 1.0, "{load:?}");
-    let preset = asperity::scene::Scene::load("ball_bearing").unwrap();
+    let preset = asperity_engine::scene::Scene::load("ball_bearing").unwrap();
     let pressure = points.column("p_hertz_pa");
     let preset_pa = preset.hertz().p_max_pa;
     assert!(
@@ -810,7 +810,7 @@ fn another_surface_under_the_same_name_is_another_sweep() {
     };
     let map = place.join("map.csv");
     let surface = "kind = \"height_map\"\npixel_m = 5e-5\nunit_m = 1e-9";
-    let scene = asperity::scene::Scene::load("demonstration").unwrap();
+    let scene = asperity_engine::scene::Scene::load("demonstration").unwrap();
     let scene = toml::to_string(&scene).unwrap();
     let (head, tail) = scene.split_once("[body_2.surface]").unwrap();
     let (_, tail) = tail.split_once("\n[").unwrap();
@@ -863,7 +863,7 @@ fn cases_of_two_builds_make_no_table() {
         drop(Folder::create(place, &sweep, Existing::Refuse).unwrap());
     }
     let mark = std::fs::read_to_string(two.join("sweep.digest")).unwrap();
-    let other = mark.replace(asperity::files::BUILD, "0123456789abcdef");
+    let other = mark.replace(asperity_session::program::BUILD, "0123456789abcdef");
     assert_ne!(mark, other);
     std::fs::write(two.join("sweep.digest"), other).unwrap();
     let refused = Folder::create(&two, &sweep, Existing::Resume).unwrap_err();

@@ -16,12 +16,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::common::tui_fixture::{plain, setup_planned};
-use asperity::plan::Plan;
-use asperity::run::share_out;
-use asperity::scene::{ContactKind, Override, Scene, presets};
-use asperity::sim::{Frame, Simulation};
-use asperity::tui::app::{App, Leading};
-use asperity::tui::view;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{ContactKind, Override, Scene, presets};
+use asperity_engine::sim::{Frame, Simulation};
+use asperity_explorer::tui::app::{App, Leading};
+use asperity_explorer::tui::view;
+use asperity_session::run::share_out;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use re_chunk::Chunk;
@@ -112,7 +112,7 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    let presets = asperity::scene::presets::all();
+    let presets = asperity_engine::scene::presets::all();
     let mut cases: Vec<Case> = presets
         .iter()
         .map(|preset| {

@@ -3,14 +3,14 @@
 use std::f64::consts::{PI, TAU};
 
 use super::workers::alone;
-use asperity::math::grid::{Grid, Symmetry};
-use asperity::physics::fluid::{Density, Viscosity};
-use asperity::physics::groups::PointContact;
-use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
-use asperity::solve::newton::{
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::physics::fluid::{Density, Viscosity};
+use asperity_engine::physics::groups::PointContact;
+use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
+use asperity_engine::solve::newton::{
     Iterate, Newton, NewtonReport, Problem, Sheared, Tolerance, Verdict,
 };
-use asperity::solve::reynolds::Medium;
+use asperity_engine::solve::reynolds::Medium;
 
 /// Fluids of the reference tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -273,7 +273,10 @@ pub(crate) struct Table {
 
 impl Table {
     pub(crate) fn read(name: &str) -> Self {
-        let path = format!("{}/assets/reference/{name}", env!("CARGO_MANIFEST_DIR"));
+        let path = format!(
+            "{}/../../assets/reference/{name}",
+            env!("CARGO_MANIFEST_DIR")
+        );
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
         let mut lines = text
             .lines()

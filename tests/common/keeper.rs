@@ -3,11 +3,11 @@
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::{Arc, Mutex};
 
-use asperity::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
-use asperity::plan::Plan;
-use asperity::run::{Ending, Request, Watcher};
-use asperity::scene::Scene;
-use asperity::sim::Frame;
+use asperity_engine::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::Scene;
+use asperity_engine::sim::Frame;
+use asperity_session::run::{Ending, Request, Watcher};
 
 /// What tells frames apart to the bit, -0 from 0 too, and NaN equals itself: a hash of the large fields, all else as Debug
 /// prints it, floats with as many digits as tell them apart. (Printing the large fields took a quarter of the longest tests.)

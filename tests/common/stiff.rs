@@ -1,7 +1,7 @@
 //! The stiff set: rough on both bodies, waves of 8 nodes, Barus' law.
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
 
 /// A stiff scene.
 #[derive(Debug, Clone, Copy)]

@@ -4,12 +4,12 @@
 
 use std::sync::Arc;
 
-use asperity::observe::{Began, RunContext};
-use asperity::scene::{
+use asperity_engine::observe::{Began, RunContext};
+use asperity_engine::scene::{
     Body, Contact, ContactKind, Event, Friction, GridAsked, Load, Motion, Numerics, Record, Scene,
     Surface, Time,
 };
-use asperity::sim::{
+use asperity_engine::sim::{
     Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage, StressSlice,
 };
 

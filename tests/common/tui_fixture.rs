@@ -5,20 +5,20 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Duration;
 
-use asperity::plan::{LeftOut, Plan};
-use asperity::run::{Command, Settled};
-use asperity::scene::{
+use asperity_engine::plan::{LeftOut, Plan};
+use asperity_engine::scene::{
     Body, Contact, ContactKind, CycleBasis, Life, Load, Motion, Record, Scene, Surface,
 };
-use asperity::sim::{
+use asperity_engine::sim::{
     Frame, LifeDetail, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak, Stage,
     StressSlice,
 };
-use asperity::sweep::{CaseStart, CurvePoint, Found};
-use asperity::tui::app::{App, Effect, ErrandKind};
-use asperity::tui::event::{Pointer, PointerAct};
-use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-use asperity::tui::{RecorderActivity, RecorderState, RunStatus, Setup, view};
+use asperity_explorer::tui::app::{App, Effect, ErrandKind};
+use asperity_explorer::tui::event::{Pointer, PointerAct};
+use asperity_explorer::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
+use asperity_explorer::tui::{RecorderActivity, RecorderState, RunStatus, Setup, view};
+use asperity_session::run::{Command, Settled};
+use asperity_session::sweep::{CaseStart, CurvePoint, Found};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -82,7 +82,7 @@ pub(crate) fn scene() -> Scene {
         body_1: wave(f64::INFINITY),
         body_2: wave(WAVE_M),
         lubricant: None,
-        friction: asperity::scene::Friction::default(),
+        friction: asperity_engine::scene::Friction::default(),
         motion: Motion {
             entrainment_m_s: 1.0,
             slide_roll: 0.5,
@@ -92,10 +92,10 @@ pub(crate) fn scene() -> Scene {
             force_n_per_m: None,
             hertz_pressure_pa: None,
         },
-        grid: asperity::scene::GridAsked::default(),
-        time: asperity::scene::Time::default(),
-        numerics: asperity::scene::Numerics::default(),
-        stress: Some(asperity::scene::Stress::default()),
+        grid: asperity_engine::scene::GridAsked::default(),
+        time: asperity_engine::scene::Time::default(),
+        numerics: asperity_engine::scene::Numerics::default(),
+        stress: Some(asperity_engine::scene::Stress::default()),
         // The paper's count: what follows from n can be worked out by hand.
         life: Some(Life {
             cycles: CycleBasis::Global,

@@ -7,9 +7,9 @@
 
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene, presets};
-use asperity::sim::{Frame, Simulation, Stage};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene, presets};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 const TOLERANCE: f64 = 1e-3;
 const STEPS: usize = 8;

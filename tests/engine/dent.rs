@@ -8,9 +8,9 @@
 use std::f64::consts::PI;
 
 use crate::common::maps::{Shape, npy_f8};
-use asperity::plan::{Plan, Symmetry};
-use asperity::scene::Scene;
-use asperity::sim::{Frame, Simulation, Stage};
+use asperity_engine::plan::{Plan, Symmetry};
+use asperity_engine::scene::Scene;
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// F 15 N, R 12.5 mm, E' 110 GPa (two equal bodies, ν = 0.3), η0 0.25 Pa s, α 22 1/GPa, U 0.09 m/s.
 fn scene(folder: &std::path::Path, nodes: usize) -> Scene {

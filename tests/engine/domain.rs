@@ -8,11 +8,11 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::contact::{CIRCLE, Case, Fluid, LOAD, TOLERANCE, central, minimum};
-use asperity::math::grid::{Grid, Symmetry};
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::Simulation;
-use asperity::solve::march::{Conditions, Flow, Guess, March};
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::Simulation;
+use asperity_engine::solve::march::{Conditions, Flow, Guess, March};
 
 const DX: f64 = 6.0 / 64.0;
 
@@ -45,7 +45,7 @@ fn films(case: &Case, inlet: usize, half: usize) -> (f64, f64) {
 }
 
 #[test]
-#[ignore = "a measurement of minutes, whose results stand in src/plan/truncation.rs"]
+#[ignore = "a measurement of minutes, whose results stand in src/engine/plan/truncation.rs"]
 fn errors_of_truncation() {
     for l in [2.0, 5.0, 10.0, 20.0] {
         for m in [5.0, 10.0, 20.0, 50.0, 100.0, 200.0] {

@@ -5,9 +5,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation};
 
 fn pressure(more: &str) -> Vec<f32> {
     let sets = [

@@ -4,10 +4,10 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use crate::common::contact::bisinusoidal_gap;
-use asperity::math::grid::{Grid, Symmetry};
-use asperity::solve::dry::{Dry, DryProblem};
-use asperity::solve::film::Elastic;
-use asperity::solve::newton::{Iterate, NewtonReport, Tolerance, Verdict};
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::solve::dry::{Dry, DryProblem};
+use asperity_engine::solve::film::Elastic;
+use asperity_engine::solve::newton::{Iterate, NewtonReport, Tolerance, Verdict};
 
 struct Solved {
     p_max: f64,

@@ -4,9 +4,9 @@
 //! differ by is the switch's doing.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::{MOLECULE_M, Plan, Valleys, Warning};
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Knob, Simulation, Stage, Summary};
+use asperity_engine::plan::{MOLECULE_M, Plan, Valleys, Warning};
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Knob, Simulation, Stage, Summary};
 
 const COMMON: [&str; 7] = [
     "load.force_n=none",

@@ -19,13 +19,13 @@
 //! the computed film lies between them.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::physics::film_regression::{
+use asperity_engine::physics::film_regression::{
     hamrock_dowson_central_m, hamrock_dowson_minimum_m, nijenbanning_central_m,
 };
-use asperity::physics::groups::PointContact;
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation, Stage};
+use asperity_engine::physics::groups::PointContact;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// Central and minimum film, m, of 65² and 129².
 fn films(ratio: f64, more: &[&str]) -> (PointContact, [[f64; 2]; 2]) {

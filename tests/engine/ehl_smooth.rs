@@ -10,7 +10,7 @@
 //! --nocapture`. Their numbers stand at the tests.
 
 use crate::common::contact::{Case, Fluid, Row, Table, central, minimum};
-use asperity::physics::groups::PointContact;
+use asperity_engine::physics::groups::PointContact;
 
 /// Domain of the tables, in a.
 const TABLE: (f64, f64, f64) = (-4.5, 1.5, 3.0);
@@ -203,7 +203,8 @@ fn m_2000_l_15_converges_from_hertz() {
     // within 15 % of the formula (which lies 7 to 13 % below computed films, tests of `film_regression`).
     let case = Case::moes(2000.0, 15.0, Fluid::BarusIncompressible, TABLE);
     let films = films(&case, 513, case.film(1.0));
-    let formula = asperity::physics::film_regression::nijenbanning_central(1.0, 2000.0, 15.0);
+    let formula =
+        asperity_engine::physics::film_regression::nijenbanning_central(1.0, 2000.0, 15.0);
     println!("M 2000 L 15: central, minimum by grid {films:.4?}; formula {formula:.4}");
     let [.., coarse, middle, fine] = films[..] else {
         panic!("three grids");

@@ -9,10 +9,10 @@
 use std::f64::consts::TAU;
 
 use crate::common::contact::{Case, Fluid, Row, Table, central};
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation};
-use asperity::solve::march::March;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation};
+use asperity_engine::solve::march::March;
 
 const DOMAIN: (f64, f64, f64) = (-2.5, 1.5, 2.0);
 

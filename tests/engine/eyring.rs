@@ -4,12 +4,12 @@
 use std::f64::consts::TAU;
 
 use crate::ripple::{SteadyFilm, linear_theory, other_wave, two_waves};
-use asperity::physics::eyring::{across, along};
-use asperity::physics::film_ripple::FlatFilm;
-use asperity::physics::fluid::{Density, Viscosity};
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation};
+use asperity_engine::physics::eyring::{across, along};
+use asperity_engine::physics::film_ripple::FlatFilm;
+use asperity_engine::physics::fluid::{Density, Viscosity};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation};
 use rustfft::num_complex::Complex;
 
 /// Ripple, m: so low against films of 140 nm and more that what is left is linear in it.
@@ -313,7 +313,7 @@ fn what_is_left_of_a_ripple_is_what_the_closed_form_says() {
 }
 
 /// A run of the default scene on 65², by overrides: what it computed and the work of it.
-fn run(sets: &[&str], steps: u64) -> (Frame, asperity::sim::Stats) {
+fn run(sets: &[&str], steps: u64) -> (Frame, asperity_engine::sim::Stats) {
     let common = ["grid.nodes=65", "stress=none", "life=none", "record=none"];
     let sets: Vec<Override> = common
         .iter()

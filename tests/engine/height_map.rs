@@ -7,9 +7,9 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use crate::common::maps::{Shape, csv, npy_f4, npy_f8};
-use asperity::plan::{Plan, Symmetry};
-use asperity::scene::{Override, Scene, Surface};
-use asperity::sim::{Frame, Simulation, Stage};
+use asperity_engine::plan::{Plan, Symmetry};
+use asperity_engine::scene::{Override, Scene, Surface};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 const WAVE_M: f64 = 2e-4;
 
@@ -99,7 +99,7 @@ fn what_is_wrong_is_named() {
     let message = |table: &str| {
         Scene::load(&scene_file(folder.path(), table))
             .and_then(|scene| {
-                Plan::new(&scene).map_err(|error| asperity::scene::SceneError::Value {
+                Plan::new(&scene).map_err(|error| asperity_engine::scene::SceneError::Value {
                     key: error.to_string(),
                     value: String::new(),
                     allowed: String::new(),

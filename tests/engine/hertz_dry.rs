@@ -2,11 +2,11 @@
 //! the errors of public codes on as many nodes (`assets/reference/dry.csv`).
 
 use crate::common::contact::{CIRCLE, DRY, LOAD, by_newton, conditions};
-use asperity::math::grid::{Grid, Symmetry};
-use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
-use asperity::solve::newton::{Newton, NewtonReport, Sheared, Tolerance, Verdict};
-use asperity::solve::tangential::{Shear, Tangential};
-use asperity::solve::traction::TractionLaw;
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
+use asperity_engine::solve::newton::{Newton, NewtonReport, Sheared, Tolerance, Verdict};
+use asperity_engine::solve::tangential::{Shear, Tangential};
+use asperity_engine::solve::traction::TractionLaw;
 
 fn tolerance(pressure: f64) -> Tolerance {
     Tolerance {

@@ -27,9 +27,9 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::stiff::{Stiff, sets};
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Knob, SimError, Simulation, Stage, StepError};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Knob, SimError, Simulation, Stage, StepError};
 
 /// How it went.
 #[derive(Debug, Default)]

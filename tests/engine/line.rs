@@ -3,14 +3,14 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::common::contact::{DRY, Fluid, converged, steady};
-use asperity::math::grid::{Grid, Symmetry};
-use asperity::plan::{LINE_ROWS, Plan};
-use asperity::scene::{ContactKind, Order, Override, Scene, StressMeasure};
-use asperity::sim::{Frame, Knob, Simulation};
-use asperity::solve::march::{Conditions, Flow, Guess, March, Shape};
-use asperity::solve::newton::{NewtonReport, Tolerance, Verdict};
-use asperity::solve::reynolds::Medium;
-use asperity::solve::stress::{LineStress, SliceOut};
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::plan::{LINE_ROWS, Plan};
+use asperity_engine::scene::{ContactKind, Order, Override, Scene, StressMeasure};
+use asperity_engine::sim::{Frame, Knob, Simulation};
+use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
+use asperity_engine::solve::newton::{NewtonReport, Tolerance, Verdict};
+use asperity_engine::solve::reynolds::Medium;
+use asperity_engine::solve::stress::{LineStress, SliceOut};
 
 /// κ = 2 p_h R/(π E' b) with p_h = E' b/(4R).
 const LINE: Shape = Shape {
@@ -274,7 +274,7 @@ fn steady_films_of_a_second_code() {
 
 #[test]
 fn films_against_the_formulas() {
-    use asperity::physics::line::{dowson_higginson_minimum, moes_central};
+    use asperity_engine::physics::line::{dowson_higginson_minimum, moes_central};
     println!("M L: central, Moes, ratio; minimum, Dowson-Higginson, ratio (Moes units)");
     let (mut worst_c, mut worst_n) = (0.0_f64, 0.0_f64);
     for l in [5.0, 10.0] {
@@ -303,7 +303,7 @@ fn films_against_the_formulas() {
 
 #[test]
 fn a_short_inlet_starves_the_film_as_the_plan_says() {
-    use asperity::plan::inlet_error;
+    use asperity_engine::plan::inlet_error;
     for m in [20.0, 100.0] {
         let film = |x_min: f64| {
             // The same spacing, 1/32.
@@ -427,7 +427,7 @@ fn life_integrals_of_a_hertzian_line() {
     }
 }
 
-fn scene(sets: &[&str]) -> Result<Scene, asperity::scene::SceneError> {
+fn scene(sets: &[&str]) -> Result<Scene, asperity_engine::scene::SceneError> {
     let sets: Vec<Override> = sets
         .iter()
         .map(|s| s.parse().expect("an override"))

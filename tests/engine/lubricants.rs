@@ -3,11 +3,11 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::contact::{CIRCLE, Case, Fluid, TOLERANCE, conditions};
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation};
-use asperity::solve::march::{Flow, Guess, March};
-use asperity::solve::newton::Verdict;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation};
+use asperity_engine::solve::march::{Flow, Guess, March};
+use asperity_engine::solve::newton::Verdict;
 
 /// Steps of the passage of each run: half of the contact's length.
 const STEPS: u64 = 16;

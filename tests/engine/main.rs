@@ -1,10 +1,9 @@
 //! The solver, from closed forms to runs: films, dry contacts, steps, plans, scenes, the loop; all without a screen or a file.
 
-#[path = "../common/mod.rs"]
+#[path = "../common/engine.rs"]
 mod common;
 mod converged_step;
 mod dent;
-mod discretisation;
 mod domain;
 mod dry_limit;
 mod dry_periodic;
@@ -20,14 +19,11 @@ mod line;
 mod lubricants;
 mod motions;
 mod order;
-mod peers;
 mod plan;
-mod pruning;
 mod random_scenes;
 mod regime;
 mod ripple;
 mod scene;
-mod session;
 mod simulation;
 mod stepping;
 mod work_counters;

@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::{Plan, TimeDependence};
-use asperity::scene::{Override, Scene, presets};
-use asperity::sim::{Frame, Knob, Simulation, Stage, Summary};
+use asperity_engine::plan::{Plan, TimeDependence};
+use asperity_engine::scene::{Override, Scene, presets};
+use asperity_engine::sim::{Frame, Knob, Simulation, Stage, Summary};
 
 fn scene(name: &str, sets: &[&str]) -> Scene {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();

@@ -1,9 +1,9 @@
 //! The discretisation of high order (`numerics.order`) against that of second order: three grids, and what both tend to.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::{Plan, Warning};
-use asperity::scene::{Order, Override, Scene};
-use asperity::sim::Simulation;
+use asperity_engine::plan::{Plan, Warning};
+use asperity_engine::scene::{Order, Override, Scene};
+use asperity_engine::sim::Simulation;
 
 /// Central film of the default scene's smooth contact, nm.
 fn smooth(nodes: usize, order: &str) -> f64 {

@@ -1,8 +1,8 @@
 //! The plan: which stage is there, which is left out and why, and what is refused.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::{Plan, PlanError, Symmetry, TimeDependence, Warning};
-use asperity::scene::{Override, Scene, presets};
+use asperity_engine::plan::{Plan, PlanError, Symmetry, TimeDependence, Warning};
+use asperity_engine::scene::{Override, Scene, presets};
 
 fn plan(settings: &[&str]) -> Result<Plan, PlanError> {
     let overrides: Vec<Override> = settings.iter().map(|text| text.parse().unwrap()).collect();

@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use asperity::plan::{FilmPlan, Plan, Warning};
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Caution, CautionCode, Metrics, Simulation, StepError};
+use asperity_engine::plan::{FilmPlan, Plan, Warning};
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Caution, CautionCode, Metrics, Simulation, StepError};
 
 /// Newton iterations after which a scene is given up by name.
 const MOST_NEWTON: u64 = 4000;
@@ -573,7 +573,7 @@ fn five_hundred_random_scenes() {
     let drawn = draw(500);
     let path = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/assets/reports/random_scenes.md"
+        "/../../assets/reports/random_scenes.md"
     );
     std::fs::write(path, drawn.report()).unwrap();
     drawn.check(0.97);

@@ -3,9 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene, Surface, presets};
-use asperity::sim::{CautionCode, Frame, LubricationRegime, Simulation};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene, Surface, presets};
+use asperity_engine::sim::{CautionCode, Frame, LubricationRegime, Simulation};
 
 /// A preset on a small grid, without what costs time; waves long enough for it, which λ does not depend on.
 fn small(name: &str) -> Scene {

@@ -4,9 +4,9 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-use asperity::physics::eyring;
-use asperity::physics::fluid::{Density, Viscosity};
-use asperity::scene::{EyringFlow, Scene};
+use asperity_engine::physics::eyring;
+use asperity_engine::physics::fluid::{Density, Viscosity};
+use asperity_engine::scene::{EyringFlow, Scene};
 use rustfft::num_complex::Complex;
 
 /// Waves of the fit: the bound one, x times it, the other one.

@@ -1,7 +1,7 @@
 //! Scenes: presets, round trips, overrides and everything that must be refused.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::scene::{ErrorSource, Override, Scene, SceneError, Surface, keys, presets};
+use asperity_engine::scene::{ErrorSource, Override, Scene, SceneError, Surface, keys, presets};
 use proptest::prelude::*;
 
 fn load(name: &str, settings: &[&str]) -> Result<Scene, SceneError> {

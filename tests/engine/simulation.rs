@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation, Stage};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 fn simulation(name: &str, sets: &[&str], threads: usize) -> Simulation {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
@@ -112,7 +112,7 @@ fn an_elliptical_contact_meets_the_film_formula() {
     let mut sim = simulation("ball_bearing", &sets, 2);
     run(&mut sim, 1, |_| {});
     let scene = Scene::load("ball_bearing").unwrap();
-    let formula = asperity::physics::film_regression::nijenbanning_central_m(
+    let formula = asperity_engine::physics::film_regression::nijenbanning_central_m(
         &scene.operating_point().unwrap(),
     );
     let film = sim.summary().h_central_m;

@@ -3,9 +3,9 @@
 
 use std::sync::OnceLock;
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Rhythm, Simulation, State, Summary};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Rhythm, Simulation, State, Summary};
 
 const SMALL: [&str; 5] = [
     "grid.nodes=65",
@@ -163,7 +163,8 @@ fn steps_lengthen_when_the_waves_are_gone() {
         sim.passage_steps() - first
     };
     let rough = steps_until(&mut sim, 0.6 * crossing_s);
-    sim.set(asperity::sim::Knob::Amplitude2M, 0.0).unwrap();
+    sim.set(asperity_engine::sim::Knob::Amplitude2M, 0.0)
+        .unwrap();
     let fading = steps_until(&mut sim, 1.2 * crossing_s);
     let smooth = steps_until(&mut sim, 1.8 * crossing_s);
     println!("steps in 0.6 passages: waves {rough}, fading {fading}, smooth {smooth}");
@@ -190,7 +191,10 @@ fn adaptive_steps_are_deterministic_and_go_on_from_a_saved_state() {
     assert_eq!(one.summary(), second.summary());
 }
 
-fn ladder(sets: &[&str], steps: usize) -> (Simulation, Result<(), asperity::sim::StepError>) {
+fn ladder(
+    sets: &[&str],
+    steps: usize,
+) -> (Simulation, Result<(), asperity_engine::sim::StepError>) {
     let mut sim = simulation(sets);
     for _ in 0..steps {
         if let Err(error) = sim.step() {
@@ -297,7 +301,7 @@ fn a_turned_knob_breaks_the_orbit_until_it_has_settled() {
         sim.passage_steps() - first
     };
     until(&mut sim, 200);
-    sim.set(asperity::sim::Knob::ForceN, 130.0).unwrap();
+    sim.set(asperity_engine::sim::Knob::ForceN, 130.0).unwrap();
     sim.step().unwrap();
     assert!(!repeats(&sim));
     // The ramp itself lasts 0.6 a/U; the film of the old load then has to leave.

@@ -7,9 +7,9 @@
 //! are left out: there it is up to 3 %, because the steps themselves are other ones.)
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Simulation, Stats};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Simulation, Stats};
 
 /// A case: name, preset, overrides, and its counts.
 struct Case {

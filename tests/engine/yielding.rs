@@ -7,12 +7,12 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use crate::common::contact::{CIRCLE, DRY, LOAD, bisinusoidal_gap, by_newton, conditions};
-use asperity::math::grid::{Grid, Symmetry};
-use asperity::solve::dry::{Dry, DryProblem};
-use asperity::solve::film::Elastic;
-use asperity::solve::march::{Flow, Guess, March};
-use asperity::solve::newton::{Iterate, Newton, NewtonReport, Tolerance, Verdict};
-use asperity::solve::yielding::Yielding;
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::solve::dry::{Dry, DryProblem};
+use asperity_engine::solve::film::Elastic;
+use asperity_engine::solve::march::{Flow, Guess, March};
+use asperity_engine::solve::newton::{Iterate, Newton, NewtonReport, Tolerance, Verdict};
+use asperity_engine::solve::yielding::Yielding;
 
 /// A periodic surface of length 1 that is pressed and let go; pressures in p*.
 struct Block {

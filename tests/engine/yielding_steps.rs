@@ -4,9 +4,9 @@
 use std::fmt::Write as _;
 
 use crate::common::stiff::{self, Stiff};
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{CautionCode, Frame, Knob, Simulation, Stage};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{CautionCode, Frame, Knob, Simulation, Stage};
 
 /// Hardness of steel of 60 HRC, Pa.
 const H_PA: f64 = 6.84e9;
@@ -539,7 +539,10 @@ fn report() {
     gear_lives(&mut out);
     stiff_set(&mut out);
     std::fs::write(
-        concat!(env!("CARGO_MANIFEST_DIR"), "/assets/reports/hardness.md"),
+        concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../assets/reports/hardness.md"
+        ),
         out,
     )
     .unwrap();

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::scene::{keys, presets};
+use asperity_engine::scene::{keys, presets};
 
 /// Words of the README.
 const LONGEST_README: usize = 1000;

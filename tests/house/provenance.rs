@@ -1,9 +1,9 @@
-//! What the solver computes has a source: every header in `src/solve` names an author's year, or says what is ours, or
+//! What the solver computes has a source: every header in `src/engine/solve` names an author's year, or says what is ours, or
 //! of which file it is a part; every constant says what it is.
 
 use super::sources;
 
-const ROOM: &str = "src/solve/";
+const ROOM: &str = "src/engine/solve/";
 
 /// The header: the lines of `//!` that a file opens with.
 fn header(text: &str) -> String {

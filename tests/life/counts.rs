@@ -16,11 +16,11 @@
 
 use std::fmt::Write as _;
 
-use asperity::physics::strength::HARDENED_STEEL;
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene, presets};
-use asperity::sim::{CautionCode, Frame, Simulation, Stage, Summary};
-use asperity::solve::material::{Line, MaterialTracker, TrackerSpec};
+use asperity_engine::physics::strength::HARDENED_STEEL;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene, presets};
+use asperity_engine::sim::{CautionCode, Frame, Simulation, Stage, Summary};
+use asperity_engine::solve::material::{Line, MaterialTracker, TrackerSpec};
 
 /// Gates on the pressure's ranges, p_h; the second is the program's.
 const GATES: [f64; 4] = [0.02, TrackerSpec::PRESSURE_GATE, 0.1, 0.25];

@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Simulation, Summary};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Simulation, Summary};
 
 /// A run of a preset to its planned end.
 fn run(preset: &str, sets: &[String]) -> Summary {
@@ -133,7 +133,10 @@ fn life_against_amplitude() {
             next_m *= 1.5;
         }
     }
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/reports/amplitude.md");
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../assets/reports/amplitude.md"
+    );
     std::fs::write(file, out).unwrap();
 }
 
@@ -236,7 +239,7 @@ fn full_ripples_count_as_many_as_they_do_damage() {
     // Body 1 is the slower: U_1/U_fast = 1/3, and so many crests in a loading cycle of body 2.
     let c = 31.0 / 3.0;
     let own = out.n_body_1.unwrap();
-    let full = (1.0 + (own - 1.0) * asperity::physics::cycles::miner_part(c)) / 3.0;
+    let full = (1.0 + (own - 1.0) * asperity_engine::physics::cycles::miner_part(c)) / 3.0;
     let stress = out.peak_factor.unwrap() * out.traction_factor.unwrap();
     println!(
         "n {own:.1}: by contacts {:.2}, by damage {full:.2} in cycles of the faster body; lives {:?} {:?}, cycle factor \

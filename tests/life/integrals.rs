@@ -1,15 +1,15 @@
 //! Life integrals and the factors of life against published and computed values.
 //! Every test prints the numbers that it asserts.
 
-use asperity::physics::cycles::{BodyId, Kinematics, miner_part};
-use asperity::physics::fatigue::LifeLaw;
-use asperity::physics::life_models::{CycleProfile, DEPTH_EXPONENT, LifeEquation};
-use asperity::scene::StressMeasure;
-use asperity::solve::critical::shares_of_slice;
-use asperity::solve::life::{Shares, factors};
-use asperity::solve::material::DamageBasis;
-use asperity::solve::material::{Line, MaterialTracker, TrackerSpec};
-use asperity::solve::stress::{
+use asperity_engine::physics::cycles::{BodyId, Kinematics, miner_part};
+use asperity_engine::physics::fatigue::LifeLaw;
+use asperity_engine::physics::life_models::{CycleProfile, DEPTH_EXPONENT, LifeEquation};
+use asperity_engine::scene::StressMeasure;
+use asperity_engine::solve::critical::shares_of_slice;
+use asperity_engine::solve::life::{Shares, factors};
+use asperity_engine::solve::material::DamageBasis;
+use asperity_engine::solve::material::{Line, MaterialTracker, TrackerSpec};
+use asperity_engine::solve::stress::{
     LineStress, Loading, SliceOut, StressEngine, StressLaw, StressSpec, Symmetry, VolumeOut,
 };
 

@@ -1,10 +1,9 @@
 //! Stress below the surface, the counting of its cycles, and lives.
 
-#[path = "../common/mod.rs"]
+#[path = "../common/engine.rs"]
 mod common;
 mod counts;
 mod damage;
-mod formula;
 mod integrals;
 mod passages;
 mod patch;

@@ -3,9 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation, Stage, Summary};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation, Stage, Summary};
 
 fn simulation(sets: &[String]) -> Simulation {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();

@@ -1,5 +1,5 @@
 //! Exact stress under a uniform traction on a rectangle (Love 1929) and under point forces
-//! (Boussinesq, Cerruti), as harmonics of [`asperity::physics::stress_exact`].
+//! (Boussinesq, Cerruti), as harmonics of [`asperity_engine::physics::stress_exact`].
 //!
 //! ```text
 //! rectangle  value = [C(++) + C(−−) − C(+−) − C(−+)]/2π at the corners (x ± hx, y ± hy)
@@ -12,7 +12,7 @@
 
 use std::f64::consts::PI;
 
-use asperity::physics::stress_exact::{Directions, Harmonics, point_radial};
+use asperity_engine::physics::stress_exact::{Directions, Harmonics, point_radial};
 
 /// Harmonics of a unit point force at the origin, z > 0.
 pub(crate) fn point_harmonics(x: f64, y: f64, z: f64) -> Harmonics {

@@ -3,10 +3,10 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity::physics::hertz::HertzShape;
-use asperity::plan::Plan;
-use asperity::scene::{Event, Override, Scene};
-use asperity::sim::{Frame, Simulation, Summary};
+use asperity_engine::physics::hertz::HertzShape;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Event, Override, Scene};
+use asperity_engine::sim::{Frame, Simulation, Summary};
 
 /// Waves that 65 nodes carry, of which both bodies have the same: the passage repeats.
 const ROUGH: [&str; 7] = [
@@ -71,7 +71,7 @@ fn run(scene: &Scene) -> Summary {
         sim.step().unwrap();
         if sim.passage_steps() > 0 {
             for (key, value) in events.drain(..).flat_map(|event| event.set) {
-                let knob = asperity::sim::Knob::from_key(&key).unwrap();
+                let knob = asperity_engine::sim::Knob::from_key(&key).unwrap();
                 sim.set(knob, value).unwrap();
             }
         }
@@ -141,8 +141,12 @@ fn a_load_that_is_turned_up_gives_the_life_of_a_run_that_begins_there() {
     pair.agrees(0.01, 0.02);
     // Life falls as the smooth contact's does: r^-(c + 3/e), the films' share aside.
     let ratio = (2376.0_f64 / 800.0).cbrt();
-    let closed =
-        asperity::physics::estimate::load_factor(HertzShape::Point, ratio, 31.0 / 3.0, 10.0 / 9.0);
+    let closed = asperity_engine::physics::estimate::load_factor(
+        HertzShape::Point,
+        ratio,
+        31.0 / 3.0,
+        10.0 / 9.0,
+    );
     println!("load factor by Hertz {closed:.4e}");
     assert!(apart(pair.turned.load_factor, Some(closed)) < 0.02);
 }
@@ -168,7 +172,7 @@ fn a_ride_ends_where_a_cold_run_there_begins() {
     let sets = ["grid.nodes=129", "stress.depths=12", "time.passages=6"];
     let mut own = scene("fzg_point_a", &sets);
     for body in [&mut own.body_1, &mut own.body_2] {
-        body.surface = asperity::scene::Surface::Smooth {};
+        body.surface = asperity_engine::scene::Surface::Smooth {};
     }
     compare("smooth ride", &own, &along(&own)).agrees(0.01, 0.02);
 }
@@ -278,7 +282,7 @@ fn going_on_from_a_state_in_the_middle_is_the_same_bit_for_bit() {
     while sim.passage_steps() < 5 {
         sim.step().unwrap();
     }
-    sim.set(asperity::sim::Knob::ForceN, 1000.0).unwrap();
+    sim.set(asperity_engine::sim::Knob::ForceN, 1000.0).unwrap();
     // The smooth contact climbs no further grid here; it is done after 64 steps of its own.
     for _ in 0..30 {
         sim.step().unwrap();

@@ -3,9 +3,9 @@
 //! a line.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene, Surface};
-use asperity::sim::{CautionCode, Knob, LifeEstimate, Simulation, Stage, State};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene, Surface};
+use asperity_engine::sim::{CautionCode, Knob, LifeEstimate, Simulation, Stage, State};
 
 fn scene(name: &str, sets: &[&str]) -> Scene {
     let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();

@@ -2,8 +2,8 @@
 //! the equations of equilibrium. Every test prints the number that it asserts.
 
 use super::patch::{point_harmonics, rectangle_harmonics};
-use asperity::physics::invariants::Stress6;
-use asperity::physics::stress_exact::{hertz_axis_maximum, hertz_sliding, westergaard};
+use asperity_engine::physics::invariants::Stress6;
+use asperity_engine::physics::stress_exact::{hertz_axis_maximum, hertz_sliding, westergaard};
 
 const NU: f64 = 0.3;
 

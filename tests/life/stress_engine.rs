@@ -2,10 +2,10 @@
 //! Every test prints the numbers that it asserts.
 
 use super::patch::rectangle_harmonics;
-use asperity::physics::invariants::Stress6;
-use asperity::physics::stress_exact::hertz_sliding;
-use asperity::scene::StressMeasure;
-use asperity::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry};
+use asperity_engine::physics::invariants::Stress6;
+use asperity_engine::physics::stress_exact::hertz_sliding;
+use asperity_engine::scene::StressMeasure;
+use asperity_engine::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry};
 
 const NU: f64 = 0.3;
 

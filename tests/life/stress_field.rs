@@ -1,9 +1,9 @@
 //! The whole stress field, all six components, of both bodies and both tractions: against Hertz with
 //! sliding, against its mirror image, against equilibrium. Every test prints what it asserts.
 
-use asperity::physics::cycles::BodyId;
-use asperity::physics::stress_exact::hertz_sliding;
-use asperity::solve::stress::{
+use asperity_engine::physics::cycles::BodyId;
+use asperity_engine::physics::stress_exact::hertz_sliding;
+use asperity_engine::solve::stress::{
     Cut, Loading, Plane, SliceOut, StressEngine, StressLaw, StressSpec, Symmetry,
 };
 

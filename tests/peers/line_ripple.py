@@ -17,7 +17,7 @@ import numpy as np
 VISCOSITY, PRESSURE_VISCOSITY, ROELANDS = 0.04, 2.2e-8, 1.962e8
 MODULUS, RADIUS = 2.0566e11 / (1 - 0.3**2), 0.01  # E' of two equal steel bodies: 2/E' = 2 (1 - nu^2)/E
 CASES = {
-    # Scene of assets/evidence: load N/m, entrainment m/s, domain in b, wavelengths in b.
+    # Scene of src/engine/assets/evidence: load N/m, entrainment m/s, domain in b, wavelengths in b.
     "venner_1997_line": (1.10619e6, 0.67681, (-4.5, 1.5), (2, 0.5, 0.125)),
     "reference_line_m20": (1.828421e5, 0.462268, (-5.5, 2.5), (1,)),
 }

@@ -6,12 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
-use asperity::observe::rerun::{
-    ComparedBy, RecordedFrames, Recorder, RunBeside, RunsCompared, compare,
-};
-use asperity::observe::{Observer, Overwrite, RunContext};
-use asperity::scene::{Record, Scene};
-use asperity::sim::Frame;
+use asperity_engine::observe::{Observer, Overwrite, RunContext};
+use asperity_engine::scene::{Record, Scene};
+use asperity_engine::sim::Frame;
+use asperity_recorder::{ComparedBy, RecordedFrames, Recorder, RunBeside, RunsCompared, compare};
 
 use crate::common::synthetic;
 use crate::recording::Contents;
@@ -101,10 +99,10 @@ fn frames_come_back_with_scalars_to_the_bit_and_fields_in_half_precision() {
             (metrics.repeat, metrics.errors, metrics.asked) = (None, None, [0.0; 2]);
             if let Some(life) = &mut metrics.life {
                 let detail = life.detail;
-                life.detail = asperity::sim::LifeDetail {
+                life.detail = asperity_engine::sim::LifeDetail {
                     life_global: detail.life_global,
                     life_damage: detail.life_damage,
-                    ..asperity::sim::LifeDetail::default()
+                    ..asperity_engine::sim::LifeDetail::default()
                 };
             }
             (

@@ -7,9 +7,9 @@ use crate::common::synthetic;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use asperity::observe::rerun::{Recorded, Recorder, RereadError};
-use asperity::observe::{Observer, Overwrite, RunEvent, RunEventKind, SetBy};
-use asperity::scene::Record;
+use asperity_engine::observe::{Observer, Overwrite, RunEvent, RunEventKind, SetBy};
+use asperity_engine::scene::Record;
+use asperity_recorder::{Recorded, Recorder, RereadError};
 
 const STEPS: u64 = 24;
 

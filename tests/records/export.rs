@@ -2,7 +2,8 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::synthetic;
-use asperity::observe::{Export, Format, Observer, Overwrite};
+use asperity_engine::observe::{Observer, Overwrite};
+use asperity_picture::export::{Export, Format};
 
 const NODES: usize = 17;
 
@@ -101,10 +102,12 @@ mod from_a_recording {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::Duration;
 
-    use asperity::observe::rerun::{Gate, RecordedFrames, Recorder};
-    use asperity::observe::{Export, Format, Observer, Overwrite, PrintSize, RunContext, Table};
-    use asperity::scene::{Record, Scene};
-    use asperity::sim::Frame;
+    use asperity_engine::observe::{Observer, Overwrite, RunContext};
+    use asperity_engine::scene::{Record, Scene};
+    use asperity_engine::sim::Frame;
+    use asperity_picture::export::{Export, Format, PrintSize};
+    use asperity_recorder::{Gate, RecordedFrames, Recorder};
+    use asperity_session::Table;
 
     use crate::common::synthetic;
     use crate::recording::Contents;

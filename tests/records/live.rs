@@ -5,9 +5,10 @@
 use crate::common::synthetic;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 
-use asperity::observe::rerun::{Live, Recorder};
-use asperity::observe::{Observer, Overwrite, Queue, WhenFull};
-use asperity::scene::Record;
+use asperity_engine::observe::{Observer, Overwrite};
+use asperity_engine::scene::Record;
+use asperity_recorder::{Live, Recorder};
+use asperity_session::{Queue, WhenFull};
 
 const NODES: usize = 65;
 
@@ -63,7 +64,7 @@ fn a_frozen_viewer_loses_frames_and_the_file_none() {
     let steps = 400;
     let made = synthetic::frame(NODES, 1);
     for step in 1..=steps {
-        let mut frame = asperity::sim::Frame::clone(&made);
+        let mut frame = asperity_engine::sim::Frame::clone(&made);
         frame.step = step;
         let frame = std::sync::Arc::new(frame);
         live.frame(&frame).unwrap();

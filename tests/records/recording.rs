@@ -8,12 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
-use asperity::observe::rerun::Recorder;
-use asperity::observe::{
-    Observer, ObserverReport, Overwrite, Queue, RunEvent, RunEventKind, SetBy, WhenFull,
+use asperity_engine::observe::{
+    Observer, ObserverReport, Overwrite, RunEvent, RunEventKind, SetBy,
 };
-use asperity::scene::{Event, Record, Scene};
-use asperity::sim::{DamageBlock, Frame, Stage};
+use asperity_engine::scene::{Event, Record, Scene};
+use asperity_engine::sim::{DamageBlock, Frame, Stage};
+use asperity_recorder::Recorder;
+use asperity_session::{Queue, WhenFull};
 use re_chunk::Chunk;
 use re_log_encoding::{DecoderApp, RawRrdManifest};
 use rerun::Loggable as _;
@@ -1113,13 +1114,13 @@ fn the_recording_has_a_name_and_properties() {
     assert_eq!(contents.property("result", "life_extrapolated"), None);
 
     // What only the companion of the run tells comes after the end.
-    let summary = asperity::sim::Summary {
+    let summary = asperity_engine::sim::Summary {
         life_relative: Some(8e-9),
         life_extrapolated: Some(7.5e-9),
-        ..asperity::sim::Summary::default()
+        ..asperity_engine::sim::Summary::default()
     };
     let before = division(&path);
-    asperity::observe::rerun::note_summary(&path, &summary).unwrap();
+    asperity_recorder::note_summary(&path, &summary).unwrap();
     let contents = Contents::read(&path);
     assert_eq!(contents.property("result", "life_relative"), Some(8e-9));
     assert_eq!(

@@ -7,11 +7,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::common::keeper::{Kept, kept_request};
-use asperity::observe::rerun::{Recorded, Recorder};
-use asperity::observe::{Observer as _, Overwrite, Queue, RunContext, WhenFull};
-use asperity::run::{Command, Ending, HandTurn, Request, Session, Watcher};
-use asperity::scene::{Override, Record, Scene};
-use asperity::sim::Knob;
+use asperity_engine::observe::{Observer as _, Overwrite, RunContext};
+use asperity_engine::scene::{Override, Record, Scene};
+use asperity_engine::sim::Knob;
+use asperity_recorder::{Recorded, Recorder};
+use asperity_session::run::{Command, Ending, HandTurn, Request, Session, Watcher};
+use asperity_session::{Queue, WhenFull};
 
 fn request(scene: &Scene, record: Option<&Path>, ending: Ending) -> (Request, Kept) {
     let recording = record.map(|path| {
@@ -108,7 +109,7 @@ fn what_cannot_be_repeated_is_refused_in_words() {
         scene_toml: scene.to_toml(),
         plan_text: String::new(),
         program: "asperity".to_owned(),
-        began: asperity::observe::Began::FromScene,
+        began: asperity_engine::observe::Began::FromScene,
         scene: Arc::new(scene),
     };
     recorder.begin(&context).unwrap();
@@ -124,7 +125,7 @@ fn what_cannot_be_repeated_is_refused_in_words() {
     let path = folder.path().join("state.rrd");
     let mut recorder = Recorder::create(&path, Overwrite::Refuse, &Record::default()).unwrap();
     let context = RunContext {
-        began: asperity::observe::Began::FromState,
+        began: asperity_engine::observe::Began::FromState,
         ..context
     };
     recorder.begin(&context).unwrap();

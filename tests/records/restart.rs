@@ -2,10 +2,10 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::keeper::{bits, kept_request};
-use asperity::plan::Plan;
-use asperity::run::{Checkpoint, CheckpointError, End, Ending, Outcome, Session};
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation, State, Stats};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation, State, Stats};
+use asperity_session::run::{Checkpoint, CheckpointError, End, Ending, Outcome, Session};
 
 fn scene(sets: &[&str]) -> Scene {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use asperity::scene::presets;
+use asperity_engine::scene::presets;
 
 const ALL: [&str; 2] = ["--threads=1", "--force"];
 /// What a companion finds is no row.

@@ -11,10 +11,10 @@ use std::path::Path;
 use crate::common::keeper::{bits, kept_request};
 use crate::common::maps::{Shape, npy_f8};
 use crate::workspace::small;
-use asperity::plan::Plan;
-use asperity::run::{Checkpoint, Ending, Outcome, Request, Session, Watcher, share_out};
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Simulation, State};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Simulation, State};
+use asperity_session::run::{Checkpoint, Ending, Outcome, Request, Session, Watcher, share_out};
 
 const SHAPES: [(&str, &[&str]); 3] = [
     ("circle", &[]),
@@ -90,8 +90,8 @@ fn script(scene: &mut Scene) {
     let plan = Plan::new(scene).unwrap();
     let load = scene.force_n();
     let key = match scene.kind() {
-        asperity::scene::ContactKind::Point => "load.force_n",
-        asperity::scene::ContactKind::Line => "load.force_n_per_m",
+        asperity_engine::scene::ContactKind::Point => "load.force_n",
+        asperity_engine::scene::ContactKind::Line => "load.force_n_per_m",
     };
     for (at, key, value) in [(2.5, "motion.slide_roll", -0.3), (9.5, key, 0.8 * load)] {
         let event = format!(
@@ -150,7 +150,7 @@ fn frames(
     scene: &Scene,
     more: impl IntoIterator<Item = Watcher>,
     ending: Ending,
-    start: impl FnOnce(Request) -> Result<Session, asperity::run::RunError>,
+    start: impl FnOnce(Request) -> Result<Session, asperity_session::run::RunError>,
 ) -> (Vec<String>, Outcome) {
     let (request, kept) = kept_request(scene, 1, more, ending);
     let outcome = start(request).unwrap().join().unwrap();
@@ -188,9 +188,10 @@ fn cut_in_two(name: &str, scene: &Scene, steps: u64, folder: &Path) -> (Vec<Stri
 #[cfg(feature = "rerun")]
 mod recorded {
     use super::*;
-    use asperity::observe::rerun::{Recorded, Recorder};
-    use asperity::observe::{Overwrite, Queue, WhenFull};
-    use asperity::scene::Record;
+    use asperity_engine::observe::Overwrite;
+    use asperity_engine::scene::Record;
+    use asperity_recorder::{Recorded, Recorder};
+    use asperity_session::{Queue, WhenFull};
 
     pub(super) fn watcher(path: &Path) -> Vec<Watcher> {
         let recorder = Recorder::create(path, Overwrite::Refuse, &Record::default()).unwrap();
@@ -295,7 +296,7 @@ fn half(of: usize) {
 /// goes on from it.
 #[test]
 fn states_of_all_presets_load() {
-    for preset in asperity::scene::presets::all()
+    for preset in asperity_engine::scene::presets::all()
         .iter()
         .map(|preset| preset.name)
     {
@@ -339,8 +340,8 @@ pub(crate) fn scene_smooth(preset: &str) -> Scene {
     Scene::load_with(preset, &sets).unwrap()
 }
 
-pub(crate) fn lengthen(surface: &mut asperity::scene::Surface, least_m: f64) {
-    if let asperity::scene::Surface::Sinusoid {
+pub(crate) fn lengthen(surface: &mut asperity_engine::scene::Surface, least_m: f64) {
+    if let asperity_engine::scene::Surface::Sinusoid {
         wavelength_x_m,
         wavelength_y_m,
         ..

@@ -4,7 +4,7 @@
 
 use super::common::synthetic;
 use super::recording::{Contents, record_scene};
-use asperity::scene::Tooth;
+use asperity_engine::scene::Tooth;
 
 const NODES: usize = 33;
 const STEPS: u64 = 8;

@@ -7,9 +7,9 @@
 
 use crate::common::keeper::bits;
 use crate::restart_matrix::{cases, lengthen, scene_smooth};
-use asperity::plan::Plan;
-use asperity::scene::{ContactKind, Override, Scene, presets};
-use asperity::sim::{Frame, Knob, Simulation};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{ContactKind, Override, Scene, presets};
+use asperity_engine::sim::{Frame, Knob, Simulation};
 
 /// A preset on few nodes, its waves as long as those resolve.
 pub(crate) fn small(preset: &str, sets: &[&str]) -> Scene {

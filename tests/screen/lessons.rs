@@ -3,11 +3,11 @@
 #![cfg(feature = "tui")]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{ContactKind, Scene};
-use asperity::sim::{Frame, Simulation, Stage};
-use asperity::tui::dial::dials;
-use asperity::tui::lessons::{Claim, FILES, Lesson, LessonFigure};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{ContactKind, Scene};
+use asperity_engine::sim::{Frame, Simulation, Stage};
+use asperity_explorer::tui::dial::dials;
+use asperity_explorer::tui::lessons::{Claim, FILES, Lesson, LessonFigure};
 
 /// Point contacts take half the nodes of the explorer: the claims are no finer than that.
 fn coarse(mut scene: Scene) -> Scene {

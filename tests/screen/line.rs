@@ -8,11 +8,11 @@ use std::time::Instant;
 
 use crate::common::pty::Terminal as Shell;
 use crate::common::tui_fixture::{State, app, play, theme};
-use asperity::tui::TerminalLine;
-use asperity::tui::action::Action;
-use asperity::tui::app::App;
-use asperity::tui::theme::{ColorDepth, Glyphs};
-use asperity::tui::view;
+use asperity_explorer::tui::TerminalLine;
+use asperity_explorer::tui::action::Action;
+use asperity_explorer::tui::app::App;
+use asperity_explorer::tui::theme::{ColorDepth, Glyphs};
+use asperity_explorer::tui::view;
 use ratatui::backend::CrosstermBackend;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};

@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod formula;
 mod lessons;
 mod line;
 mod memory;

@@ -8,15 +8,15 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::common::tui_fixture::{plain, setup_planned};
-use asperity::physics::cycles::{BodyId, Kinematics};
-use asperity::plan::Plan;
-use asperity::run::Command;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, Knob, Metrics, Simulation, Stage};
-use asperity::tui::action::Action;
-use asperity::tui::app::{App, Effect, Leading};
-use asperity::tui::units::sig;
-use asperity::tui::view;
+use asperity_engine::physics::cycles::{BodyId, Kinematics};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Knob, Metrics, Simulation, Stage};
+use asperity_explorer::tui::action::Action;
+use asperity_explorer::tui::app::{App, Effect, Leading};
+use asperity_explorer::tui::units::sig;
+use asperity_explorer::tui::view;
+use asperity_session::run::Command;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 

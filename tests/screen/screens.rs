@@ -9,14 +9,14 @@ use std::time::Duration;
 use crate::common::tui_fixture::{
     State, app, buffer, found, frame, plain, play, running, sent, settled, text, theme,
 };
-use asperity::run::Command;
-use asperity::scene::Surface;
-use asperity::sim::Frame;
-use asperity::tui::action::{Action, KEYS};
-use asperity::tui::app::{App, Effect, MapKind, PanelKind};
-use asperity::tui::pixels::Pixels;
-use asperity::tui::theme::{ColorDepth, Glyphs, Theme};
-use asperity::tui::{Health, RunStatus, view};
+use asperity_engine::scene::Surface;
+use asperity_engine::sim::Frame;
+use asperity_explorer::tui::action::{Action, KEYS};
+use asperity_explorer::tui::app::{App, Effect, MapKind, PanelKind};
+use asperity_explorer::tui::pixels::Pixels;
+use asperity_explorer::tui::theme::{ColorDepth, Glyphs, Theme};
+use asperity_explorer::tui::{Health, RunStatus, view};
+use asperity_session::run::Command;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::layout::Rect;

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::common::keeper::{Kept, kept_request};
-use asperity::plan::Plan;
-use asperity::run::{Command, End, Ending, Request, Session, Settled};
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Follow, Frame, Knob, Simulation, Stage, State};
-use asperity::sweep::{Along, Background, CaseStart, CurveOrder, Found, Ground};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Follow, Frame, Knob, Simulation, Stage, State};
+use asperity_session::run::{Command, End, Ending, Request, Session, Settled};
+use asperity_session::sweep::{Along, Background, CaseStart, CurveOrder, Found, Ground};
 
 fn small() -> Scene {
     scene(&["grid.nodes=65", "stress.depths=8"])
@@ -357,9 +357,9 @@ fn time_from_a_turn_of_s_to_its_life() {
 #[ignore = "prints a ratio of times"]
 fn drawing_costs_the_simulation() {
     use crate::common::tui_fixture::setup_planned;
-    use asperity::tui::app::App;
-    use asperity::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-    use asperity::tui::view;
+    use asperity_explorer::tui::app::App;
+    use asperity_explorer::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
+    use asperity_explorer::tui::view;
     use ratatui::backend::CrosstermBackend;
     use ratatui::layout::Rect;
     use ratatui::{Terminal, TerminalOptions, Viewport};

@@ -9,14 +9,14 @@ use std::time::Duration;
 use crate::common::tui_fixture::{
     self, State, buffer, found, mouse, plain, play, running, scene, sent, settled, setup_of, text,
 };
-use asperity::run::{Command, Settled};
-use asperity::scene::{Event, Scene, Surface};
-use asperity::sim::Knob;
-use asperity::sweep::Along;
-use asperity::tui::action::Action;
-use asperity::tui::app::{App, Effect, ErrandKind, Leading};
-use asperity::tui::event::PointerAct;
-use asperity::tui::view;
+use asperity_engine::scene::{Event, Scene, Surface};
+use asperity_engine::sim::Knob;
+use asperity_explorer::tui::action::Action;
+use asperity_explorer::tui::app::{App, Effect, ErrandKind, Leading};
+use asperity_explorer::tui::event::PointerAct;
+use asperity_explorer::tui::view;
+use asperity_session::run::{Command, Settled};
+use asperity_session::sweep::Along;
 use ratatui::layout::Rect;
 
 /// The run hears of a knob one step later than the screen, and until then it still tells of the orbit that the
@@ -332,12 +332,12 @@ fn the_material_point_is_chosen_by_body_depth_and_place() {
 }
 
 /// A state to go on from: the explorer only hands it on.
-fn state() -> asperity::sim::State {
-    use asperity::plan::Plan;
+fn state() -> asperity_engine::sim::State {
+    use asperity_engine::plan::Plan;
     let sets = ["grid.nodes=65", "stress.depths=8"].map(|set| set.parse().unwrap());
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();
-    asperity::sim::Simulation::new(&scene, plan, 1)
+    asperity_engine::sim::Simulation::new(&scene, plan, 1)
         .unwrap()
         .save()
 }

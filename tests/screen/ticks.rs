@@ -3,10 +3,10 @@
 #![cfg(feature = "tui")]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::{Frame, MaterialPoint, Simulation, Stage};
-use asperity::tui::trace::Trace;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, MaterialPoint, Simulation, Stage};
+use asperity_explorer::tui::trace::Trace;
 
 /// Rainflow's gate, p_h.
 const GATE: f64 = 0.05;

@@ -2,17 +2,17 @@
 #![cfg(feature = "tui")]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity::plan::Plan;
-use asperity::scene::{Override, Scene};
-use asperity::sim::Knob;
-use asperity::tui::action::Action;
-use asperity::tui::app::{App, Leading};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::Knob;
+use asperity_explorer::tui::action::Action;
+use asperity_explorer::tui::app::{App, Leading};
 use ratatui::layout::Rect;
 
 use super::numbers::Bench;
 use crate::common::tui_fixture::{State, mouse, plain, play, running, text};
-use asperity::tui::event::PointerAct;
-use asperity::tui::view;
+use asperity_explorer::tui::event::PointerAct;
+use asperity_explorer::tui::view;
 
 /// The fixture by hand: n = 1 + 2 · 2.2 · |S|/(1 − S/2), cycles 1/n; peaks and traction stay.
 #[test]
@@ -153,7 +153,7 @@ fn what_a_knob_changes_is_what_two_cold_runs_differ_by() {
     }
 }
 
-fn type_in(app: &mut App, letters: &str) -> Vec<asperity::tui::app::Effect> {
+fn type_in(app: &mut App, letters: &str) -> Vec<asperity_explorer::tui::app::Effect> {
     app.apply(Action::Type);
     for letter in letters.chars() {
         assert_eq!(app.apply(Action::Letter(letter)), []);

@@ -8,11 +8,11 @@ use std::time::Duration;
 use crate::common::tui_fixture::{
     self, State, app, buffer, frame, plain, play, running, scene, settled, setup_of, text, theme,
 };
-use asperity::scene::CycleBasis;
-use asperity::sim::{Frame, LubricationRegime, Metrics, Repeat, Rhythm, Stage};
-use asperity::tui::action::Action;
-use asperity::tui::app::{App, ErrandKind};
-use asperity::tui::theme::{ColorDepth, Contrast, Glyphs, Theme};
+use asperity_engine::scene::CycleBasis;
+use asperity_engine::sim::{Frame, LubricationRegime, Metrics, Repeat, Rhythm, Stage};
+use asperity_explorer::tui::action::Action;
+use asperity_explorer::tui::app::{App, ErrandKind};
+use asperity_explorer::tui::theme::{ColorDepth, Contrast, Glyphs, Theme};
 use ratatui::style::Color;
 
 /// Lets the app take a frame of the fixture with other metrics.
@@ -139,7 +139,7 @@ fn what_a_standing_body_means_follows_the_count() {
         let mut scene = scene();
         scene.life = scene
             .life
-            .map(|life| asperity::scene::Life { cycles, ..life });
+            .map(|life| asperity_engine::scene::Life { cycles, ..life });
         let mut app = App::new(setup_of(scene), vec![ErrandKind::Rebuild], plain());
         play(&mut app, 97..=98, &state);
         for (width, height) in [(160, 48), (80, 24)] {

@@ -17,7 +17,7 @@ asked for, which needs `pip install playwright` and Chromium (`--chromium PATH`)
 
 The viewer knows no command for choosing a tab, so the recording's own layout is sent to it once per
 tab with that tab made the active one. The layout's cameras and bounds rest on a convention of the
-viewer (`src/observe/rerun/layout.rs`): if a picture shows the default camera, it no longer holds.
+viewer (`src/recorder/layout.rs`): if a picture shows the default camera, it no longer holds.
 """
 
 import argparse

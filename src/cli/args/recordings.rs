@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::observe::Format;
+use asperity_picture::export::Format;
 use clap::Args;
 
 /// What to put side by side.

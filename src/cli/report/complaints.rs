@@ -1,7 +1,7 @@
 //! What went wrong with a run, in words.
 
-use asperity::math::number::counted;
-use asperity::run::{End, Outcome};
+use asperity_engine::math::number::counted;
+use asperity_session::run::{End, Outcome};
 
 /// What went wrong, for stderr; empty when nothing did.
 pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {

@@ -1,8 +1,8 @@
 //! What the report says of the life.
 
-use asperity::math::number::sig;
-use asperity::scene::Scene;
-use asperity::sim::Summary;
+use asperity_engine::math::number::sig;
+use asperity_engine::scene::Scene;
+use asperity_engine::sim::Summary;
 
 use super::{four, line, load};
 

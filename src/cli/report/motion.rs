@@ -1,7 +1,7 @@
 //! How the bodies move, as the scene says: titles do not know what `--set` changed.
 
-use asperity::math::number::sig;
-use asperity::scene::Scene;
+use asperity_engine::math::number::sig;
+use asperity_engine::scene::Scene;
 
 /// S and the speeds of both bodies.
 pub(super) fn text(scene: &Scene) -> String {

@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use super::row::{AccuracyRow, Against, StudiedPart, Varied, against_finest, timed};
-use crate::solve::material::{Line, MaterialTracker, TrackerSpec};
+use asperity_engine::solve::material::{Line, MaterialTracker, TrackerSpec};
 
 const SPEEDS: (f64, f64) = (1.0, 2.0);
 const WAVELENGTH: f64 = 0.1;

@@ -8,9 +8,9 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use super::super::{Extent, StudyError, StudyProgress};
-use crate::plan::Plan;
-use crate::scene::{Order, Override, Scene, presets};
-use crate::sim::{Frame, Simulation, Stage, Summary};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Order, Override, Scene, presets};
+use asperity_engine::sim::{Frame, Simulation, Stage, Summary};
 
 /// The name of this part.
 pub const DEFAULT_PART: &str = "default scene";

@@ -9,11 +9,11 @@
 use std::f64::consts::PI;
 
 use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, timed};
-use crate::math::grid::{Grid, Symmetry};
-use crate::solve::film::Elastic;
-use crate::solve::march::{Conditions, Flow, Guess, March, Shape};
-use crate::solve::newton::{NewtonReport, Tolerance, Verdict};
-use crate::solve::reynolds::Medium;
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::solve::film::Elastic;
+use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
+use asperity_engine::solve::newton::{NewtonReport, Tolerance, Verdict};
+use asperity_engine::solve::reynolds::Medium;
 
 /// ∬p of Hertz.
 pub(super) const LOAD: f64 = 2.0 * PI / 3.0;

@@ -5,9 +5,9 @@
 //! measured against what all of them tend to, which is what the recommendation goes by.
 
 use super::row::{AccuracyRow, Against, StudiedPart, Varied, against_finest, timed};
-use crate::plan::Plan;
-use crate::scene::{Override, Scene};
-use crate::sim::{Simulation, Summary};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Simulation, Summary};
 
 /// Settings of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Work-precision diagrams.
 
 use super::{Accuracy, LEVELS, LifeRun, StudiedPart, Varied};
-use crate::observe::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
+use asperity_picture::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
 
 /// Error against time over the nodes (cycles: the samples), one curve a part.
 ///

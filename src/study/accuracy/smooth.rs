@@ -8,11 +8,11 @@ use std::f64::consts::PI;
 
 use super::hertz::LOAD;
 use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, against_finest, timed};
-use crate::math::grid::{Grid, Symmetry};
-use crate::physics::fluid::{Density, Viscosity};
-use crate::solve::march::{Conditions, Flow, Guess, March, Shape};
-use crate::solve::newton::{Tolerance, Verdict};
-use crate::solve::reynolds::Medium;
+use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::physics::fluid::{Density, Viscosity};
+use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
+use asperity_engine::solve::newton::{Tolerance, Verdict};
+use asperity_engine::solve::reynolds::Medium;
 
 const M: f64 = 20.0;
 const L: f64 = 10.0;

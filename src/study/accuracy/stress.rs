@@ -5,8 +5,8 @@
 //! field). The stress engine works in single precision.
 
 use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, timed};
-use crate::physics::stress_exact::{hertz_axis_maximum, hertz_sliding};
-use crate::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry};
+use asperity_engine::physics::stress_exact::{hertz_axis_maximum, hertz_sliding};
+use asperity_engine::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry};
 
 const POISSON: f64 = 0.3;
 const FRICTION: f64 = 0.1;

@@ -1,9 +1,9 @@
 //! A dent that rides through once: films of the smooth contact, and round the dent where the paper shows it.
 
 use super::set::Values;
-use crate::plan::Plan;
-use crate::scene::{Scene, Surface};
-use crate::sim::{Frame, Simulation, Stage};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Scene, Surface};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// Place of the dent's centre in the paper's figure, m.
 const SHOWN_AT_M: f64 = -48e-6;

@@ -9,9 +9,9 @@ use std::f64::consts::TAU;
 
 use rustfft::num_complex::Complex;
 
-use crate::plan::Plan;
-use crate::scene::Scene;
-use crate::sim::{Frame, Simulation, Stage};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::Scene;
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// Periods that are read.
 const PERIODS: f64 = 4.0;

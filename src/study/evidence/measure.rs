@@ -7,11 +7,11 @@ use rustfft::num_complex::Complex;
 use super::dent::dent;
 use super::fit::{FittedWaves, read};
 use super::set::{EvidenceCase, Measure, Values, planned};
-use crate::physics::film_ripple::FlatFilm;
-use crate::physics::fluid::{Density, Viscosity};
-use crate::plan::Plan;
-use crate::scene::{Order, Scene, Surface};
-use crate::sim::{Simulation, Summary};
+use asperity_engine::physics::film_ripple::FlatFilm;
+use asperity_engine::physics::fluid::{Density, Viscosity};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Order, Scene, Surface};
+use asperity_engine::sim::{Simulation, Summary};
 
 /// Reach of the rows that are read, a: waves alone, two waves (both of a length or longer), a low ripple.
 const WAVE_REACH: f64 = 0.25;

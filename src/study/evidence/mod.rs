@@ -2,7 +2,7 @@
 //!
 //! Computations are solved on two grids and extrapolated with the order q of the scheme, h* = h + (h − h₂)/(2^q − 1); experiments
 //! are compared by rank, ratio, depth and place, by every way of counting cycles that the program has. What is compared
-//! stands in `assets/studies/evidence.toml`, each case a scene in `assets/evidence`. A disagreement is printed with its
+//! stands in `assets/studies/evidence.toml`, each case a scene in `src/engine/assets/evidence`. A disagreement is printed with its
 //! most likely cause.
 
 mod dent;
@@ -26,8 +26,8 @@ pub use tried::{Judged, Tried, TriedDamage, word};
 use std::time::Instant;
 
 use super::{Extent, StudyError, StudyProgress, refuse_nothing};
-use crate::run::share_out;
-use crate::scene::CycleBasis;
+use asperity_engine::scene::CycleBasis;
+use asperity_session::run::share_out;
 
 /// A number of a case.
 #[derive(Debug, Clone, PartialEq)]

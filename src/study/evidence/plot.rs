@@ -2,8 +2,8 @@
 
 use super::tried::{Tried, word};
 use super::{Evidence, Grade};
-use crate::observe::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
-use crate::scene::CycleBasis;
+use asperity_engine::scene::CycleBasis;
+use asperity_picture::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
 
 /// Found against theirs, one colour a grade; the line is agreement.
 ///

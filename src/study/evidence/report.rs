@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::super::table::{MarkdownTable, figure};
 use super::tried::{Judged, Tried, word};
 use super::{Evidence, EvidenceRow};
-use crate::scene::CycleBasis;
+use asperity_engine::scene::CycleBasis;
 
 /// What a disagreement without a known cause is told by.
 const UNKNOWN: &str = "no cause is known";

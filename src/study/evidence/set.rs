@@ -3,8 +3,8 @@
 use serde::Deserialize;
 
 use super::super::Extent;
-use crate::plan::Plan;
-use crate::scene::{Override, Scene};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
 
 /// The set, as it stands in the program.
 const SET: &str = include_str!("../../../assets/studies/evidence.toml");
@@ -95,7 +95,7 @@ pub struct EvidenceCase {
     pub grade: Grade,
     /// Source.
     pub source: String,
-    /// Scene of `assets/evidence`.
+    /// Scene of `src/engine/assets/evidence`.
     pub scene: String,
     /// Keys set on top.
     #[serde(default)]
@@ -126,7 +126,7 @@ impl EvidenceCase {
 pub struct EvidencePoint {
     /// Name.
     pub label: String,
-    /// Scene of `assets/evidence`.
+    /// Scene of `src/engine/assets/evidence`.
     pub scene: String,
     /// Keys set on top.
     #[serde(default)]

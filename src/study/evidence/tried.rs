@@ -2,8 +2,8 @@
 
 use super::measure::{on_grid, run};
 use super::set::{Comparison, EvidenceClaim, EvidencePoint, Experiment};
-use crate::scene::{CycleBasis, Scene, Surface};
-use crate::sim::{Frame, Simulation, Stage};
+use asperity_engine::scene::{CycleBasis, Scene, Surface};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// A ratio above it counts as a rank: what mesh and phases leave of a life that goes with a tenth power of the stress.
 const MORE: f64 = 1.1;
@@ -141,7 +141,7 @@ pub(super) fn damage(
 
 /// Greatest effective stress of a passage at a depth of body 1, Pa.
 fn stress_at(scene: &Scene, depth_m: f64) -> Result<f64, String> {
-    let plan = crate::plan::Plan::new(scene).map_err(|error| error.to_string())?;
+    let plan = asperity_engine::plan::Plan::new(scene).map_err(|error| error.to_string())?;
     let steps = plan.steps_per_passage;
     let mut sim = Simulation::new(scene, plan, 1).map_err(|error| error.to_string())?;
     let mut frame = Frame::default();

@@ -11,10 +11,10 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::physics::hertz::Hertz;
-use crate::plan::Plan;
-use crate::scene::{Event, Override, Scene};
-use crate::sim::Knob;
+use asperity_engine::physics::hertz::Hertz;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Event, Override, Scene};
+use asperity_engine::sim::Knob;
 
 /// Step of the passage at which knobs are turned, as a share of it.
 pub(super) const JUMP_AT: f64 = 0.125;
@@ -291,8 +291,12 @@ fn waves(case: &Case, plan: &Plan, t: f64, nodes: f64) -> Vec<String> {
         format!("body_1.surface.amplitude_m={amplitude_m:e}"),
         format!("body_2.surface.amplitude_m={amplitude_m:e}"),
         match plan.kind {
-            crate::scene::ContactKind::Line => "body_2.surface.wavelength_y_m=inf".to_owned(),
-            crate::scene::ContactKind::Point => format!("body_2.surface.wavelength_y_m={wave_y:e}"),
+            asperity_engine::scene::ContactKind::Line => {
+                "body_2.surface.wavelength_y_m=inf".to_owned()
+            }
+            asperity_engine::scene::ContactKind::Point => {
+                format!("body_2.surface.wavelength_y_m={wave_y:e}")
+            }
         },
     ]
 }

@@ -7,9 +7,9 @@
 //! goes), the oil under the Hertz ellipse ∬h, and the power of friction μ w U|S|. The standard error of the slope
 //! stands beside it: windows do not hold whole periods, so their means scatter.
 
-use crate::plan::Plan;
-use crate::scene::{Override, Scene, presets};
-use crate::sim::{Frame, Simulation, Stage};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene, presets};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// Names of the sums.
 const SUMS: [&str; 4] = ["load", "p²", "oil", "friction power"];

@@ -18,7 +18,7 @@ pub use trial::{Trial, TrialEnd};
 
 use super::table::{MarkdownTable, figure};
 use super::{Extent, StudyError, StudyProgress, refuse_nothing};
-use crate::run::share_out;
+use asperity_session::run::share_out;
 
 /// A case and how it went.
 #[derive(Debug, Clone, PartialEq)]

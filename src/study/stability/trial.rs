@@ -3,9 +3,9 @@
 use std::time::Instant;
 
 use super::case::{JUMP_AT, Ready};
-use crate::plan::{TimeDependence, mesh_error};
-use crate::scene::ContactKind;
-use crate::sim::{Frame, Simulation, Stage, Stats};
+use asperity_engine::plan::{TimeDependence, mesh_error};
+use asperity_engine::scene::ContactKind;
+use asperity_engine::sim::{Frame, Simulation, Stage, Stats};
 
 /// Linear iterations and steps that a case may take.
 const MOST_LINEAR: u64 = 400_000;

@@ -3,7 +3,7 @@
 rustc="$1"
 shift
 case " $* " in
-*" --crate-name asperity "* | *" --crate-name toml "* | *" --crate-name fuzz "*)
+*" --crate-name asperity_"* | *" --crate-name toml "* | *" --crate-name fuzz "*)
     case " $* " in
     *build.rs*) ;;
     *)

@@ -6,12 +6,12 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use asperity::observe::rerun::Recorded;
-use asperity::plan::Plan;
-use asperity::run::Checkpoint;
-use asperity::scene::{Override, Scene};
-use asperity::sim::Simulation;
-use asperity::sweep::Sweep;
+use asperity_recorder::Recorded;
+use asperity_engine::plan::Plan;
+use asperity_session::run::Checkpoint;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::Simulation;
+use asperity_session::sweep::Sweep;
 use libfuzzer_sys::fuzz_target;
 
 #[path = "../../forged.rs"]

@@ -1,0 +1,10 @@
+//! Files, safely: plain ones are read and never more of them than asked for; new ones are written whole or not at
+//! all; digests.
+
+mod digest;
+mod read;
+mod write;
+
+pub use digest::{FnvHasher, fnv};
+pub use read::{open_plain, read_up_to};
+pub use write::{folder_of, identity, part_of, publish, sync_file, sync_folder, write_whole};

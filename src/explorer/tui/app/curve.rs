@@ -1,0 +1,176 @@
+//! What was simulated where: settled lives and frictions of the run and of the sweep beside it, and which of
+//! them stand on a curve against S or against the speed.
+//!
+//! A point holds for one S, speed, load and pair of amplitudes. A curve along one of the first two takes the
+//! points that agree with the knobs in all else, so that a knob that is turned empties it at once, and fills it
+//! again when it is turned back.
+
+use crate::tui::app::{App, CurveKind, Effect};
+use asperity_engine::sim::{Knob, Metrics};
+use asperity_session::sweep::{Along, CurveOrder, CurvePoint, Found};
+
+/// Values of S that a sweep visits, of either sign: close where life falls fastest.
+const SWEPT: [f64; 10] = [0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
+/// Values of S that are as good as the same.
+const SAME_S: f64 = 0.02;
+/// Speeds that a sweep visits to either side of the scene's own, four to a decade.
+const SPEEDS: i32 = 4;
+/// Ratio of speeds that are as good as the same.
+const SAME_SPEED: f64 = 0.05;
+/// Points kept.
+const KEPT: usize = 128;
+
+/// Mean friction of the frames since the life has settled: within a period it comes and goes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct MeanFriction {
+    sum: f64,
+    frames: f64,
+}
+
+impl MeanFriction {
+    pub(super) fn add(&mut self, friction: f64) -> f64 {
+        self.sum += friction;
+        self.frames += 1.0;
+        self.sum / self.frames
+    }
+}
+
+/// Where a frame was computed.
+pub(super) fn conditions(metrics: &Metrics) -> CurvePoint {
+    CurvePoint {
+        slide_roll: metrics.slide_roll,
+        entrainment_m_s: metrics.entrainment_m_s,
+        load_n: metrics.load_n,
+        amplitude_m: [metrics.amplitude_1_m, metrics.amplitude_2_m],
+    }
+}
+
+fn close(one: f64, other: f64, within: f64) -> bool {
+    (one - other).abs() <= within * one.abs().max(other.abs())
+}
+
+/// Load and both surfaces.
+fn same_contact(one: &CurvePoint, other: &CurvePoint) -> bool {
+    const ROUNDED: f64 = 1e-3;
+    let [a, b] = [one, other].map(|at| [at.load_n, at.amplitude_m[0], at.amplitude_m[1]]);
+    a.into_iter().zip(b).all(|(a, b)| close(a, b, ROUNDED))
+}
+
+impl App {
+    /// Where the knobs are going.
+    fn aim(&self) -> CurvePoint {
+        CurvePoint {
+            slide_roll: self.target(Knob::SlideRoll),
+            entrainment_m_s: self.target(Knob::EntrainmentMS),
+            // A scene has a dial for one of the two.
+            load_n: self.target(Knob::ForceN) + self.target(Knob::ForceNPerM),
+            amplitude_m: [Knob::Amplitude1M, Knob::Amplitude2M].map(|knob| self.target(knob)),
+        }
+    }
+
+    /// What was simulated along one line through the knobs' targets.
+    pub fn simulated(&self, along: Along) -> impl Iterator<Item = &Found> {
+        let aim = self.aim();
+        self.simulated.iter().filter(move |found| {
+            let on_the_line = match along {
+                Along::SlideRoll => close(found.at.entrainment_m_s, aim.entrainment_m_s, 1e-3),
+                Along::Entrainment => (found.at.slide_roll - aim.slide_roll).abs() < 1e-3,
+            };
+            on_the_line && same_contact(&found.at, &aim)
+        })
+    }
+
+    /// All that was simulated in this sitting.
+    pub(crate) fn all_simulated(&self) -> impl Iterator<Item = &Found> {
+        self.simulated.iter()
+    }
+
+    /// The newer of two points in the same place stays.
+    pub(super) fn keep_point(&mut self, new: Found) {
+        self.simulated.retain(|old| {
+            let (old, new) = (&old.at, &new.at);
+            !same_contact(old, new)
+                || (old.slide_roll - new.slide_roll).abs() > SAME_S
+                || !close(old.entrainment_m_s, new.entrainment_m_s, SAME_SPEED)
+        });
+        if self.simulated.len() == KEPT {
+            self.simulated.remove(0);
+        }
+        self.simulated.push(new);
+    }
+
+    /// Takes what a sweep has found; `progress`: values done and in all, `None` when there is no sweep.
+    pub fn take_swept(&mut self, found: Vec<Found>, progress: Option<(usize, usize)>) {
+        self.sweep = progress.filter(|(done, all)| done < all);
+        for point in found {
+            self.keep_point(point);
+        }
+    }
+
+    /// Asks for what is missing on the curve that is shown.
+    pub(super) fn begin_sweep(&mut self) -> Vec<Effect> {
+        if self.held().is_none_or(|held| held.state.is_none()) {
+            return Vec::new();
+        }
+        let along = self.curve.along();
+        let known = |value: f64| {
+            self.simulated(along).any(|found| match along {
+                Along::SlideRoll => (found.at.slide_roll - value).abs() <= SAME_S,
+                Along::Entrainment => close(found.at.entrainment_m_s, value, SAME_SPEED),
+            })
+        };
+        let values: Vec<f64> = self.candidates(along).filter(|v| !known(*v)).collect();
+        if values.is_empty() {
+            return Vec::new();
+        }
+        self.sweeping = along;
+        let scene = self.scene_now();
+        vec![Effect::Sweep(Box::new(CurveOrder {
+            along,
+            values,
+            scene,
+        }))]
+    }
+
+    /// Values within the knob's range.
+    fn candidates(&self, along: Along) -> impl Iterator<Item = f64> {
+        let knob = match along {
+            Along::SlideRoll => Knob::SlideRoll,
+            Along::Entrainment => Knob::EntrainmentMS,
+        };
+        let dial = self.dials.iter().find(|dial| dial.knob == knob);
+        let mut values: Vec<f64> = match along {
+            Along::SlideRoll => SWEPT.iter().flat_map(|s| [*s, -*s]).collect(),
+            Along::Entrainment => {
+                let home = dial.map_or(1.0, |dial| dial.home);
+                let ratio = |k: i32| 10.0_f64.powf(f64::from(k) / f64::from(SPEEDS));
+                (-SPEEDS..=SPEEDS).map(|k| home * ratio(k)).collect()
+            }
+        };
+        values.dedup();
+        let range = dial.map_or([0.0, 0.0], |dial| [dial.min, dial.max]);
+        values
+            .into_iter()
+            .filter(move |value| (range[0]..=range[1]).contains(value))
+    }
+
+    /// The next curve; what it lacks is computed.
+    pub(super) fn next_curve(&mut self) -> Vec<Effect> {
+        let before = self.curve.along();
+        self.curve = self.curve.next();
+        if self.curve.along() == before {
+            return Vec::new();
+        }
+        self.begin_sweep()
+    }
+}
+
+impl CurveKind {
+    /// What it goes along.
+    pub fn along(self) -> Along {
+        match self {
+            Self::Life | Self::Friction => Along::SlideRoll,
+            Self::Stribeck => Along::Entrainment,
+        }
+    }
+}

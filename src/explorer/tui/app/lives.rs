@@ -1,0 +1,88 @@
+//! The life that leads, by its source: simulated, scaled from what was, or the formula alone.
+
+use crate::tui::app::{App, Leading, point_of};
+use crate::tui::dial::Dial;
+use asperity_engine::physics::estimate::{Anchor, Factors, OperatingPoint};
+use asperity_engine::sim::{Caution, LifeEstimate, Stage};
+
+impl App {
+    /// What to know before trusting the frame's numbers, the weightiest first.
+    pub fn cautions(&self) -> Vec<Caution> {
+        self.frame()
+            .filter(|frame| frame.stage == Stage::Passage)
+            .map_or_else(Vec::new, |frame| frame.cautions())
+    }
+
+    /// Which number leads: what was simulated, where that holds for where the knobs are.
+    pub fn leading(&self) -> Leading {
+        let settled = self.life().is_some_and(|life| life.settled);
+        if settled && !self.dials.iter().any(Dial::is_moving) {
+            Leading::Simulated
+        } else if self.anchor.is_some() {
+            Leading::Scaled
+        } else {
+            Leading::Formula
+        }
+    }
+
+    /// The factors of the life that leads; `None`: the scene computes no life.
+    pub fn leading_factors(&self) -> Option<Factors> {
+        self.setup.scene.life.as_ref()?;
+        match (self.leading(), self.life()) {
+            (Leading::Simulated, Some(life)) => Some(simulated(&life)),
+            _ => Some(self.estimate.best()),
+        }
+    }
+
+    /// The relative life that leads.
+    pub fn leading_life(&self) -> Option<f64> {
+        match (self.leading(), self.life()) {
+            (Leading::Simulated, Some(life)) => Some(life.life_relative),
+            _ => self.leading_factors()?.life(),
+        }
+    }
+
+    /// Life now over life pinned, what the load costs included.
+    pub fn against_pinned(&self) -> Option<f64> {
+        let pinned = self.pinned?;
+        let now = self.leading_life()? * self.leading_factors()?.load;
+        Some(now / (pinned.life_relative * pinned.load_factor))
+    }
+
+    /// Life at another S by formula, all else as the knobs are.
+    pub fn formula_at(&self, slide_roll: f64) -> Option<f64> {
+        self.loaded.factors(&self.basis, slide_roll).life()
+    }
+
+    pub(super) fn refresh_estimate(&mut self) {
+        let point = point_of(&self.dials);
+        if !self.loaded.holds_at(&point) {
+            self.loaded = self.basis.loaded(&point);
+        }
+        self.estimate = self
+            .basis
+            .estimate(&self.loaded, self.anchor.as_ref(), &point);
+    }
+
+    /// Lives are scaled from this one from now on.
+    pub(super) fn drop_anchor(&mut self, at: &OperatingPoint, life: &LifeEstimate) {
+        let known = [Some(self.loaded), self.anchor.map(|anchor| anchor.loaded)];
+        let known = known.into_iter().flatten().find(|one| one.holds_at(at));
+        let loaded = known.unwrap_or_else(|| self.basis.loaded(at));
+        self.anchor = Some(Anchor::new(
+            &self.basis,
+            loaded,
+            at.slide_roll,
+            simulated(life),
+        ));
+    }
+}
+
+fn simulated(life: &LifeEstimate) -> Factors {
+    Factors {
+        cycle: Some(life.cycle_factor),
+        peak: life.peak_factor,
+        traction: life.traction_factor,
+        load: life.load_factor,
+    }
+}

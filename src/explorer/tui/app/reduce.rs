@@ -1,0 +1,318 @@
+//! What an action does.
+
+use crate::tui::action::{Action, KEYS};
+use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pinned, RunPace, Zoom};
+use crate::tui::choice::Form;
+use crate::tui::dial::DialState;
+use asperity_engine::sim::Knob;
+use asperity_session::run::Command;
+
+impl App {
+    /// Does what an action asks, and says what the loop has to do about it.
+    pub fn apply(&mut self, action: Action) -> Vec<Effect> {
+        let effects = self.applied(action);
+        self.keep_ghost_alike();
+        effects
+    }
+
+    fn applied(&mut self, action: Action) -> Vec<Effect> {
+        if let Some(effects) = self.draft_takes(action) {
+            return effects;
+        }
+        if let Some(effects) = self.typed(action).or_else(|| self.lessons_take(action)) {
+            return effects;
+        }
+        match action {
+            Action::Quit => vec![Effect::Quit],
+            Action::Suspend => vec![Effect::Suspend],
+            Action::ChooseNext | Action::ChoosePrevious if self.overlay != Overlay::None => {
+                self.scroll(action);
+                Vec::new()
+            }
+            Action::ChooseNext => self.choose(self.chosen + 1),
+            Action::ChoosePrevious => self.choose(self.chosen + self.dials.len() - 1),
+            Action::Choose(place) => self.choose(place),
+            Action::Turn(steps) => self.turn(steps),
+            Action::TurnFar(steps) => self.turn(steps * self.dials[self.chosen].far),
+            Action::Slide(place, fraction) => self.slide(place, fraction),
+            Action::Type => self.begin_typing(),
+            Action::GoTo(knob, value) => self.go_to(knob, value),
+            Action::Typical(n) => self.typical(n),
+            Action::Home => self.set(self.chosen, self.dials[self.chosen].home),
+            Action::HomeAll => (0..self.dials.len())
+                .flat_map(|place| self.set(place, self.dials[place].home))
+                .collect(),
+            Action::TogglePause => self.toggle_pause(),
+            Action::StepForward => self.step_forward(),
+            Action::StepBack => self.step_back(),
+            Action::Record => self.errand(ErrandKind::Record),
+            Action::View => self.errand(ErrandKind::View),
+            Action::Save => self.errand(ErrandKind::Save),
+            Action::Write => self.errand(ErrandKind::Write),
+            Action::Curve => self.next_curve(),
+            Action::Replay => self.toggle_replay(),
+            Action::PointBody => self.other_body(),
+            Action::PointDepth(by) => self.point_depth(by),
+            Action::MovePoint(quarters) => self.move_point(quarters),
+            Action::PutPoint(x) => self.put_point(x),
+            Action::EndTour => self.leave_tour(),
+            Action::NextBeat => self.next_beat(),
+            Action::PreviousBeat => self.previous_beat(),
+            shown => {
+                self.show(shown);
+                Vec::new()
+            }
+        }
+    }
+
+    /// Actions that change only what is shown.
+    fn show(&mut self, action: Action) {
+        match action {
+            Action::NextMap => self.show_map(self.map.shifted(1)),
+            Action::PreviousMap => self.show_map(self.map.shifted(MapKind::ALL.len() - 1)),
+            Action::Zoom => {
+                self.zoom = match self.zoom {
+                    Zoom::Contact => Zoom::Domain,
+                    Zoom::Domain => Zoom::Contact,
+                }
+            }
+            Action::Probe(x, y) => self.probe = Some((x, y)),
+            Action::Pin => self.pin(),
+            Action::PointQuantity => self.quantity = self.quantity.next(),
+            Action::ReplayFaster(times) => self.replay_faster(times),
+            Action::Units => self.units = self.units.next(),
+            Action::Contrast => self.theme.next_contrast(),
+            Action::Pixels => self.next_pixels(),
+            Action::Help => self.toggle(Overlay::Help),
+            Action::Plan => self.toggle(Overlay::Plan),
+            Action::Scene => self.toggle_draft(Form::Scene),
+            Action::OperatingPoint => self.toggle_draft(Form::Point),
+            Action::Lessons => self.toggle_lessons(),
+            Action::Focus(panel) => self.focus = panel,
+            Action::NextPanel(by) => self.focus_next(by),
+            Action::Enter => self.toggle_enlarged(),
+            Action::Close => self.close(),
+            _ => {}
+        }
+    }
+
+    fn next_pixels(&mut self) {
+        if !self.theme.paints() {
+            self.say("the map is drawn in letters: this terminal shows no colours");
+            return;
+        }
+        let next = self.pixels().next();
+        self.set_pixels(next);
+        self.say(format!(
+            "map drawn in {}, if the terminal supports them (g: next)",
+            next.name()
+        ));
+    }
+
+    fn show_map(&mut self, map: MapKind) {
+        // A place in the plane is none below it, or in the past.
+        if !(map.is_plane() && self.map.is_plane()) {
+            self.probe = None;
+        }
+        self.map = map;
+    }
+
+    /// Moves what lies over the screen, up to its last line.
+    fn scroll(&mut self, action: Action) {
+        let last = match self.overlay {
+            // On narrow screens a line takes up to three rows.
+            Overlay::Plan => {
+                let all = self.setup.plan_text.lines().count() + self.setup.left_out.len();
+                3 * (all + self.cautions().len())
+            }
+            _ => KEYS.len(),
+        };
+        self.scroll = if action == Action::ChooseNext {
+            (self.scroll + 1).min(last as u16)
+        } else {
+            self.scroll.saturating_sub(1)
+        };
+    }
+
+    fn choose(&mut self, place: usize) -> Vec<Effect> {
+        self.chosen = place % self.dials.len();
+        Vec::new()
+    }
+
+    fn turn(&mut self, steps: i32) -> Vec<Effect> {
+        let value = self.dials[self.chosen].turned(steps);
+        self.set(self.chosen, value)
+    }
+
+    fn slide(&mut self, place: usize, fraction: f64) -> Vec<Effect> {
+        if place >= self.dials.len() {
+            return Vec::new();
+        }
+        self.chosen = place;
+        let value = self.dials[place].at_fraction(fraction);
+        self.set(place, value)
+    }
+
+    fn typical(&mut self, n: usize) -> Vec<Effect> {
+        match self.dials[self.chosen].typical.get(n).copied() {
+            Some((value, of)) => {
+                let effects = self.set(self.chosen, value);
+                if !of.is_empty() {
+                    let name = self.dials[self.chosen].name();
+                    self.say(format!("{name} as of {of}"));
+                }
+                effects
+            }
+            None => Vec::new(),
+        }
+    }
+
+    /// Moves a knob's target; the estimate follows at once, the run when it gets there.
+    pub(super) fn set(&mut self, place: usize, value: f64) -> Vec<Effect> {
+        let dial = &self.dials[place];
+        if let DialState::Dead(reason) = dial.life {
+            let line = format!(
+                "{}: the surface is {reason}, so there is nothing to turn",
+                dial.label
+            );
+            self.say(line);
+            return Vec::new();
+        }
+        if dial.target == value {
+            return Vec::new();
+        }
+        let command = Command::Set(dial.knob, value);
+        self.keep_before();
+        self.dials[place].target = value;
+        self.set_at[place] = Some(self.now);
+        self.back = 0;
+        self.refresh_estimate();
+        let mut effects = vec![Effect::Send(command)];
+        effects.extend(self.unsettle());
+        effects
+    }
+
+    fn toggle_pause(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(0) {
+            return Vec::new();
+        }
+        self.pace = match self.pace {
+            RunPace::Running => RunPace::Paused,
+            RunPace::Paused => RunPace::Running,
+        };
+        self.rate.clear();
+        self.back = 0;
+        vec![Effect::Send(Command::Pause)]
+    }
+
+    fn step_forward(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(1) {
+            return Vec::new();
+        }
+        if self.back > 0 {
+            self.back -= 1;
+            return Vec::new();
+        }
+        let mut effects = self.paused_first();
+        effects.push(Effect::Send(Command::StepOnce));
+        effects
+    }
+
+    fn step_back(&mut self) -> Vec<Effect> {
+        if self.replay_stepped(-1) {
+            return Vec::new();
+        }
+        let effects = self.paused_first();
+        self.back = (self.back + 1).min(self.past.len().saturating_sub(1));
+        effects
+    }
+
+    pub(super) fn paused_first(&mut self) -> Vec<Effect> {
+        match self.pace {
+            RunPace::Paused => Vec::new(),
+            RunPace::Running => {
+                self.pace = RunPace::Paused;
+                self.rate.clear();
+                vec![Effect::Send(Command::Pause)]
+            }
+        }
+    }
+
+    fn errand(&mut self, errand: ErrandKind) -> Vec<Effect> {
+        if self.offers(errand) {
+            return vec![Effect::Errand(errand)];
+        }
+        self.say(match errand {
+            ErrandKind::Record => "this run is not recorded",
+            ErrandKind::View => {
+                "no viewer is at hand; `asperity view FILE.rrd` says how to get one"
+            }
+            ErrandKind::Save => "scenes cannot be saved from here",
+            ErrandKind::Write => "nothing can be exported from here",
+            ErrandKind::Rebuild => "no other scene can be started from here",
+        });
+        Vec::new()
+    }
+
+    fn pin(&mut self) {
+        if self.ghost.take().is_some() {
+            self.pinned = None;
+            return;
+        }
+        self.ghost = self.frozen();
+        let lives = self.leading_life().zip(self.leading_factors());
+        let Some((life_relative, factors)) = lives else {
+            self.say("no life to compare with: there is no estimate");
+            return;
+        };
+        self.pinned = Some(Pinned {
+            life_relative,
+            load_factor: factors.load,
+            leading: self.leading(),
+            slide_roll: self.target(Knob::SlideRoll),
+            load_n: self.load_n(),
+            p_hertz_pa: self.estimate.p_hertz_pa,
+        });
+    }
+
+    pub(super) fn toggle(&mut self, overlay: Overlay) {
+        // What is asked for is seen, not hidden behind a fault.
+        self.fault_read |= self.fault().is_some();
+        self.scroll = 0;
+        self.draft = None;
+        self.overlay = if self.overlay == overlay {
+            Overlay::None
+        } else {
+            overlay
+        };
+    }
+
+    /// The focused panel takes the screen, or gives it back.
+    fn toggle_enlarged(&mut self) {
+        self.enlarged = match self.enlarged {
+            None => Some(self.focus),
+            Some(_) => None,
+        };
+    }
+
+    fn focus_next(&mut self, by: usize) {
+        self.focus = self.focus.next(by);
+        if self.enlarged.is_some() {
+            self.enlarged = Some(self.focus);
+        }
+    }
+
+    fn close(&mut self) {
+        if self.fault().is_some() {
+            self.fault_read = true;
+        } else if self.overlay == Overlay::None && self.enlarged.is_some() {
+            self.enlarged = None;
+        } else if self.overlay == Overlay::None {
+            self.probe = None;
+            self.back = 0;
+        } else {
+            self.overlay = Overlay::None;
+            self.draft = None;
+        }
+    }
+}

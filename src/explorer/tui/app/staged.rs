@@ -1,0 +1,127 @@
+//! The scene behind the screen: as it now is, another of the user's choice, and the stages of the lessons.
+
+use std::sync::Arc;
+
+use crate::tui::action::Action;
+use crate::tui::app::typed::LONGEST;
+use crate::tui::app::{App, Effect, ErrandKind, Overlay};
+use crate::tui::choice::{Draft, Form};
+use crate::tui::tables;
+use crate::tui::wiring::{Setup, Shown};
+use asperity_engine::scene::Scene;
+use asperity_engine::sim::Stage;
+
+impl App {
+    /// The screen of a new run, which keeps how things are shown, the tour and the pinned life where it can
+    /// still be compared with.
+    pub fn rebuilt(&mut self, setup: Setup) -> Vec<Effect> {
+        let same_contact = setup.scene.contact == self.setup.scene.contact
+            && (setup.p_hertz_pa / self.setup.p_hertz_pa - 1.0).abs() < 1e-9;
+        let fresh = Self::new(setup, std::mem::take(&mut self.errands), self.theme);
+        let old = std::mem::replace(self, fresh);
+        self.units = old.units;
+        (self.now, self.message) = (old.now, old.message);
+        (self.map, self.zoom, self.quantity) = (old.map, old.zoom, old.quantity);
+        (self.curve, self.pixels) = (old.curve, old.pixels);
+        self.pinned = old.pinned.filter(|_| same_contact);
+        // A frozen picture can be looked at beside any other.
+        self.ghost = old.ghost;
+        (self.staged, self.own) = (old.staged, old.own);
+        (self.lessons, self.lesson) = (old.lessons, old.lesson);
+        (self.focus, self.enlarged) = (old.focus, old.enlarged);
+        self.tour = old.tour;
+        self.show_beat()
+    }
+
+    /// The scene could not be run; the old run goes on.
+    pub fn not_rebuilt(&mut self, reason: String) {
+        self.tour = None;
+        self.staged = None;
+        self.say(reason);
+    }
+
+    /// Opens or closes the choice of another scene or operating point; from one to the other the draft stays.
+    pub(super) fn toggle_draft(&mut self, form: Form) {
+        if let Some(draft) = self.draft.as_mut().filter(|draft| draft.form != form) {
+            draft.turn_to(form);
+        } else if self.overlay == Overlay::Scene {
+            self.overlay = Overlay::None;
+            self.draft = None;
+        } else if self.offers(ErrandKind::Rebuild) {
+            self.fault_read |= self.fault().is_some();
+            self.overlay = Overlay::Scene;
+            self.draft = Some(Draft::new(self.scene_now(), form));
+        } else {
+            self.say("no other scene can be started from here");
+        }
+    }
+
+    /// Turns a draft's rows with the keys of the knobs; `None`: no draft is open, or it is no such key.
+    pub(super) fn draft_takes(&mut self, action: Action) -> Option<Vec<Effect>> {
+        let units = self.units;
+        let draft = self.draft.as_mut()?;
+        if let Some(typed) = &mut draft.typed {
+            match action {
+                Action::Letter(letter) if typed.chars().count() < LONGEST => typed.push(letter),
+                Action::Letter(_) => {}
+                Action::Erase => drop(typed.pop()),
+                Action::Enter => draft.set_typed(units),
+                Action::Quit | Action::Suspend => return None,
+                _ => draft.typed = None,
+            }
+            return Some(Vec::new());
+        }
+        match action {
+            Action::ChooseNext => draft.choose(1),
+            Action::ChoosePrevious => draft.choose(-1),
+            Action::Turn(by) => draft.turn(by),
+            Action::TurnFar(by) => draft.turn(3 * by),
+            Action::Type => draft.begin_typing(),
+            Action::Typical(place) => draft.take_typical(place),
+            Action::Enter => return Some(self.run_draft()),
+            _ => return None,
+        }
+        Some(Vec::new())
+    }
+
+    fn run_draft(&mut self) -> Vec<Effect> {
+        let Some(draft) = self.draft.take_if(|draft| draft.verdict.is_ok()) else {
+            // A number that was refused is read; what the scene itself lacks is told again.
+            self.draft.iter_mut().for_each(Draft::judge);
+            return Vec::new();
+        };
+        self.overlay = Overlay::None;
+        self.tour = None;
+        self.staged = None;
+        let name = draft
+            .preset
+            .map_or_else(|| self.own.1.clone(), str::to_owned);
+        self.own = (draft.scene.clone().into(), name.clone());
+        vec![Effect::Rebuild(Box::new(draft.scene), name)]
+    }
+
+    /// What is on the screen, for files; `None` before the passage.
+    pub fn shown(&self) -> Option<Shown> {
+        let frame = self.frame().filter(|frame| frame.stage == Stage::Passage)?;
+        Some(Shown {
+            frame: Arc::clone(frame),
+            scene_toml: self.scene_toml(),
+            tables: tables::of(self, frame),
+        })
+    }
+
+    /// The scene with the knobs where they are going, as TOML.
+    pub fn scene_toml(&self) -> String {
+        self.scene_now().to_toml()
+    }
+
+    /// The scene with the knobs where they are going.
+    pub(super) fn scene_now(&self) -> Scene {
+        let mut scene = (*self.setup.scene).clone();
+        // A knob where the scene has it leaves the scene's own words (a load given as a Hertz pressure).
+        for dial in self.dials.iter().filter(|dial| dial.target != dial.home) {
+            dial.knob.put(&mut scene, dial.target);
+        }
+        scene
+    }
+}

@@ -1,0 +1,242 @@
+//! The lessons: their list, their beats, what they ask and what is then told.
+
+use std::sync::Arc;
+
+use crate::tui::action::Action;
+use crate::tui::app::{App, Effect, ErrandKind, Overlay, RunPace};
+use crate::tui::lessons::{FoundAnswer, Lesson, TourPhase, TourState, reached};
+use asperity_session::run::Command;
+
+impl App {
+    /// Begins a lecturer's own lesson, which then leads the list.
+    pub fn teach(&mut self, own: Arc<Lesson>) -> Vec<Effect> {
+        self.lessons = std::iter::once(own)
+            .chain(self.lessons.iter().cloned())
+            .collect();
+        self.begin_beat(0, 0)
+    }
+
+    /// Opens or closes the list of lessons.
+    pub(super) fn toggle_lessons(&mut self) {
+        self.toggle(Overlay::Lessons);
+        self.lesson = self.tour.as_ref().map_or(self.lesson, |tour| tour.place);
+    }
+
+    /// Keys that mean something else in the list of lessons, or while a question waits; `None`: they do not.
+    pub(super) fn lessons_take(&mut self, action: Action) -> Option<Vec<Effect>> {
+        let all = self.lessons.len();
+        if self.overlay == Overlay::Lessons {
+            match action {
+                Action::ChooseNext => self.lesson = (self.lesson + 1) % all.max(1),
+                Action::ChoosePrevious => self.lesson = (self.lesson + all - 1) % all.max(1),
+                Action::Enter => return Some(self.begin_beat(self.lesson, 0)),
+                Action::Typical(place) if place < all => return Some(self.begin_beat(place, 0)),
+                _ => return None,
+            }
+            return Some(Vec::new());
+        }
+        let asks = |tour: &&TourState| tour.phase == TourPhase::Asks;
+        match (self.tour.as_ref().filter(asks), action) {
+            (Some(tour), Action::Typical(place)) => {
+                let answers = tour.beat().question.as_ref()?.answers.len();
+                if place >= answers {
+                    self.say(format!("answers are 1 to {answers}"));
+                    return Some(Vec::new());
+                }
+                Some(self.answer(Some(place)))
+            }
+            _ => None,
+        }
+    }
+
+    /// What the lesson shows when its question has been answered, or was passed over.
+    fn answer(&mut self, said: Option<usize>) -> Vec<Effect> {
+        let (passages, now) = (self.passages(), self.now);
+        if let Some(tour) = &mut self.tour {
+            tour.said = said;
+            tour.show(passages, now);
+        }
+        self.play()
+    }
+
+    /// A key: to what is shown, to the answer, to the next beat, to the next lesson.
+    pub(super) fn next_beat(&mut self) -> Vec<Effect> {
+        let passages = self.passages();
+        let Some(tour) = &self.tour else {
+            self.say("no lesson: t lists them");
+            return Vec::new();
+        };
+        let tells = tour.beat().question.is_some() && tour.is_shown(passages);
+        match tour.phase {
+            TourPhase::Asks => self.answer(None),
+            TourPhase::Shows if tells => self.tell(),
+            _ if tour.goes_on() => self.begin_beat(tour.place, tour.beat + 1),
+            _ => self.begin_beat(tour.place + 1, 0),
+        }
+    }
+
+    /// Back: to the question of this beat if it has been answered, else to the beat before.
+    pub(super) fn previous_beat(&mut self) -> Vec<Effect> {
+        let Some(tour) = &self.tour else {
+            self.say("no lesson: t lists them");
+            return Vec::new();
+        };
+        let answered = tour.beat().question.is_some() && tour.phase != TourPhase::Asks;
+        let beat = if answered {
+            tour.beat
+        } else {
+            tour.beat.saturating_sub(1)
+        };
+        self.begin_beat(tour.place, beat)
+    }
+
+    /// Time and passages: what is due is told, what was read gives way to the next beat. The run's or the replay's pause
+    /// is the lesson's.
+    pub(super) fn tour_on(&mut self) -> Vec<Effect> {
+        let (passages, now) = (self.passages(), self.now);
+        let Some(tour) = &self.tour else {
+            return Vec::new();
+        };
+        let shown = tour.is_shown(passages);
+        match tour.phase {
+            TourPhase::Asks => Vec::new(),
+            TourPhase::Shows if shown && tour.beat().question.is_some() => self.tell(),
+            TourPhase::Shows if !shown => Vec::new(),
+            _ if tour.goes_on() && tour.is_read(now) && !self.stands() => {
+                self.begin_beat(tour.place, tour.beat + 1)
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether run and replay stand.
+    fn stands(&self) -> bool {
+        match &self.replay {
+            Some(_) => self.replay_stands(),
+            None => self.pace == RunPace::Paused,
+        }
+    }
+
+    /// Tells what the simulation found.
+    fn tell(&mut self) -> Vec<Effect> {
+        let frame = self.frame().map(Arc::clone);
+        let now = self.now;
+        let Some(tour) = &mut self.tour else {
+            return Vec::new();
+        };
+        let Some(question) = &tour.beat().question else {
+            return Vec::new();
+        };
+        let before = tour.before.as_deref();
+        let value = frame.and_then(|frame| question.measure.value(&frame, before));
+        let right = value.map(|value| question.right(value));
+        let words = question.because.clone();
+        tour.tell(FoundAnswer { value, right }, now);
+        vec![Effect::Send(Command::Say(words))]
+    }
+
+    /// A beat as it begins: its question, or what it shows.
+    fn begin_beat(&mut self, place: usize, beat: usize) -> Vec<Effect> {
+        let Some(lesson) = self.lessons.get(place) else {
+            self.say("that was the last lesson");
+            return self.leave_tour();
+        };
+        if self.overlay == Overlay::Lessons {
+            self.overlay = Overlay::None;
+        }
+        let mut next = TourState::begin(Arc::clone(lesson), place, beat);
+        if self.tour.is_none() && self.staged.is_none() {
+            // What the knobs were turned to is kept for the time after the lessons.
+            self.own = (self.scene_now().into(), self.setup.name.clone());
+        }
+        // The end of the beat before, which the numbers of this one may be compared with.
+        next.before = self.frame().filter(|_| beat > 0).map(Arc::clone);
+        next.show(self.passages(), self.now);
+        if next.beat().question.is_some() {
+            next.phase = TourPhase::Asks;
+        }
+        let asked = next.beat().question.as_ref().map(|asked| asked.ask.clone());
+        self.tour = Some(next);
+        match asked {
+            Some(words) => vec![Effect::Send(Command::Say(words))],
+            None => self.play(),
+        }
+    }
+
+    /// Ends the lesson: back to the user's own scene.
+    pub(super) fn leave_tour(&mut self) -> Vec<Effect> {
+        if self.tour.take().is_none() {
+            return Vec::new();
+        }
+        self.enlarged = None;
+        match self.staged.take() {
+            Some(_) if self.offers(ErrandKind::Rebuild) => {
+                let (scene, name) = &self.own;
+                vec![Effect::Rebuild(Box::new((**scene).clone()), name.clone())]
+            }
+            _ => self.apply(Action::HomeAll),
+        }
+    }
+
+    /// Plays a beat: its scene first, where another one runs; its words go to the recording.
+    fn play(&mut self) -> Vec<Effect> {
+        let Some(tour) = &self.tour else {
+            return Vec::new();
+        };
+        let staging = tour.lesson.staging(tour.beat);
+        let wanted = staging.filter(|_| self.offers(ErrandKind::Rebuild));
+        if let Some(staging) = wanted.filter(|staging| self.staged.as_ref() != Some(*staging)) {
+            return match staging.load() {
+                Ok(scene) => {
+                    let name = staging.scene.clone();
+                    self.staged = Some(staging.clone());
+                    vec![Effect::Rebuild(Box::new(scene), file_stem(&name))]
+                }
+                Err(error) => {
+                    self.not_rebuilt(error.to_string());
+                    Vec::new()
+                }
+            };
+        }
+        self.show_beat()
+    }
+
+    /// What a beat sets, shows and says; nothing while it asks.
+    pub(super) fn show_beat(&mut self) -> Vec<Effect> {
+        let (passages, now) = (self.passages(), self.now);
+        let Some(tour) = self
+            .tour
+            .as_mut()
+            .filter(|tour| tour.phase == TourPhase::Shows)
+        else {
+            return Vec::new();
+        };
+        tour.show(passages, now);
+        let (lesson, at) = (Arc::clone(&tour.lesson), tour.beat);
+        let beat = &lesson.beats[at];
+        self.map = beat.map.unwrap_or(self.map);
+        self.quantity = beat.point.unwrap_or(self.quantity);
+        self.enlarged = beat.enlarge;
+        let words = format!("{}: {}", lesson.title, beat.caption);
+        let mut effects = vec![Effect::Send(Command::Say(words))];
+        for place in 0..self.dials.len() {
+            let dial = &self.dials[place];
+            let setting = lesson.setting(at, dial);
+            let value = setting.map_or(dial.home, |setting| setting.value(dial));
+            // A run without another scene may not go there; a surface that is smooth has nothing to set.
+            if reached(dial, value).is_ok() {
+                effects.extend(self.set(place, value));
+            }
+        }
+        effects
+    }
+}
+
+/// The name of a preset, or of a file without its folder and ending.
+fn file_stem(scene: &str) -> String {
+    let stem = std::path::Path::new(scene).file_stem();
+    stem.map_or_else(
+        || scene.to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    )
+}

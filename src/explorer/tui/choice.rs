@@ -1,0 +1,417 @@
+//! What a run cannot turn while it goes: another scene, lay, wavelength, oil, stress measure, life model,
+//! grid, operating point. Choices make a draft of a scene; its plan is made at once, so that what cannot be computed is
+//! told before anything is started.
+
+mod draft;
+mod numbers;
+
+pub use self::draft::{Draft, Form};
+
+use crate::tui::units::{Units, sig};
+use asperity_engine::scene::{LifeModel, Scene, StressMeasure, Surface};
+
+/// One choice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Choice {
+    /// Preset: everything else follows.
+    Preset,
+    /// Equivalent radius along the rolling direction, or across.
+    Radius(usize),
+    /// Young's modulus of a body.
+    Young(usize),
+    /// Load, of a line per length.
+    Load,
+    /// Maximum Hertz pressure.
+    HertzPressure,
+    /// Entrainment speed.
+    Speed,
+    /// Slide-to-roll ratio.
+    SlideRoll,
+    /// Pressure-viscosity coefficient.
+    PressureViscosity,
+    /// Amplitude of a body's roughness.
+    Amplitude(usize),
+    /// Lay of a body's roughness.
+    Lay(usize),
+    /// Wavelength of a body's roughness.
+    Wavelength(usize),
+    /// Viscosity of the oil.
+    Viscosity,
+    /// Effective stress.
+    Measure,
+    /// Life model.
+    Model,
+    /// Nodes per side.
+    Nodes,
+}
+
+/// Lay of a sinusoidal surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Lay {
+    Smooth,
+    Transverse,
+    Longitudinal,
+    Isotropic,
+    Other,
+}
+
+/// Viscosities, wavelengths: ten values a decade.
+const STEP: f64 = 1.258_925_411_794_167_2;
+
+impl Choice {
+    /// What a scene is put together from, in the order of the panel.
+    pub const SCENE: [Self; 9] = [
+        Self::Preset,
+        Self::Lay(0),
+        Self::Wavelength(0),
+        Self::Lay(1),
+        Self::Wavelength(1),
+        Self::Viscosity,
+        Self::Measure,
+        Self::Model,
+        Self::Nodes,
+    ];
+
+    /// Name on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Preset => "scene",
+            Self::Lay(0) => "lay of body 1",
+            Self::Lay(_) => "lay of body 2",
+            Self::Wavelength(0) => "wavelength 1",
+            Self::Wavelength(_) => "wavelength 2",
+            Self::Viscosity => "viscosity of the oil",
+            Self::Measure => "effective stress",
+            Self::Model => "life model",
+            Self::Nodes => "nodes per side",
+            Self::Radius(0) => "radius along x",
+            Self::Radius(_) => "radius across",
+            Self::Young(0) => "modulus of body 1",
+            Self::Young(_) => "modulus of body 2",
+            Self::Load => "load",
+            Self::HertzPressure => "Hertz pressure",
+            Self::Speed => "entrainment speed U",
+            Self::SlideRoll => "slide-to-roll ratio S",
+            Self::PressureViscosity => "pressure-viscosity",
+            Self::Amplitude(0) => "amplitude 1",
+            Self::Amplitude(_) => "amplitude 2",
+        }
+    }
+
+    /// What a draft has chosen, in words.
+    pub fn shown(self, draft: &Draft, units: Units) -> String {
+        match self {
+            Self::Preset => draft.preset.unwrap_or("as it is").to_owned(),
+            other => other.of_scene(&draft.scene, units),
+        }
+    }
+
+    /// Shortest wave of a body's roughness along x or y, m.
+    pub fn wave_m(scene: &Scene, body: usize) -> Option<f64> {
+        wavelength(surface(scene, body))
+    }
+
+    /// What a scene has, in words.
+    pub fn of_scene(self, scene: &Scene, units: Units) -> String {
+        match self {
+            Self::Preset => scene.title.clone(),
+            Self::Lay(body) => match lay(surface(scene, body)) {
+                Lay::Smooth => "smooth",
+                Lay::Transverse => "transverse",
+                Lay::Longitudinal => "longitudinal",
+                Lay::Isotropic => "isotropic",
+                Lay::Other => "as in the scene",
+            }
+            .to_owned(),
+            Self::Wavelength(body) => match wavelength(surface(scene, body)) {
+                Some(wave_m) => {
+                    let over_a = sig(wave_m / scene.hertz().a_m, 2);
+                    format!("{}  W/a {over_a}", units.length().show(wave_m, 3))
+                }
+                None => "no wave".to_owned(),
+            },
+            Self::Measure => scene
+                .stress
+                .as_ref()
+                .map_or("none", |stress| stress.measure.name())
+                .to_owned(),
+            Self::Model => scene
+                .life
+                .as_ref()
+                .map_or("none", |life| life.model.name())
+                .to_owned(),
+            Self::Nodes => scene.grid.nodes.to_string(),
+            number => number.number_shown(scene, units),
+        }
+    }
+
+    fn turn(self, draft: &mut Draft, by: i32) {
+        let scene = &mut draft.scene;
+        match self {
+            Self::Preset => draft.take_preset(by),
+            Self::Lay(body) => turn_lay(scene, body, by),
+            Self::Wavelength(body) => {
+                if let Surface::Sinusoid {
+                    wavelength_x_m,
+                    wavelength_y_m,
+                    ..
+                } = surface_mut(scene, body)
+                {
+                    *wavelength_x_m = stepped(*wavelength_x_m, by);
+                    *wavelength_y_m = stepped(*wavelength_y_m, by);
+                }
+            }
+            Self::Measure => {
+                let all = [
+                    StressMeasure::VonMises,
+                    StressMeasure::MaxShear,
+                    StressMeasure::Octahedral,
+                ];
+                if let Some(stress) = &mut scene.stress {
+                    stress.measure = shifted(&all, stress.measure, by);
+                }
+            }
+            Self::Model => {
+                if let Some(life) = &mut scene.life {
+                    life.model = shifted(&LifeModel::ALL, life.model, by);
+                }
+            }
+            Self::Nodes => {
+                let all = [65, 129, 257, 513];
+                scene.grid.nodes = shifted(&all, scene.grid.nodes, by);
+            }
+            number => {
+                if let Some(value) = number.number_turned(scene, by) {
+                    draft.put(number, value);
+                }
+            }
+        }
+    }
+}
+
+/// The next of a list, round and round.
+fn shifted<T: Copy + PartialEq>(all: &[T], now: T, by: i32) -> T {
+    let place = all.iter().position(|one| *one == now).unwrap_or(0) as i32;
+    all[(place + by).rem_euclid(all.len() as i32) as usize]
+}
+
+/// Ten steps a decade, to three digits.
+fn stepped(value: f64, by: i32) -> f64 {
+    if !value.is_finite() {
+        return value;
+    }
+    let raw = value * STEP.powi(by);
+    let unit = 10.0_f64.powf(raw.log10().floor() - 2.0);
+    (raw / unit).round() * unit
+}
+
+fn surface(scene: &Scene, body: usize) -> &Surface {
+    if body == 0 {
+        &scene.body_1.surface
+    } else {
+        &scene.body_2.surface
+    }
+}
+
+fn surface_mut(scene: &mut Scene, body: usize) -> &mut Surface {
+    if body == 0 {
+        &mut scene.body_1.surface
+    } else {
+        &mut scene.body_2.surface
+    }
+}
+
+fn lay(surface: &Surface) -> Lay {
+    match *surface {
+        Surface::Smooth {} => Lay::Smooth,
+        Surface::Sinusoid {
+            wavelength_x_m: x,
+            wavelength_y_m: y,
+            angle_deg: 0.0,
+            ..
+        } => match (x.is_finite(), y.is_finite()) {
+            (true, false) => Lay::Transverse,
+            (false, true) => Lay::Longitudinal,
+            (true, true) => Lay::Isotropic,
+            (false, false) => Lay::Other,
+        },
+        Surface::Sinusoid { .. } | Surface::HeightMap { .. } => Lay::Other,
+    }
+}
+
+fn wavelength(surface: &Surface) -> Option<f64> {
+    match *surface {
+        Surface::Sinusoid {
+            wavelength_x_m: x,
+            wavelength_y_m: y,
+            ..
+        } => Some(x.min(y)).filter(|wave| wave.is_finite()),
+        Surface::Smooth {} | Surface::HeightMap { .. } => None,
+    }
+}
+
+fn turn_lay(scene: &mut Scene, body: usize, by: i32) {
+    let all = [
+        Lay::Smooth,
+        Lay::Transverse,
+        Lay::Longitudinal,
+        Lay::Isotropic,
+    ];
+    let next = shifted(&all, lay(surface(scene, body)), by);
+    // A surface that was smooth takes wave and height from its mate, or typical ones.
+    let known = |body: usize| wavelength(surface(scene, body));
+    let wave_m = known(body)
+        .or_else(|| known(1 - body))
+        .unwrap_or_else(|| stepped(0.4 * scene.hertz().a_m, 0));
+    let height = |body: usize| Some(surface(scene, body).amplitude_m()).filter(|a| *a > 0.0);
+    let amplitude_m = height(body).or_else(|| height(1 - body)).unwrap_or(2e-7);
+    let wave = |wavelength_x_m, wavelength_y_m| Surface::Sinusoid {
+        amplitude_m,
+        wavelength_x_m,
+        wavelength_y_m,
+        angle_deg: 0.0,
+        phase_deg: 0.0,
+    };
+    *surface_mut(scene, body) = match next {
+        Lay::Smooth | Lay::Other => Surface::Smooth {},
+        Lay::Transverse => wave(wave_m, f64::INFINITY),
+        Lay::Longitudinal => wave(f64::INFINITY, wave_m),
+        Lay::Isotropic => wave(wave_m, wave_m),
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_engine::scene::presets;
+
+    fn draft() -> Draft {
+        Draft::new(Scene::load(presets::QUICK).expect("a preset"), Form::Scene)
+    }
+
+    #[test]
+    fn every_choice_can_be_turned_round_and_stays_a_scene() {
+        for form in [Form::Scene, Form::Point] {
+            for (row, choice) in form.rows().iter().enumerate() {
+                let mut draft = draft();
+                draft.turn_to(form);
+                draft.row = row;
+                let before = choice.shown(&draft, Units::default());
+                draft.turn(1);
+                assert_ne!(choice.shown(&draft, Units::default()), before, "{choice:?}");
+                assert!(draft.scene.validate().is_ok(), "{choice:?}");
+                assert!(!draft.verdict.as_ref().map_or(true, String::is_empty));
+            }
+        }
+    }
+
+    fn typed(draft: &mut Draft, choice: Choice, text: &str) {
+        draft.turn_to(Form::Point);
+        let place = Choice::POINT.iter().position(|own| *own == choice);
+        draft.row = place.expect("a row");
+        draft.begin_typing();
+        draft.typed = Some(text.to_owned());
+        draft.set_typed(Units::default());
+    }
+
+    /// Every number of the form in the scene that would be run, in SI.
+    #[test]
+    fn numbers_are_typed_in_the_units_that_are_shown() {
+        let mut draft = draft();
+        for (choice, text, key, si) in [
+            (Choice::Radius(0), "10", "contact.rx_m", 0.01),
+            (Choice::Radius(1), "12,5", "contact.ry_m", 0.0125),
+            (Choice::Young(0), "210", "body_1.young_pa", 2.1e11),
+            (Choice::Young(1), "70", "body_2.young_pa", 7e10),
+            (Choice::Load, "300", "load.force_n", 300.0),
+            (Choice::Speed, "1.5", "motion.entrainment_m_s", 1.5),
+            (Choice::SlideRoll, "−0.25", "motion.slide_roll", -0.25),
+            (Choice::Viscosity, "40", "lubricant.viscosity_pa_s", 0.04),
+            (
+                Choice::PressureViscosity,
+                "20",
+                "lubricant.pressure_viscosity_per_pa",
+                2e-8,
+            ),
+            (
+                Choice::Amplitude(0),
+                "0.2",
+                "body_1.surface.amplitude_m",
+                2e-7,
+            ),
+            (
+                Choice::Wavelength(1),
+                "150",
+                "body_2.surface.wavelength_y_m",
+                1.5e-4,
+            ),
+        ] {
+            typed(&mut draft, choice, text);
+            assert!(draft.verdict.is_ok(), "{choice:?}: {:?}", draft.verdict);
+            let table: toml::Table = draft.scene.to_toml().parse().expect("a scene");
+            let found = key.split('.').fold(None, |at: Option<&toml::Value>, name| {
+                at.map_or_else(|| table.get(name), |at| at.get(name))
+            });
+            let found = found.and_then(toml::Value::as_float).expect("a number");
+            assert!((found / si - 1.0).abs() < 1e-12, "{key}: {found}");
+        }
+        // Load and pressure exclude each other.
+        typed(&mut draft, Choice::HertzPressure, "1.2");
+        let load = &draft.scene.load;
+        assert_eq!((load.force_n, load.hertz_pressure_pa), (None, Some(1.2e9)));
+        let shown = |choice: Choice| choice.shown(&draft, Units::default());
+        assert!(shown(Choice::Load).contains("from the Hertz pressure"));
+        assert_eq!(shown(Choice::HertzPressure), "1.2 GPa");
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_refused_by_key_value_and_range() {
+        let mut draft = draft();
+        let before = draft.scene.clone();
+        typed(&mut draft, Choice::Young(0), "1e9");
+        let reason = draft.verdict.clone().err().unwrap_or_default();
+        for part in ["body_1.young_pa", "1e18", "1e6 to 1e13 Pa"] {
+            assert!(reason.contains(part), "{part}: {reason}");
+        }
+        assert_eq!(draft.scene, before);
+        draft.choose(1);
+        assert!(draft.verdict.is_ok(), "what was refused is past");
+        typed(&mut draft, Choice::Young(0), "a");
+        let reason = draft.verdict.clone().err().unwrap_or_default();
+        assert!(reason.contains("no number"), "{reason}");
+        // A line has no radius across, a smooth body no wave.
+        draft.take("fzg_point_b");
+        assert_eq!(Choice::Radius(1).keys(&draft.scene), Vec::<String>::new());
+        assert_eq!(Choice::Load.keys(&draft.scene), ["load.force_n_per_m"]);
+    }
+
+    #[test]
+    fn lays_keep_wave_and_height() {
+        let mut draft = draft();
+        let rough = |draft: &Draft| {
+            let surface = &draft.scene.body_1.surface;
+            (lay(surface), wavelength(surface), surface.amplitude_m())
+        };
+        draft.row = 1;
+        assert_eq!(rough(&draft), (Lay::Transverse, Some(2e-4), 3e-7));
+        draft.turn(1);
+        assert_eq!(rough(&draft), (Lay::Longitudinal, Some(2e-4), 3e-7));
+        draft.turn(1);
+        assert_eq!(rough(&draft), (Lay::Isotropic, Some(2e-4), 3e-7));
+        draft.turn(1);
+        assert_eq!(rough(&draft).0, Lay::Smooth);
+        draft.turn(1);
+        assert_eq!(rough(&draft), (Lay::Transverse, Some(2e-4), 3e-7));
+    }
+
+    #[test]
+    fn a_wave_that_the_grid_does_not_carry_is_refused_in_words() {
+        let mut draft = draft();
+        draft.row = 2;
+        for _ in 0..8 {
+            draft.turn(-1);
+        }
+        let reason = draft.verdict.err().unwrap_or_default();
+        assert!(reason.contains("nodes"), "{reason}");
+    }
+}

@@ -1,0 +1,186 @@
+//! A scene in the making, and the forms that change it.
+
+use super::Choice;
+use crate::tui::units::{Units, read_number, sig};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene, SceneError, keys, presets};
+
+/// What a draft is changed by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Scene, lays, waves, oil, models, nodes.
+    Scene,
+    /// The numbers of the operating point.
+    Point,
+}
+
+impl Form {
+    /// Its rows.
+    pub fn rows(self) -> &'static [Choice] {
+        match self {
+            Self::Scene => &Choice::SCENE,
+            Self::Point => &Choice::POINT,
+        }
+    }
+}
+
+/// A scene in the making.
+#[derive(Debug, Clone)]
+pub struct Draft {
+    /// The scene.
+    pub scene: Scene,
+    /// Its rows.
+    pub form: Form,
+    /// A number that is typed for the chosen row.
+    pub typed: Option<String>,
+    /// Row that is chosen.
+    pub row: usize,
+    /// The plan in short, or why there is none.
+    pub verdict: Result<String, String>,
+    /// The preset that was chosen.
+    pub preset: Option<&'static str>,
+}
+
+impl Draft {
+    /// From a scene.
+    pub fn new(scene: Scene, form: Form) -> Self {
+        let mut draft = Self {
+            scene,
+            form,
+            typed: None,
+            row: 0,
+            verdict: Ok(String::new()),
+            preset: None,
+        };
+        draft.judge();
+        draft
+    }
+
+    /// Chooses another row.
+    pub fn choose(&mut self, by: i32) {
+        let rows = self.form.rows().len() as i32;
+        self.row = (self.row as i32 + by).rem_euclid(rows) as usize;
+        if self.verdict.is_err() {
+            // A number that was refused is past.
+            self.judge();
+        }
+    }
+
+    /// What the chosen row is about.
+    pub fn chosen(&self) -> Choice {
+        self.form.rows()[self.row]
+    }
+
+    /// Turns the rows to another form's.
+    pub fn turn_to(&mut self, form: Form) {
+        (self.form, self.row, self.typed) = (form, 0, None);
+    }
+
+    /// Begins a number for the chosen row, if it takes one.
+    pub fn begin_typing(&mut self) {
+        if self.chosen().keys(&self.scene).is_empty() {
+            let name = self.chosen().name();
+            self.verdict = Err(format!("{name}: no number can be typed here"));
+        } else {
+            self.typed = Some(String::new());
+        }
+    }
+
+    /// What may be typed: key, range and unit of what is shown.
+    pub fn allowed(&self, units: Units) -> Option<String> {
+        let path = self.chosen().keys(&self.scene).into_iter().next()?;
+        let key = keys::find(&path)?;
+        let unit = self.chosen().unit(&self.scene, units).name;
+        let typed = if unit.is_empty() {
+            String::new()
+        } else {
+            format!("typed in {unit}; ")
+        };
+        Some(format!("{typed}{path}: {}", key.allowed()))
+    }
+
+    /// Takes the number that was typed, or says what is wrong with it: key, value, range.
+    pub fn set_typed(&mut self, units: Units) {
+        let Some(text) = self.typed.take() else {
+            return;
+        };
+        let choice = self.chosen();
+        match read_number(&text) {
+            Some(shown) => self.put(choice, shown / choice.unit(&self.scene, units).per_si),
+            None => self.verdict = Err(format!("{} = {text}: this is no number", choice.name())),
+        }
+        if self.verdict.is_ok() {
+            self.judge();
+        }
+    }
+
+    /// Puts a number into the scene, by the rules of a scene's file; a scene that breaks them stays as it was.
+    pub(super) fn put(&mut self, choice: Choice, value: f64) {
+        let sets = choice.keys(&self.scene);
+        let sets = sets.iter().map(|key| Override::number(key, value));
+        let made = sets
+            .collect::<Result<Vec<_>, SceneError>>()
+            .and_then(|sets| Scene::from_toml_with(&self.scene.to_toml(), "the scene", &sets));
+        match made {
+            Ok(scene) => {
+                self.scene = scene;
+                self.judge();
+            }
+            Err(error) => self.verdict = Err(error.to_string()),
+        }
+    }
+
+    /// Turns the chosen row.
+    pub fn turn(&mut self, by: i32) {
+        self.judge();
+        self.chosen().turn(self, by);
+        if self.chosen().keys(&self.scene).is_empty() {
+            self.judge();
+        }
+    }
+
+    /// Takes a typical scene by its place.
+    pub fn take_typical(&mut self, place: usize) {
+        if let Some(preset) = presets::all().get(place) {
+            self.take(preset.name);
+            self.judge();
+        }
+    }
+
+    pub(super) fn take_preset(&mut self, by: i32) {
+        let all = presets::all();
+        let now = self
+            .preset
+            .and_then(|name| all.iter().position(|preset| preset.name == name));
+        let place = match now {
+            Some(place) => (place as i32 + by).rem_euclid(all.len() as i32) as usize,
+            None if by > 0 => 0,
+            None => all.len() - 1,
+        };
+        self.take(all[place].name);
+    }
+
+    pub(super) fn take(&mut self, name: &'static str) {
+        match Scene::load(name) {
+            Ok(scene) => (self.scene, self.preset) = (scene, Some(name)),
+            Err(error) => self.verdict = Err(error.to_string()),
+        }
+    }
+
+    /// Checks the scene and makes its plan.
+    pub fn judge(&mut self) {
+        let made = self
+            .scene
+            .validate()
+            .map_err(|error| error.to_string())
+            .and_then(|()| Plan::new(&self.scene).map_err(|error| error.to_string()));
+        self.verdict = made.map(|plan| {
+            format!(
+                "p_h {} GPa, {} MB, {} s a passage of 4 a on one core",
+                sig(plan.hertz.p_max_pa * 1e-9, 3),
+                sig(plan.cost.memory_bytes as f64 * 1e-6, 2),
+                sig(plan.cost.time_s / self.scene.time.passages.max(1e-9), 2),
+            )
+        });
+    }
+}

@@ -1,0 +1,370 @@
+//! Colours and shapes: what a terminal can show, roles in place of colours, and colour maps.
+//!
+//! The role colours are the eight of Okabe & Ito (2008), which people of every colour vision tell
+//! apart; the maps rise monotonically in lightness (diverging ones fall again), so that they also
+//! read in grey. Without colour the same maps are drawn by characters of growing ink.
+
+mod ramp;
+
+use ratatui::style::{Color, Modifier, Style};
+
+use asperity_picture::Ramp;
+use ramp::{map_index, nearest_index};
+
+/// How many colours the terminal shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColorDepth {
+    /// 24 bits.
+    True,
+    /// 256 colours.
+    Indexed,
+    /// The 16 colours of the terminal's own palette.
+    Basic,
+    /// None: weight and shape only.
+    Mono,
+}
+
+/// Which characters the terminal shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Glyphs {
+    /// Blocks, Braille, arrows.
+    Unicode,
+    /// ASCII only.
+    Ascii,
+}
+
+/// How strongly things stand out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Contrast {
+    /// Secondary things are dimmed.
+    #[default]
+    Normal,
+    /// Nothing is dimmed, borders are bright.
+    High,
+    /// Dark colours for a light background.
+    Light,
+}
+
+impl Contrast {
+    /// Reads the background from `COLORFGBG` (`foreground;background`), which some terminals set.
+    pub fn detect(variable: impl Fn(&str) -> Option<String>) -> Self {
+        let background =
+            variable("COLORFGBG").and_then(|colors| colors.rsplit(';').next().map(str::to_owned));
+        match background.as_deref() {
+            Some("7" | "15") => Self::Light,
+            _ => Self::Normal,
+        }
+    }
+}
+
+/// What a terminal can show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Capabilities {
+    /// Colours.
+    pub depth: ColorDepth,
+    /// Characters.
+    pub glyphs: Glyphs,
+}
+
+impl Capabilities {
+    /// Reads them from the environment's variables (`NO_COLOR`, `COLORTERM`, `TERM`, the locale).
+    pub fn detect(variable: impl Fn(&str) -> Option<String>) -> Self {
+        let filled = |name: &str| variable(name).filter(|value| !value.is_empty());
+        let term = filled("TERM").unwrap_or_default();
+        let locale = filled("LC_ALL")
+            .or_else(|| filled("LC_CTYPE"))
+            .or_else(|| filled("LANG"));
+        let plain_locale = locale.is_some_and(|name| name == "C" || name == "POSIX");
+        let glyphs = if plain_locale || term == "dumb" {
+            Glyphs::Ascii
+        } else {
+            Glyphs::Unicode
+        };
+        let depth = if filled("NO_COLOR").is_some() || term == "dumb" {
+            ColorDepth::Mono
+        } else {
+            depth_of(
+                &term,
+                filled("COLORTERM").as_deref(),
+                filled("TERM_PROGRAM").as_deref(),
+            )
+        };
+        Self { depth, glyphs }
+    }
+}
+
+fn depth_of(term: &str, colorterm: Option<&str>, program: Option<&str>) -> ColorDepth {
+    let declared = matches!(colorterm, Some("truecolor" | "24bit"));
+    let known = ["kitty", "alacritty", "ghostty", "wezterm", "foot", "direct"]
+        .iter()
+        .any(|name| term.contains(name));
+    let hosted = matches!(
+        program,
+        Some("iTerm.app" | "WezTerm" | "ghostty" | "vscode")
+    );
+    if declared || known || hosted {
+        ColorDepth::True
+    } else if term.contains("256color") {
+        ColorDepth::Indexed
+    } else {
+        ColorDepth::Basic
+    }
+}
+
+/// What a thing on the screen is; the theme decides how it looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Plain text.
+    Text,
+    /// Values that lead.
+    Strong,
+    /// Secondary text.
+    Dim,
+    /// Lines around panels.
+    Border,
+    /// Names of panels.
+    Title,
+    /// Keys that may be pressed.
+    Key,
+    /// What is chosen.
+    Chosen,
+    /// Body 1.
+    Body1,
+    /// Body 2.
+    Body2,
+    /// Pressure.
+    Pressure,
+    /// Film.
+    Film,
+    /// Hertz pressure behind it.
+    Hertz,
+    /// Shear stress.
+    Shear,
+    /// The mechanism *cycles*.
+    Cycles,
+    /// The mechanism *peaks*.
+    Peaks,
+    /// The mechanism *traction*.
+    Traction,
+    /// What a formula says (in place of the simulation).
+    Formula,
+    /// All is well.
+    Good,
+    /// Look here.
+    Warn,
+    /// Something failed.
+    Bad,
+}
+
+/// Colours, characters and contrast together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Theme {
+    /// What the terminal can show.
+    pub capabilities: Capabilities,
+    /// Contrast.
+    pub contrast: Contrast,
+}
+
+impl Theme {
+    /// A theme for those capabilities, of normal contrast.
+    pub fn new(capabilities: Capabilities) -> Self {
+        Self {
+            capabilities,
+            contrast: Contrast::Normal,
+        }
+    }
+
+    /// Same theme, next contrast.
+    pub fn next_contrast(&mut self) {
+        self.contrast = match self.contrast {
+            Contrast::Normal => Contrast::High,
+            Contrast::High => Contrast::Light,
+            Contrast::Light => Contrast::Normal,
+        };
+    }
+
+    /// Whether only ASCII may be drawn.
+    pub fn is_ascii(self) -> bool {
+        self.capabilities.glyphs == Glyphs::Ascii
+    }
+
+    /// Whether there are no colours at all.
+    pub fn is_mono(self) -> bool {
+        self.capabilities.depth == ColorDepth::Mono
+    }
+
+    /// Paper and ink of the whole screen, where they are not the terminal's own: dark colours on a dark background
+    /// would not be read.
+    pub fn page(self) -> Option<Style> {
+        let light = self.contrast == Contrast::Light && !self.is_mono();
+        light.then(|| match self.capabilities.depth {
+            ColorDepth::Basic => Style::new().bg(Color::White).fg(Color::Black),
+            _ => Style::new().bg(self.rgb(PAPER)).fg(self.rgb(INK)),
+        })
+    }
+
+    /// `unicode`, or `ascii` where only that may be drawn.
+    pub fn pick(self, unicode: &'static str, ascii: &'static str) -> &'static str {
+        if self.is_ascii() { ascii } else { unicode }
+    }
+
+    /// Whether maps are drawn in half blocks of colour (else in characters of growing ink).
+    pub fn paints(self) -> bool {
+        !self.is_ascii()
+            && matches!(
+                self.capabilities.depth,
+                ColorDepth::True | ColorDepth::Indexed
+            )
+    }
+
+    /// How a thing looks.
+    pub fn style(self, role: Role) -> Style {
+        let mut style = Style::new().add_modifier(weight(role));
+        match self.role_color(role) {
+            Some(color) => style = style.fg(color),
+            None if role == Role::Dim && self.contrast != Contrast::High => {
+                style = style.add_modifier(Modifier::DIM);
+            }
+            None => {}
+        }
+        if self.capabilities.depth == ColorDepth::Mono && role == Role::Bad {
+            style = style.add_modifier(Modifier::REVERSED);
+        }
+        style
+    }
+
+    /// A colour of a map, `t` from 0 to 1.
+    pub fn map_color(self, ramp: Ramp, t: f32) -> Color {
+        if self.capabilities.depth == ColorDepth::Indexed {
+            return Color::Indexed(map_index(ramp, t));
+        }
+        self.rgb(ramp.colour(t, 1.0))
+    }
+
+    /// A character of a map, `t` from 0 to 1.
+    pub fn map_ink(t: f32) -> &'static str {
+        ramp::ink(t)
+    }
+
+    /// A colour in the terminal's depth (no colour where it shows none).
+    pub fn rgb(self, [r, g, b]: [u8; 3]) -> Color {
+        match self.capabilities.depth {
+            ColorDepth::True => Color::Rgb(r, g, b),
+            ColorDepth::Indexed => Color::Indexed(nearest_index([r, g, b])),
+            ColorDepth::Basic | ColorDepth::Mono => Color::Reset,
+        }
+    }
+
+    fn role_color(self, role: Role) -> Option<Color> {
+        match self.capabilities.depth {
+            ColorDepth::Mono => None,
+            ColorDepth::Basic if self.contrast == Contrast::Light => Some(basic_on_white(role)),
+            ColorDepth::Basic => Some(basic(role)),
+            ColorDepth::True | ColorDepth::Indexed => {
+                let rgb = match (role, self.contrast) {
+                    (Role::Text | Role::Strong | Role::Title, Contrast::Light) => INK,
+                    (Role::Text | Role::Strong, _) => return Some(Color::Reset),
+                    (Role::Dim, Contrast::Normal) => [140, 146, 162],
+                    (Role::Border, Contrast::Normal) => [84, 92, 112],
+                    (Role::Dim, Contrast::Light) => [92, 96, 108],
+                    (Role::Border | Role::Hertz, Contrast::Light) => [150, 154, 166],
+                    (Role::Title, _) | (Role::Dim | Role::Border, Contrast::High) => {
+                        return Some(Color::Reset);
+                    }
+                    (other, Contrast::Light) => darkened(okabe_ito(other)),
+                    (other, _) => okabe_ito(other),
+                };
+                Some(self.rgb(rgb))
+            }
+        }
+    }
+}
+
+/// Of the light contrast.
+const PAPER: [u8; 3] = [250, 250, 247];
+const INK: [u8; 3] = [24, 26, 32];
+
+/// The same hue for a light background.
+fn darkened(rgb: [u8; 3]) -> [u8; 3] {
+    rgb.map(|c| (f32::from(c) * 0.55) as u8)
+}
+
+fn weight(role: Role) -> Modifier {
+    match role {
+        Role::Strong | Role::Key | Role::Chosen | Role::Bad | Role::Title => Modifier::BOLD,
+        Role::Formula => Modifier::ITALIC,
+        _ => Modifier::empty(),
+    }
+}
+
+fn okabe_ito(role: Role) -> [u8; 3] {
+    match role {
+        Role::Text | Role::Strong | Role::Title | Role::Dim | Role::Border => [222, 226, 235],
+        Role::Key | Role::Chosen | Role::Warn | Role::Body1 => [240, 228, 66],
+        Role::Body2 | Role::Shear => [214, 140, 184],
+        Role::Pressure | Role::Peaks => [232, 106, 30],
+        Role::Film | Role::Formula => [86, 180, 233],
+        Role::Hertz => [122, 128, 142],
+        Role::Cycles => [230, 170, 20],
+        Role::Traction | Role::Good => [20, 176, 130],
+        Role::Bad => [255, 82, 82],
+    }
+}
+
+fn basic(role: Role) -> Color {
+    match role {
+        Role::Text | Role::Strong | Role::Title => Color::Reset,
+        Role::Dim | Role::Border | Role::Hertz => Color::DarkGray,
+        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Yellow,
+        Role::Body2 | Role::Shear => Color::Magenta,
+        Role::Pressure | Role::Peaks => Color::LightRed,
+        Role::Film | Role::Formula => Color::Cyan,
+        Role::Traction | Role::Good => Color::Green,
+        Role::Bad => Color::Red,
+    }
+}
+
+/// The dark ones of the sixteen.
+fn basic_on_white(role: Role) -> Color {
+    match role {
+        Role::Text | Role::Strong | Role::Title => Color::Black,
+        Role::Dim | Role::Border | Role::Hertz => Color::DarkGray,
+        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Blue,
+        Role::Body2 | Role::Shear => Color::Magenta,
+        Role::Pressure | Role::Peaks | Role::Bad => Color::Red,
+        Role::Film | Role::Formula => Color::Cyan,
+        Role::Traction | Role::Good => Color::Green,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn from(pairs: &[(&str, &str)]) -> Capabilities {
+        Capabilities::detect(|name| {
+            pairs
+                .iter()
+                .find(|(key, _)| *key == name)
+                .map(|(_, value)| (*value).to_owned())
+        })
+    }
+
+    #[test]
+    fn capabilities_follow_the_environment() {
+        let true_color = from(&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")]);
+        assert_eq!(true_color.depth, ColorDepth::True);
+        assert_eq!(
+            from(&[("TERM", "tmux-256color")]).depth,
+            ColorDepth::Indexed
+        );
+        assert_eq!(from(&[("TERM", "linux")]).depth, ColorDepth::Basic);
+        let none = from(&[("TERM", "xterm-256color"), ("NO_COLOR", "1")]);
+        assert_eq!(none.depth, ColorDepth::Mono);
+        // An empty NO_COLOR counts as unset (no-color.org).
+        let empty = from(&[("TERM", "xterm-256color"), ("NO_COLOR", "")]);
+        assert_eq!(empty.depth, ColorDepth::Indexed);
+        assert_eq!(from(&[("LC_ALL", "C")]).glyphs, Glyphs::Ascii);
+        assert_eq!(from(&[("LANG", "C.UTF-8")]).glyphs, Glyphs::Unicode);
+    }
+}

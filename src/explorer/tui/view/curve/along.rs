@@ -1,0 +1,193 @@
+//! The three curves: life against S, friction against S, friction against the speed (Stribeck).
+
+use super::{CurveFigure, Place};
+use crate::tui::action::Action;
+use crate::tui::app::{App, CurveKind, Leading};
+use crate::tui::dial::Dial;
+use crate::tui::units::{nice_ceiling, sig};
+use asperity_engine::sim::Knob;
+use asperity_session::sweep::{Along, Found};
+
+/// Places of a formula over the range of S.
+const FINE: usize = 120;
+/// |S| up to which the formula sets the axis.
+const MOVES: f64 = 1.9;
+
+pub(super) fn figure(app: &App) -> CurveFigure {
+    match app.curve {
+        CurveKind::Life => life(app),
+        CurveKind::Friction => friction(app),
+        CurveKind::Stribeck => stribeck(app),
+    }
+}
+
+/// What a press at a place of the present curve's axis asks for.
+pub(super) fn goes_to(app: &App, x: f64) -> Action {
+    match app.curve {
+        CurveKind::Life | CurveKind::Friction => Action::GoTo(Knob::SlideRoll, x),
+        CurveKind::Stribeck => {
+            let [least, _] = axis(app, Knob::EntrainmentMS).0;
+            Action::GoTo(Knob::EntrainmentMS, 10_f64.powf(x).copysign(least))
+        }
+    }
+}
+
+fn dial(app: &App, knob: Knob) -> Option<&Dial> {
+    app.dials.iter().find(|dial| dial.knob == knob)
+}
+
+/// Range and target of a knob.
+fn axis(app: &App, knob: Knob) -> ([f64; 2], f64) {
+    dial(app, knob).map_or(([0.0, 1.0], 0.0), |dial| {
+        ([dial.min, dial.max], dial.target)
+    })
+}
+
+/// Life over whole decades, logarithmic: the formula over the whole range of S, dots where it was simulated.
+fn life(app: &App) -> CurveFigure {
+    let (x, knob) = axis(app, Knob::SlideRoll);
+    let formula: Vec<(f64, f64)> = (0..=FINE)
+        .map(|i| x[0] + (x[1] - x[0]) * i as f64 / FINE as f64)
+        .map(|s| (s, app.formula_at(s).unwrap_or(f64::NAN).log10()))
+        .collect();
+    let point = |found: &Found| {
+        let [low, life, high] = found.life?.map(f64::log10);
+        Some((found.at.slide_roll, life, Some([low, high])))
+    };
+    let points: Vec<_> = app.simulated(Along::SlideRoll).filter_map(point).collect();
+    // At ±2 a body stands and the life falls without end: the axis is not for that.
+    let known = formula.iter().filter(|place| place.0.abs() < MOVES);
+    let known = known.map(|place| place.1);
+    let now = app.leading_life().map(f64::log10);
+    let y = decades(known.chain(points.iter().map(|place| place.1)).chain(now));
+    CurveFigure {
+        name: "life against S",
+        formula,
+        points,
+        knob,
+        now,
+        x,
+        y,
+        y_ends: y.map(power),
+        foot: [
+            format!("S {:.0}", x[0]),
+            "0".to_owned(),
+            format!("{:.0}", x[1]),
+        ],
+    }
+}
+
+/// What was simulated of the friction along a knob, and the top of its axis. No formula.
+fn frictions(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> (Vec<Place>, f64) {
+    let point = |found: &Found| (x(found), found.friction, None);
+    let points: Vec<_> = app.simulated(along).map(point).collect();
+    let most = points.iter().map(|place| place.1).fold(0.01, f64::max);
+    (points, nice_ceiling(most))
+}
+
+/// Friction now, once it holds for where the knobs are.
+fn friction_now(app: &App) -> Option<f64> {
+    let settled = app.leading() == Leading::Simulated;
+    app.frame()
+        .filter(|_| settled)
+        .map(|frame| frame.metrics.friction_coefficient)
+}
+
+/// The traction curve.
+fn friction(app: &App) -> CurveFigure {
+    let (x, knob) = axis(app, Knob::SlideRoll);
+    let (points, most) = frictions(app, Along::SlideRoll, |found| found.at.slide_roll);
+    CurveFigure {
+        name: "friction against S",
+        formula: Vec::new(),
+        points,
+        knob,
+        now: friction_now(app),
+        x,
+        y: [0.0, most],
+        y_ends: ["0".to_owned(), sig(most, 1)],
+        foot: [
+            format!("S {:.0}", x[0]),
+            "0".to_owned(),
+            format!("{:.0}", x[1]),
+        ],
+    }
+}
+
+/// Friction against the entrainment speed, logarithmic; the λ that belong to the points below it.
+fn stribeck(app: &App) -> CurveFigure {
+    let place = |speed_m_s: f64| speed_m_s.abs().max(1e-12).log10();
+    let (ends, knob) = axis(app, Knob::EntrainmentMS);
+    // Bodies that run towards −x have negative speeds: the slow end stands left.
+    let slow_and_fast = if ends[0].abs() < ends[1].abs() {
+        ends
+    } else {
+        [ends[1], ends[0]]
+    };
+    let (points, most) = frictions(app, Along::Entrainment, |found| {
+        place(found.at.entrainment_m_s)
+    });
+    let lambdas = app
+        .simulated(Along::Entrainment)
+        .filter_map(|found| found.lambda);
+    let (low, high) = lambdas.fold((f64::MAX, 0.0_f64), |(low, high), one| {
+        (low.min(one), high.max(one))
+    });
+    let middle = if low < high {
+        format!("λ {}–{}", sig(low, 2), sig(high, 2))
+    } else {
+        String::new()
+    };
+    let unit = app.units.speed();
+    CurveFigure {
+        name: "Stribeck",
+        formula: Vec::new(),
+        points,
+        knob: place(knob),
+        now: friction_now(app),
+        x: slow_and_fast.map(place),
+        y: [0.0, most],
+        y_ends: ["0".to_owned(), sig(most, 1)],
+        foot: [
+            format!("U {}", sig(unit.of(slow_and_fast[0]), 1)),
+            middle,
+            unit.show(slow_and_fast[1], 1),
+        ],
+    }
+}
+
+/// A power of ten in few letters.
+fn power(decade: f64) -> String {
+    match decade as i32 {
+        0 => "1".to_owned(),
+        1 => "10".to_owned(),
+        other => format!("1e{other}"),
+    }
+}
+
+/// Whole decades that hold all values, at least one.
+fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let (mut low, mut high) = (0.0_f64, 0.0_f64);
+    for value in values.filter(|value| value.is_finite()) {
+        low = low.min(value);
+        high = high.max(value);
+    }
+    let low = low.floor().max(-12.0);
+    [low.min(high.ceil() - 1.0), high.ceil().min(12.0)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decades_are_whole_and_hold_all() {
+        assert_eq!(decades([-0.2, -2.7].into_iter()), [-3.0, 0.0]);
+        assert_eq!(decades([0.4].into_iter()), [0.0, 1.0]);
+        assert_eq!(decades(std::iter::empty()), [-1.0, 0.0]);
+        assert_eq!(
+            decades([f64::NAN, f64::NEG_INFINITY].into_iter()),
+            [-1.0, 0.0]
+        );
+    }
+}

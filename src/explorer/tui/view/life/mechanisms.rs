@@ -1,0 +1,200 @@
+//! The mechanisms that make the life, as a waterfall of factors.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+
+use super::RowAllotment;
+use crate::tui::app::App;
+use crate::tui::theme::{Role, Theme};
+use crate::tui::units::sig_or_dash;
+use crate::tui::view::{ascii_text, put, put_right};
+use asperity_engine::math::number::sig;
+use asperity_engine::scene::ContactKind;
+
+/// The factors one under the other on one logarithmic scale: each bar begins where the one above ended, so that the
+/// third ends at the life; the fourth is what the load costs beside it.
+pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
+    let now = app.leading_factors();
+    let pinned = app.pinned.map_or(1.0, |pinned| pinned.load_factor);
+    let factors = [
+        ("cycles", now.and_then(|now| now.cycle), Role::Cycles),
+        ("peaks", now.map(|now| now.peak), Role::Peaks),
+        ("traction", now.map(|now| now.traction), Role::Traction),
+        ("load", now.map(|now| now.load / pinned), Role::Strong),
+    ];
+    let ghost = app.ghost.as_ref().and_then(|ghost| ghost.leading_factors());
+    let frozen = |n: usize| {
+        let of = ghost?;
+        let row = [of.cycle, Some(of.peak), Some(of.traction), Some(of.load)];
+        let row = row.into_iter().take(n + 1);
+        Some(row.map(|factor| factor.unwrap_or(1.0)).product::<f64>())
+    };
+    let mut from = 1.0;
+    for (n, (name, factor, role)) in factors.into_iter().enumerate() {
+        let row = rows.take(1);
+        let to = from * factor.unwrap_or(1.0);
+        waterfall_value(app, row, (name, factor, role), buffer);
+        waterfall_bar(app.theme, row, [from, to], role, buffer);
+        if let Some(end) = frozen(n) {
+            waterfall_mark(app.theme, row, end, buffer);
+        }
+        from = to;
+    }
+    let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
+    if rows.rest().height >= 16 || turned {
+        against(app, rows.take(1), buffer);
+    }
+}
+
+/// What the load's factor is against.
+fn against(app: &App, row: Rect, buffer: &mut Buffer) {
+    let unit = match app.setup.scene.kind() {
+        ContactKind::Point => app.units.force(),
+        ContactKind::Line => app.units.force_per_length(),
+    };
+    let (whose, load) = match app.pinned {
+        Some(pinned) => ("pinned", pinned.load_n),
+        None => ("the scene's", app.setup.load_n),
+    };
+    // A load that is cut is another load.
+    let load = unit.show(load, 3);
+    let forms = [
+        format!("  against {whose} {load}"),
+        format!("  of {whose} {load}"),
+        format!("  against {load}"),
+    ];
+    let fits = |words: &&String| words.chars().count() <= usize::from(row.width);
+    let Some(words) = forms.iter().find(fits) else {
+        return;
+    };
+    let line = Line::styled(ascii_text(app.theme, words), app.theme.style(Role::Dim));
+    put(row, 0, &line, buffer);
+}
+
+/// Decades of every bar: bars that rescale cannot be compared. What goes beyond them has an arrow at that end.
+const DECADES: [f64; 2] = [-4.0, 0.0];
+
+fn waterfall_value(
+    app: &App,
+    row: Rect,
+    (name, factor, role): (&'static str, Option<f64>, Role),
+    buffer: &mut Buffer,
+) {
+    let theme = app.theme;
+    put(row, 0, &Line::styled(name, theme.style(role)), buffer);
+    let value = ascii_text(theme, &format!("×{}", sig_or_dash(factor, 2)));
+    let style = theme.style(Role::Strong);
+    put_right(row, 0, &Line::styled(value, style), buffer);
+}
+
+/// Where the bars of a row stand, between their names and values; `None`: there is no room.
+fn track(row: Rect) -> Option<Rect> {
+    let (before, after) = (9, 7);
+    (!row.is_empty() && row.width >= before + after + 3).then(|| Rect {
+        x: row.x + before,
+        width: row.width - before - after,
+        ..row
+    })
+}
+
+/// The ends of the decades that every bar has.
+pub(super) fn scale(theme: Theme, row: Rect, buffer: &mut Buffer) {
+    let Some(track) = track(row) else { return };
+    let [least, most] = DECADES.map(|decade| sig(10_f64.powf(decade), 1));
+    if usize::from(track.width) <= least.len() + most.len() {
+        return;
+    }
+    let dim = theme.style(Role::Dim);
+    put(track, 0, &Line::styled(least, dim), buffer);
+    put_right(track, 0, &Line::styled(most, dim), buffer);
+}
+
+fn waterfall_bar(theme: Theme, row: Rect, [from, to]: [f64; 2], role: Role, buffer: &mut Buffer) {
+    let Some(track) = track(row) else { return };
+    let last = track.width - 1;
+    let part = |value: f64| (value.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
+    let column = |value: f64| (part(value).clamp(0.0, 1.0) * f64::from(last)).round() as u16;
+    let (a, b) = (column(from), column(to));
+    // Half a cell beyond the last decade is drawn there as it is.
+    let slack = 0.5 / f64::from(last);
+    let (least, most) = (part(from.min(to)), part(from.max(to)));
+    for offset in 0..track.width {
+        let (symbol, role) = if offset == 0 && least < -slack {
+            (theme.pick("◂", "<"), role)
+        } else if offset == last && most > 1.0 + slack {
+            (theme.pick("▸", ">"), role)
+        } else if offset >= a.min(b) && offset <= a.max(b) {
+            (theme.pick("█", "#"), role)
+        } else {
+            (theme.pick("·", "."), Role::Border)
+        };
+        if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
+            cell.set_symbol(symbol).set_style(theme.style(role));
+        }
+    }
+}
+
+/// Where the frozen bar ended.
+fn waterfall_mark(theme: Theme, row: Rect, end: f64, buffer: &mut Buffer) {
+    let Some(track) = track(row) else { return };
+    let part = (end.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
+    let offset = (part.clamp(0.0, 1.0) * f64::from(track.width - 1)).round() as u16;
+    if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
+        cell.set_symbol(theme.pick("┃", "|"))
+            .set_style(theme.style(Role::Formula));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::theme::{Capabilities, ColorDepth, Glyphs};
+
+    /// A bar on a track of 21 columns: five to a decade.
+    fn bar(from: f64, to: f64) -> String {
+        let row = Rect::new(0, 0, 37, 1);
+        let mut buffer = Buffer::empty(row);
+        waterfall_bar(ascii(), row, [from, to], Role::Cycles, &mut buffer);
+        drawn(&buffer, row)
+    }
+
+    fn ascii() -> Theme {
+        Theme::new(Capabilities {
+            depth: ColorDepth::Mono,
+            glyphs: Glyphs::Ascii,
+        })
+    }
+
+    fn drawn(buffer: &Buffer, row: Rect) -> String {
+        let cells = (0..row.width).filter_map(|x| buffer.cell((x, row.y)));
+        let text: String = cells.map(ratatui::buffer::Cell::symbol).collect();
+        text.trim().to_owned()
+    }
+
+    #[test]
+    fn bars_keep_their_decades_and_have_arrows_beyond_them() {
+        assert_eq!(bar(1.0, 1.0), "....................#");
+        assert_eq!(bar(1.0, 0.1), "...............######");
+        assert_eq!(
+            bar(0.1, 1e-4),
+            "################.....",
+            "the end itself is no arrow"
+        );
+        assert_eq!(bar(0.1, 1e-8), "<###############.....");
+        assert_eq!(bar(1e-6, 1e-8), "<....................", "all of it beyond");
+        assert_eq!(bar(1.0, 30.0), "....................>");
+        assert_eq!(bar(1e-5, 30.0), "<###################>");
+        let nan = bar(1.0, f64::NAN);
+        assert!(!nan.contains(['<', '>']), "{nan}");
+    }
+
+    #[test]
+    fn the_ends_of_the_bars_are_told() {
+        let row = Rect::new(0, 0, 37, 1);
+        let mut buffer = Buffer::empty(row);
+        scale(ascii(), row, &mut buffer);
+        assert_eq!(drawn(&buffer, row), "1e-4                1");
+        scale(ascii(), Rect::new(0, 0, 18, 1), &mut buffer);
+    }
+}

@@ -1,0 +1,75 @@
+//! Below the number, always: what to know before trusting it.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::tui::app::{App, Leading};
+use crate::tui::theme::Role;
+use crate::tui::units::sig_or_dash;
+use crate::tui::view::{ascii_text, put, put_right};
+use asperity_engine::sim::{Caution, CautionCode};
+
+/// The weightiest caution, and how many more there are behind `i`: in its own words where they fit, else by its name.
+pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let cautions = app.cautions();
+    let Some(first) = cautions.first() else {
+        return;
+    };
+    let more = match cautions.len() - 1 {
+        0 => String::new(),
+        more => format!(" +{more} i"),
+    };
+    let (mark, role) = match first.code {
+        // What every scene leaves out is no alarm.
+        CautionCode::ElasticOnly => ("", Role::Dim),
+        _ => (theme.pick("⚠ ", "! "), Role::Warn),
+    };
+    let taken = if row.width < BESIDE { FORMULA } else { 0 };
+    let room = usize::from(row.width).saturating_sub(more.len() + 2 + taken);
+    let text = ascii_text(theme, &first.text);
+    let text = if text.chars().count() <= room {
+        text
+    } else {
+        name(first).to_owned()
+    };
+    let line = Line::from(vec![
+        Span::styled(format!("{mark}{text}"), theme.style(role)),
+        Span::styled(more, theme.style(Role::Key)),
+    ]);
+    put(row, 0, &line, buffer);
+    // Where there was no room for the formula's number beside the simulation's, it stands here.
+    if row.width < BESIDE && app.leading() == Leading::Simulated {
+        let formula = format!("formula {}", sig_or_dash(app.estimate.formula.life(), 2));
+        let formula = Line::styled(formula, theme.style(Role::Formula));
+        if line.width() + formula.width() < usize::from(row.width) {
+            put_right(row, 0, &formula, buffer);
+        }
+    }
+}
+
+/// Columns of that number.
+const FORMULA: usize = 13;
+/// Columns in which the formula's number stands beside the simulation's band.
+const BESIDE: u16 = 32;
+
+/// A caution in a few letters.
+fn name(caution: &Caution) -> &'static str {
+    match caution.code {
+        CautionCode::NotConverged => "not converged",
+        CautionCode::BeyondYield => "beyond yield",
+        CautionCode::StillYielding => "still yields",
+        CautionCode::Dry => "dry",
+        CautionCode::FilmBelowMolecule => "film < molecule",
+        CautionCode::MeshFilm => "coarse mesh",
+        CautionCode::ShortDomain => "short domain",
+        CautionCode::StandingBody => "a body stands",
+        CautionCode::ModelRange => "choices differ",
+        CautionCode::AboveSmooth => "above smooth",
+        CautionCode::NotSettled => "not settled",
+        CautionCode::NoLife => "no life",
+        CautionCode::StrengthUnknown => "yield unknown",
+        CautionCode::ElasticOnly => "elastic, no wear",
+    }
+}

@@ -1,0 +1,251 @@
+//! Last lines: where the run is, how well it converges, what is left out, what is recorded.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::tui::app::{App, Leading, Trouble, WhyUnconverged};
+use crate::tui::theme::Role;
+use crate::tui::units::{seconds, sig};
+use crate::tui::view::footer::{hints_shown, recorder};
+use crate::tui::view::{Areas, PanelSpacing, ascii_text, knobs, overlay, put, put_right};
+use asperity_engine::scene::CycleBasis;
+use asperity_engine::sim::{
+    CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named,
+};
+use asperity_session::sweep::Along;
+
+/// Words and their roles, in the order in which they are dropped from the right.
+type StatusWords = Vec<(String, Role)>;
+
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
+    let area = areas.status;
+    let mut row = 0;
+    if let Some(why) = app.why() {
+        let text = ascii_text(app.theme, &why.in_columns(usize::from(area.width) - 2));
+        let role = match why.of {
+            Leading::Simulated => Role::Strong,
+            Leading::Scaled | Leading::Formula => Role::Formula,
+        };
+        let line = Line::styled(format!(" {text}"), app.theme.style(role));
+        put(area, row, &line, buffer);
+        row += 1;
+    }
+    if let Some(frame) = app.frame() {
+        let mut words = progress(app, frame);
+        if areas.density == PanelSpacing::Full || area.height > row + 2 {
+            write(app, area, row, &words, buffer);
+            row += 1;
+            words = quality(app, frame);
+        } else if app.trouble().is_none() {
+            words.extend(quality(app, frame));
+        } else {
+            // What is wrong stands first: the rest may not fit.
+            words = quality(app, frame).into_iter().chain(words).collect();
+        }
+        write(app, area, row, &words, buffer);
+        row += 1;
+    }
+    let last = area.height - 1;
+    if row <= last {
+        last_line(app, area, last, buffer);
+    }
+}
+
+fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let mut spans = vec![Span::raw(" ")];
+    let mut used = 1;
+    for (text, role) in words {
+        let text = ascii_text(theme, text);
+        let span = Span::styled(text, theme.style(*role));
+        if used + span.width() > usize::from(area.width) {
+            break;
+        }
+        used += span.width() + 2;
+        spans.push(span);
+        spans.push(Span::raw("  "));
+    }
+    put(area, row, &Line::from(spans), buffer);
+}
+
+fn progress(app: &App, frame: &Frame) -> StatusWords {
+    if frame.stage == Stage::StartUp {
+        let share = (100.0 * frame.start_up).floor();
+        return vec![
+            (format!("start-up {share:.0} %"), Role::Warn),
+            (
+                match app.setup.scene.lubricant {
+                    Some(_) => "smooth film on finer and finer grids, then roughness",
+                    None => "smooth contact on finer and finer grids, then roughness",
+                }
+                .to_owned(),
+                Role::Text,
+            ),
+        ];
+    }
+    let mut words = vec![
+        (format!("passage {:.2}", frame.passages), Role::Text),
+        (format!("step {}", frame.step), Role::Text),
+    ];
+    if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
+        let means = match app.setup.scene.life.as_ref().map(|life| life.cycles) {
+            Some(CycleBasis::Damage) => ": its cycles never end",
+            Some(_) => ": its life is not counted",
+            None => "",
+        };
+        words.push((format!("body {body} stands{means}"), Role::Warn));
+    }
+    if let Some(rate) = app.steps_per_s() {
+        words.push((format!("{} steps/s", sig(rate, 2)), Role::Text));
+    }
+    words.push((format!("t {}", seconds(frame.time_s)), Role::Text));
+    if let Some(repeat) = frame.metrics.repeat.filter(|repeat| repeat.repeats) {
+        let what = match repeat.rhythm {
+            Rhythm::Steady => "steady".to_owned(),
+            Rhythm::Orbit => format!("repeats every {}", seconds(repeat.period_s)),
+            Rhythm::Statistics => "means settled".to_owned(),
+        };
+        words.push((what, Role::Good));
+    }
+    if let Some(replay) = &app.replay {
+        let speed = format!("replayed at 1/{} of its speed", sig(1.0 / replay.rate(), 2));
+        words.push((speed, Role::Text));
+    }
+    if let Some((done, all)) = app.sweep {
+        words.push((
+            format!("sweeping {} {done}/{all}", swept(app.sweeping)),
+            Role::Warn,
+        ));
+    }
+    words
+}
+
+fn quality(app: &App, frame: &Frame) -> StatusWords {
+    let metrics = &frame.metrics;
+    let trouble = app.trouble();
+    let residual = match trouble {
+        None => (format!("residual {:.0e}", metrics.residual), Role::Text),
+        Some(trouble) => (not_converged(app, trouble), Role::Bad),
+    };
+    let (regime, role) = regime(metrics);
+    let lambda = metrics
+        .lambda_ratio
+        .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
+    let shown = |word: &str, quantity: &Quantity, digits: i32, role: Role| {
+        let value = app.units.show(quantity, frame, digits);
+        (format!("{word} {value}"), role)
+    };
+    let mut words = vec![
+        residual,
+        (format!("{regime}{lambda}"), role),
+        shown("contact", const { named("contact_ratio") }, 2, Role::Text),
+        (format!("load err {}", tiny(metrics.load_error)), Role::Dim),
+        (format!("mass err {}", tiny(metrics.mass_error)), Role::Dim),
+        shown("µ", const { named("friction_coefficient") }, 2, Role::Text),
+        shown("p max", const { named("p_max_pa") }, 3, Role::Pressure),
+        shown("h min", const { named("h_min_m") }, 2, Role::Film),
+    ];
+    let by_itself = CATALOGUE.iter().filter(|quantity| quantity.by_itself);
+    words.extend(by_itself.map(|quantity| shown(quantity.symbol, quantity, 2, Role::Text)));
+    if let Some(errors) = metrics.errors {
+        let share = sig(100.0 * errors.h_central, 2);
+        words.push((format!("mesh ±{share} % of h"), Role::Dim));
+    }
+    if trouble.is_some() {
+        // A failure stands first.
+        words.truncate(4);
+    }
+    words
+}
+
+/// Which step did not converge, and why.
+fn not_converged(app: &App, trouble: Trouble) -> String {
+    let why = match trouble.what {
+        WhyUnconverged::Pressure(residual, retries) => {
+            format!("residual {residual:.1e} after {retries} retries")
+        }
+        WhyUnconverged::Film(part) => format!("{part:.1e} of the film not balanced"),
+        WhyUnconverged::Overlap(overlap_m) => {
+            let overlap = app.units.film().show(overlap_m, 2);
+            // A load turned by hand keeps the domain of the run's start; started anew the scene has one of its own.
+            format!("surfaces overlap by {overlap}; e, Enter: wider domain")
+        }
+    };
+    format!(" STEP {} NOT CONVERGED: {why} ", trouble.step)
+}
+
+/// The letter of what a sweep goes along.
+fn swept(along: Along) -> &'static str {
+    match along {
+        Along::SlideRoll => "S",
+        Along::Entrainment => "U",
+    }
+}
+
+/// A small number by its power of ten.
+fn tiny(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    format!("{value:.0e}")
+}
+
+/// Who carries the load, and how good that is.
+fn regime(metrics: &Metrics) -> (&'static str, Role) {
+    let role = match metrics.regime {
+        LubricationRegime::FullFilm => Role::Good,
+        LubricationRegime::Mixed => Role::Warn,
+        LubricationRegime::Boundary | LubricationRegime::Dry => Role::Bad,
+    };
+    (metrics.regime.name(), role)
+}
+
+fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let recorder = recorder(app);
+    let room = Rect {
+        width: area.width.saturating_sub(recorder.width() as u16 + 1),
+        ..area
+    };
+    put_right(area, row, &recorder, buffer);
+    if let Some(typed) = app.typing_line() {
+        let line = Line::styled(
+            format!(" {}", ascii_text(theme, &typed)),
+            theme.style(Role::Chosen),
+        );
+        put(room, row, &line, buffer);
+        return;
+    }
+    if let Some(message) = app.message() {
+        // A longer one is laid over the panels above.
+        if one_line(message, room.width) {
+            let line = Line::styled(format!(" {message}"), theme.style(Role::Warn));
+            put(room, row, &line, buffer);
+        }
+        return;
+    }
+    let mut spans = vec![Span::raw(" ")];
+    for hint in hints_shown(app, room) {
+        spans.push(Span::styled(hint.key, theme.style(Role::Key)));
+        spans.push(Span::styled(
+            format!(" {}  ", ascii_text(theme, &hint.word)),
+            theme.style(Role::Dim),
+        ));
+    }
+    put(room, row, &Line::from(spans), buffer);
+}
+
+fn one_line(message: &str, columns: u16) -> bool {
+    !message.contains('\n') && message.chars().count() < usize::from(columns)
+}
+
+/// A message that the last line cannot hold, whole, above it; gives the rows that it lies over.
+pub(super) fn message(app: &App, areas: &Areas, screen: Rect, buffer: &mut Buffer) -> Option<Rect> {
+    let message = app.message()?;
+    let recorder = recorder(app).width() as u16 + 1;
+    if one_line(message, areas.status.width.saturating_sub(recorder)) {
+        return None;
+    }
+    Some(overlay::message(app, message, screen, buffer))
+}

@@ -1,0 +1,100 @@
+//! The arrays of a step, for every format that holds arrays: named as the frame's fields, units in the names, SI.
+
+use std::io::{Result, Write};
+
+use super::netcdf::{ArrayValues, FieldArray, NetCdf};
+use super::npz::Npz;
+use asperity_engine::sim::{CATALOGUE, Frame};
+
+/// All arrays of a frame: every scalar that is known, the nodes, the fields, the slice.
+fn arrays(frame: &Frame) -> Vec<FieldArray<'_>> {
+    let array = |name, axes, values| FieldArray { name, axes, values };
+    let known = CATALOGUE.iter().filter_map(|quantity| {
+        let value = quantity.number(frame)?;
+        Some(array(
+            quantity.name,
+            &[],
+            ArrayValues::F64(vec![value].into()),
+        ))
+    });
+    let mut all: Vec<FieldArray> = known.collect();
+    let nodes = |n: usize, first: f64, step: f64| {
+        let nodes: Vec<f64> = (0..n).map(|k| first + step * k as f64).collect();
+        ArrayValues::F64(nodes.into())
+    };
+    all.push(array(
+        "x_m",
+        &["x"],
+        nodes(frame.nx, frame.x_min_m, frame.dx_m),
+    ));
+    all.push(array(
+        "y_m",
+        &["y"],
+        nodes(frame.ny, frame.y_min_m, frame.dy_m),
+    ));
+    for (name, field) in [
+        ("pressure_pa", &frame.pressure_pa),
+        ("film_m", &frame.film_m),
+        ("roughness_1_m", &frame.roughness_1_m),
+        ("roughness_2_m", &frame.roughness_2_m),
+        ("traction_on_body_1_pa", &frame.traction_pa),
+    ] {
+        all.push(array(name, &["y", "x"], ArrayValues::F32(field)));
+    }
+    all.push(array(
+        "contact",
+        &["y", "x"],
+        ArrayValues::U8(&frame.contact),
+    ));
+    if let Some(slice) = &frame.slice {
+        let depths = ArrayValues::F64((&*slice.depths_m).into());
+        all.push(array("slice_depths_m", &["depth"], depths));
+        for (name, field) in [
+            ("slice_effective_pa", &slice.effective_pa),
+            ("slice_tau_xz_pa", &slice.tau_xz_pa),
+        ] {
+            all.push(array(name, &["depth", "x"], ArrayValues::F32(field)));
+        }
+    }
+    all
+}
+
+/// Length of an axis in a frame.
+fn length(frame: &Frame, axis: &str) -> usize {
+    match axis {
+        "x" => frame.nx,
+        "y" => frame.ny,
+        _ => frame.slice.as_ref().map_or(0, |slice| slice.depths_m.len()),
+    }
+}
+
+/// A frame as numpy's archive; its bytes.
+pub(super) fn write_npz(out: impl Write, frame: &Frame) -> Result<u64> {
+    let mut npz = Npz::new(out);
+    for FieldArray { name, axes, values } in arrays(frame) {
+        let shape: Vec<usize> = axes.iter().map(|axis| length(frame, axis)).collect();
+        match values {
+            ArrayValues::F32(values) => npz.f32(name, &shape, values)?,
+            ArrayValues::F64(values) => npz.f64(name, &shape, &values)?,
+            ArrayValues::U8(values) => npz.u8(name, &shape, values)?,
+        }
+    }
+    npz.finish()
+}
+
+/// A frame as NetCDF; its bytes.
+pub(super) fn write_netcdf(mut out: impl Write, frame: &Frame) -> Result<u64> {
+    let mut file = NetCdf::default();
+    for axis in ["x", "y", "depth"] {
+        if length(frame, axis) > 0 {
+            file.axis(axis, length(frame, axis));
+        }
+    }
+    for array in arrays(frame) {
+        file.array(&array)?;
+    }
+    let bytes = file.finish();
+    out.write_all(&bytes)?;
+    out.flush()?;
+    Ok(bytes.len() as u64)
+}

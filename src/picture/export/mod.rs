@@ -1,0 +1,329 @@
+//! Chosen steps as `.npz` files that numpy, Julia and MATLAB read, as NetCDF, and as pictures, with the scene beside them.
+//!
+//! One file a step: `step_000128.npz` with arrays named as the frame's fields, units in the names, `[y, x]`
+//! with x the rolling direction, the slice `[depth, x]`; every scalar that is known, named as in the table. Pictures are `step_000128_pressure.png` and so on. Beside them `scene.toml`, which
+//! repeats the run.
+
+mod animation;
+mod drawing;
+mod fields;
+mod netcdf;
+mod npz;
+mod pages;
+mod paper;
+mod profile;
+
+use std::collections::BTreeMap;
+use std::fs::{File, TryLockError};
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use self::animation::Animation;
+use self::drawing::PictureTarget;
+use self::fields::{write_netcdf, write_npz};
+use self::pages::{Page, Pictures};
+pub use self::paper::PrintSize;
+use crate::chart::png_of;
+use asperity_engine::observe::{
+    NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
+};
+use asperity_engine::sim::{Frame, Stage};
+
+/// What is written of a step; the words are the command line's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Format {
+    /// Fields as numpy archives
+    Npz,
+    /// All fields as NetCDF
+    #[value(name = "nc")]
+    NetCdf,
+    /// Maps and centre line as pictures
+    Png,
+    /// The same as papers print them: sized in mm, axes and text as vectors, no title
+    Svg,
+    /// The same as PDF
+    Pdf,
+    /// All steps one after another
+    Gif,
+    /// The same as animated PNG, in all colours
+    Apng,
+    /// Every scalar of every step (of a recording; a run has --table)
+    Csv,
+}
+
+impl Format {
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Npz => "npz",
+            Self::NetCdf => "nc",
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+            Self::Gif => "gif",
+            Self::Apng => "apng",
+            Self::Csv => "csv",
+        }
+    }
+
+    fn moves(self) -> bool {
+        matches!(self, Self::Gif | Self::Apng)
+    }
+}
+
+/// Names of the pictures that there are.
+pub fn picture_names() -> Vec<&'static str> {
+    Pictures::names().collect()
+}
+
+/// Writes fields and pictures.
+#[derive(Debug)]
+pub struct Export {
+    folder: PathBuf,
+    /// Held while it is written into. Where the system knows no locks there is none to respect.
+    _lock: Option<File>,
+    /// The folder was not there before.
+    is_new: bool,
+    overwrite: Overwrite,
+    formats: Vec<Format>,
+    scene_toml: String,
+    pictures: Pictures,
+    /// Pictures that are drawn; empty: all, or of those that move the one that tells most.
+    chosen: Vec<String>,
+    print: PrintSize,
+    moving: BTreeMap<&'static str, Animation>,
+    frames: u64,
+    bytes: u64,
+}
+
+impl Export {
+    /// Makes the folder, if it is not there, and sees that nothing in it is lost.
+    ///
+    /// # Errors
+    /// When the folder cannot be made, or holds something and may not be written over.
+    pub fn create(
+        folder: &Path,
+        overwrite: Overwrite,
+        formats: &[Format],
+    ) -> Result<Self, ObserveError> {
+        let failed = |reason: String| ObserveError::new(folder.display().to_string(), reason);
+        let is_new = !folder.exists();
+        std::fs::create_dir_all(folder)
+            .map_err(|error| failed(format!("the folder cannot be made: {error}")))?;
+        let lock = File::open(folder).ok().filter(|_| cfg!(unix));
+        if let Some(Err(TryLockError::WouldBlock)) = lock.as_ref().map(File::try_lock) {
+            let reason =
+                "another run is writing into it; wait for its end or choose another folder";
+            return Err(failed(reason.to_owned()));
+        }
+        let mut entries = std::fs::read_dir(folder)
+            .map_err(|error| failed(format!("the folder cannot be read: {error}")))?;
+        if overwrite == Overwrite::Refuse && entries.next().is_some() {
+            let reason = "the folder is not empty; choose another or ask for overwriting (--force)";
+            return Err(failed(reason.to_owned()));
+        }
+        let scene = folder.join(SCENE);
+        if scene.exists() && !is_ours(&scene) {
+            let reason = "holds a scene.toml that no export wrote; choose another folder";
+            return Err(failed(reason.to_owned()));
+        }
+        overwrite.check(&scene)?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            _lock: lock,
+            is_new,
+            overwrite,
+            formats: formats.to_vec(),
+            scene_toml: String::new(),
+            pictures: Pictures::default(),
+            chosen: Vec::new(),
+            print: PrintSize::default(),
+            moving: BTreeMap::new(),
+            frames: 0,
+            bytes: 0,
+        })
+    }
+
+    fn failed(&self, error: &std::io::Error) -> ObserveError {
+        ObserveError::new(
+            self.folder.display().to_string(),
+            format!("the fields could not be written ({error}); files written before are kept"),
+        )
+    }
+
+    /// Draws the pictures of these names alone, and prints those for papers in that size.
+    #[must_use]
+    pub fn of(mut self, chosen: &[String], print: PrintSize) -> Self {
+        (self.chosen, self.print) = (chosen.to_vec(), print);
+        self
+    }
+
+    /// Takes a step up: as a still where that is wanted, and for the pictures that move.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn take(&mut self, frame: &Frame, as_still: bool) -> Result<(), ObserveError> {
+        if self.frames == 0 {
+            self.move_in()?;
+        }
+        for format in self.formats.clone().into_iter().filter(|_| as_still) {
+            self.bytes += match format {
+                Format::Npz | Format::NetCdf => self.write(frame, format)?,
+                Format::Png | Format::Svg | Format::Pdf => self.draw(frame, format)?,
+                Format::Gif | Format::Apng | Format::Csv => 0,
+            };
+        }
+        if self.formats.iter().any(|format| format.moves()) {
+            self.follow(frame)?;
+        }
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// A step's pictures in one format; the bytes written.
+    fn draw(&mut self, frame: &Frame, format: Format) -> Result<u64, ObserveError> {
+        let mut bytes = 0;
+        for (name, page) in Pictures::pages(frame, &self.chosen) {
+            let file = format!("step_{:06}_{name}.{}", frame.step, format.ending());
+            let path = self.folder.join(file);
+            let (pictures, print) = (&mut self.pictures, self.print);
+            self.overwrite.write_by(&path, |at| {
+                let drawn = if format == Format::Png {
+                    let mut pixels = Vec::new();
+                    let size = pictures.draw(frame, page, PictureTarget::Still(&mut pixels));
+                    size.and_then(|size| png_of(&pixels, size))
+                } else {
+                    pictures.print(frame, page, (&print, format == Format::Pdf))
+                };
+                std::fs::write(at, drawn.map_err(std::io::Error::other)?)
+            })?;
+            bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
+        }
+        Ok(bytes)
+    }
+
+    /// Takes a step up for the pictures that move.
+    fn follow(&mut self, frame: &Frame) -> Result<(), ObserveError> {
+        let one = [Pictures::moving(frame).to_owned()];
+        let chosen = if self.chosen.is_empty() {
+            &one[..]
+        } else {
+            &self.chosen
+        };
+        let pages: Vec<(&'static str, Page)> = Pictures::pages(frame, chosen);
+        for (name, page) in pages {
+            let animation = self.moving.entry(name).or_default();
+            if animation.wants(frame.passages) {
+                let mut pixels = Vec::new();
+                let canvas = PictureTarget::Moving(&mut pixels);
+                let drawn = self.pictures.draw(frame, page, canvas);
+                let size = drawn.map_err(|reason| self.failed(&std::io::Error::other(reason)))?;
+                self.moving.entry(name).or_default().push(size, pixels);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the pictures that move.
+    fn write_moving(&mut self) -> Result<(), ObserveError> {
+        for (name, animation) in std::mem::take(&mut self.moving) {
+            for format in self.formats.iter().filter(|format| format.moves()) {
+                let path = self.folder.join(format!("{name}.{}", format.ending()));
+                self.overwrite.write_by(&path, |at| animation.write(at))?;
+                self.bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the arrays of a step; the bytes written.
+    fn write(&self, frame: &Frame, format: Format) -> Result<u64, ObserveError> {
+        let file = format!("step_{:06}.{}", frame.step, format.ending());
+        self.overwrite.write_by(&self.folder.join(file), |at| {
+            let out = BufWriter::new(File::create(at)?);
+            match format {
+                Format::NetCdf => write_netcdf(out, frame),
+                _ => write_npz(out, frame),
+            }
+        })
+    }
+
+    /// Puts the scene into the folder, in place of what an earlier run left there: its steps beside another scene
+    /// would pass for this one's. Not before there is a step to put beside it.
+    fn move_in(&mut self) -> Result<(), ObserveError> {
+        let entries = std::fs::read_dir(&self.folder).into_iter().flatten();
+        let names = entries.flatten().map(|entry| entry.file_name());
+        let ours = |name: &str| is_a_step(name) || Pictures::is_moving(name);
+        for name in names.filter(|name| ours(&name.to_string_lossy())) {
+            let removed = std::fs::remove_file(self.folder.join(name));
+            removed.map_err(|error| self.failed(&error))?;
+        }
+        let scene = self.folder.join(SCENE);
+        self.overwrite.write(&scene, self.scene_toml.as_bytes())
+    }
+}
+
+/// The scene beside the steps.
+const SCENE: &str = "scene.toml";
+
+/// Whether a file begins as the scenes do that this program writes.
+fn is_ours(path: &Path) -> bool {
+    let head = asperity_engine::files::read_up_to(path, 1 << 20).unwrap_or_default();
+    head.starts_with(b"# A scene of asperity.")
+}
+
+/// Whether a file of that name is one that an export writes: `step_000128.npz`, `step_000128_pressure.png`, the
+/// scene.
+pub fn is_exported(name: &str) -> bool {
+    name == SCENE || is_a_step(name) || Pictures::is_moving(name)
+}
+
+fn is_a_step(name: &str) -> bool {
+    let Some(rest) = name.strip_prefix("step_") else {
+        return false;
+    };
+    let what = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+    rest.len() - what.len() >= 6 && ([".npz", ".nc"].contains(&what) || Pictures::are_named(what))
+}
+
+impl Observer for Export {
+    fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
+        self.scene_toml.clone_from(&context.scene_toml);
+        self.pictures = Pictures::new(&context.scene);
+        Ok(())
+    }
+
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+        if frame.stage == Stage::Passage {
+            self.take(frame, true)?;
+        }
+        Ok(())
+    }
+
+    fn event(&mut self, _event: &RunEvent) -> Result<(), ObserveError> {
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        let is_empty = self.frames == 0;
+        self.write_moving()?;
+        Ok(ObserverReport {
+            output: self.folder.display().to_string(),
+            frames: self.frames,
+            skipped: 0,
+            bytes: self.bytes,
+            note: if is_empty { NOTHING_CAME } else { "" }.to_owned(),
+            queue: None,
+        })
+    }
+}
+
+impl Drop for Export {
+    /// A folder that was made for nothing goes again.
+    fn drop(&mut self) {
+        if self.is_new && self.frames == 0 {
+            // Only an empty folder can be taken away like this.
+            drop(std::fs::remove_dir(&self.folder));
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Damage maps: a block of each surface that moves with its body, way from a crest to the right, depth down.
+//!
+//! Damage spans many powers of ten, so its logarithm is shown, in a range that is the same in every frame and
+//! every recording: thousandfold above and below the worst point of the smooth contact. A block exists once
+//! material has crossed; what of it has not crossed yet is no number and is not drawn, and its share is told. Block
+//! and picture are stretched to one size, whose axes carry the lengths; a row for each of the solver's depths.
+
+use rerun::components::{ImageFormat, MagnificationFilter};
+use rerun::{AnnotationContext, AsComponents, ChannelDatatype, DepthImage, Points2D, Radius};
+use rerun::{Rgba32, Scalars, SegmentationImage};
+
+use super::colour::{BACKGROUND, GREEN, WHITE, faded};
+use super::depths::Depths;
+use super::picture::{Field, PixelField};
+use super::plot::{PlotBox, ticks_at};
+use super::raster::{Height, RasterEntity};
+use super::stream::Stream;
+use super::waiting::ClassImage;
+use asperity_engine::math::number::{UM, Unit, sig, ticks};
+use asperity_engine::observe::ObserveError;
+use asperity_engine::sim::{DamageBlock, Frame};
+use asperity_picture::{Look, Ramp};
+
+/// Entities of body 1 and 2.
+pub(super) const DAMAGE: [&str; 2] = [
+    "damage/body_1_log10_relative",
+    "damage/body_2_log10_relative",
+];
+/// Powers of ten above and below the reference that colours tell apart.
+pub(super) const DECADES: f64 = 3.0;
+const WIDTH: f64 = 2.0;
+const HEIGHT: f64 = 1.5;
+/// Depth that is shown, in a: twice that of the greatest shear stress. Below there is no damage to speak of.
+const DEPTH: f64 = 1.5;
+/// Damage less than this many powers of ten below the reference is as good as none.
+const LEAST: f32 = -12.0;
+
+/// The damage maps of both bodies.
+#[derive(Default)]
+pub(super) struct Damage {
+    blocks: [Option<Block>; 2],
+}
+
+struct Block {
+    entity: &'static str,
+    raster: RasterEntity,
+    /// Covers what has not crossed yet.
+    cover: ClassImage,
+    depths: Depths,
+    columns: usize,
+    length_m: f64,
+    /// What was logged last: a map changes when a material point has crossed.
+    last: Vec<f32>,
+}
+
+/// The frame of the pictures, which views show before there is a block.
+pub(super) fn plot_box() -> PlotBox {
+    PlotBox {
+        x: [0.0, WIDTH],
+        y: [0.0, HEIGHT],
+        ..PlotBox::default()
+    }
+}
+
+impl Damage {
+    /// Logs the maps that have changed.
+    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        for (body, damage) in frame.damage.iter().enumerate() {
+            let Some(damage) = damage.as_ref().filter(|damage| damage.filled > 0) else {
+                continue;
+            };
+            let fits = |block: &Block| block.fits(damage);
+            if !self.blocks[body].as_ref().is_some_and(fits) {
+                self.blocks[body] = Block::new(stream, DAMAGE[body], damage, frame.a_m)?;
+            }
+            if let Some(block) = &mut self.blocks[body] {
+                block.log(stream, damage)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Block {
+    /// Sets up the picture; `None` for a block that makes none.
+    fn new(
+        stream: &Stream,
+        entity: &'static str,
+        damage: &DamageBlock,
+        a_m: f64,
+    ) -> Result<Option<Self>, ObserveError> {
+        let Some(depths) = Depths::down_to(&damage.depths_m, DEPTH * a_m) else {
+            return Ok(None);
+        };
+        if damage.columns == 0 || damage.damage.len() != damage.columns * damage.depths_m.len() {
+            return Ok(None);
+        }
+        let length = UM.of(damage.length_m);
+        let plot = PlotBox {
+            x_ticks: ticks_at(&ticks(0.0, length, 5), |x| WIDTH * x / length),
+            left_ticks: depths.ticks(HEIGHT),
+            x_title: "distance along the surface from a crest, µm".into(),
+            titles: vec![(0.13, "depth z, µm".into(), WHITE)],
+            ..plot_box()
+        };
+        let size = [WIDTH / damage.columns as f64, HEIGHT / depths.len() as f64];
+        let pixels = PixelField {
+            columns: damage.columns,
+            rows: depths.len(),
+            first: size.map(|side| 0.5 * side),
+            size,
+        };
+        let look = Look {
+            range: [-DECADES, DECADES],
+            ..Look::up_to("D", Unit::new("log10", 1.0), DECADES, Ramp::Magma)
+        };
+        let style = Points2D::update_fields()
+            .with_radii([Radius::new_ui_points(0.0), Radius::new_ui_points(5.0)])
+            .with_colors([faded(WHITE, 255), faded(GREEN, 255)])
+            .with_show_labels(true)
+            .with_draw_order(26.0);
+        stream.log_static(worst_point(entity), &style)?;
+        let raster = RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
+        // What is no number must not colour its neighbours.
+        let sharp =
+            DepthImage::update_fields().with_magnification_filter(MagnificationFilter::Nearest);
+        stream.log_static(format!("{entity}/image"), &sharp)?;
+        log_cover(stream, &cover(entity), &pixels)?;
+        // For programs: length of the block, its columns, and the depths that are shown.
+        let sides = [damage.length_m, damage.columns as f64];
+        let shown = depths.shown_m().iter().copied();
+        stream.log_static(block(entity), &Scalars::new(sides.into_iter().chain(shown)))?;
+        Ok(Some(Self {
+            entity,
+            raster,
+            cover: stream.class_image(cover(entity)),
+            depths,
+            columns: damage.columns,
+            length_m: damage.length_m,
+            last: Vec::new(),
+        }))
+    }
+
+    fn fits(&self, damage: &DamageBlock) -> bool {
+        self.columns == damage.columns
+            && self.length_m == damage.length_m
+            && self.depths.are_of(&damage.depths_m)
+            && damage.damage.len() == damage.columns * damage.depths_m.len()
+    }
+
+    fn log(&mut self, stream: &Stream, damage: &DamageBlock) -> Result<(), ObserveError> {
+        if self.last == damage.damage {
+            return Ok(());
+        }
+        self.last.clone_from(&damage.damage);
+        let powers = powers(damage, self.depths.len(), LEAST);
+        self.raster.log(stream, Field::TopDown(&powers))?;
+        stream.log_classes(self.cover, |classes| {
+            classes.extend(powers.iter().map(|power| u8::from(power.is_nan())));
+        })?;
+        self.log_pit(stream, damage)
+    }
+
+    /// Where the pit starts by this map: the worst point.
+    fn log_pit(&self, stream: &Stream, damage: &DamageBlock) -> Result<(), ObserveError> {
+        let way = damage.pit_place_m.rem_euclid(self.length_m) / self.length_m;
+        let share = self.depths.share(damage.pit_depth_m);
+        let at = share.map(|share| [WIDTH * way, HEIGHT * share].map(|v| v as f32));
+        let crossed = 100.0 * damage.filled as f64 / self.columns as f64;
+        let not_yet = if damage.filled < self.columns {
+            format!(
+                "\n{} % of it has crossed; the rest is not drawn",
+                sig(crossed, 2)
+            )
+        } else {
+            String::new()
+        };
+        let label = format!(
+            "the pit starts here (dot): D = {}, {} µm deep{not_yet}",
+            sig(damage.pit_damage, 3),
+            sig(UM.of(damage.pit_depth_m), 3),
+        );
+        // In the middle below, where it hides little and is not cut off. A worst point below the picture has no dot.
+        let label_at = [0.5 * WIDTH, 0.84 * HEIGHT].map(|v| v as f32);
+        let pit = Points2D::update_fields()
+            .with_positions(std::iter::once(label_at).chain(at))
+            .with_labels([label, String::new()]);
+        stream.log(&worst_point(self.entity), &pit)
+    }
+}
+
+/// log10 D depth by depth down to so many depths, `least` at least; NaN in columns that have not crossed.
+pub(super) fn powers(block: &DamageBlock, shown: usize, least: f32) -> Vec<f32> {
+    let (columns, depths) = (block.columns, block.depths_m.len());
+    let mut powers = vec![f32::NAN; columns * shown];
+    for (column, damage) in block.damage.chunks_exact(depths.max(1)).enumerate() {
+        if damage.iter().any(|&damage| damage > 0.0) {
+            for (row, damage) in damage.iter().take(shown).enumerate() {
+                powers[row * columns + column] = damage.log10().max(least);
+            }
+        }
+    }
+    powers
+}
+
+/// What covers the picture is of the colour behind it: as if nothing were drawn.
+fn log_cover(stream: &Stream, entity: &str, pixels: &PixelField) -> Result<(), ObserveError> {
+    let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
+    let image = SegmentationImage::update_fields()
+        .with_format(format)
+        .with_opacity(1.0)
+        .with_draw_order(5.0);
+    let [r, g, b] = BACKGROUND;
+    let context = AnnotationContext::new([
+        (0, "crossed", Rgba32::from_unmultiplied_rgba(0, 0, 0, 0)),
+        (1, "not crossed yet", Rgba32::from_rgb(r, g, b)),
+    ]);
+    let parts: [&dyn AsComponents; 3] = [&image, &pixels.transform(), &context];
+    stream.log_static(entity, &parts)
+}
+
+/// Where the lengths of a damage map are, m.
+pub(super) fn block(entity: &str) -> String {
+    format!("{entity}/block")
+}
+
+fn cover(entity: &str) -> String {
+    format!("{entity}/not_crossed")
+}
+
+fn worst_point(entity: &str) -> String {
+    format!("{entity}/worst_point")
+}

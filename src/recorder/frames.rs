@@ -1,0 +1,378 @@
+//! A recording's frames, read back: fields as their pictures hold them, scalars to the bit.
+//!
+//! Fields come in half precision (0.05 %, what is below 6e-8 of the unit coarser); written again they are the same
+//! bits. What is drawn in every second picture only (traction, roughness) is that of the last one; a step whose
+//! fields are all its own is [whole](RecordedFrames::whole).
+
+mod origin;
+
+use std::collections::HashMap;
+use std::io::BufReader;
+use std::path::Path;
+use std::sync::Arc;
+
+use re_log_types::LogMsg;
+use rerun::external::re_log_encoding::DecoderApp;
+use rerun::log::Chunk;
+use rerun::{
+    ComponentIdentifier, DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument,
+};
+
+use self::origin::origin;
+use super::moment::STEP;
+use super::scalars::{self, RowReader};
+use super::{RereadError, classes, damage, maps, slice, text};
+use asperity_engine::math::number::{GPA, MPA, UM, Unit};
+use asperity_engine::scene::Scene;
+use asperity_engine::sim::{DamageBlock, Frame, StressSlice};
+
+/// SteppedImages of an entity by their steps.
+type SteppedImages = Vec<(i64, Arc<[u8]>)>;
+
+/// What a recording holds of its run.
+pub struct RecordedFrames {
+    /// The scene of the run.
+    pub scene: Arc<Scene>,
+    /// As TOML.
+    pub scene_toml: String,
+    /// Program and version that recorded it.
+    pub program: String,
+    /// Nodes and lengths, no fields.
+    grid: Frame,
+    depths_m: Arc<[f64]>,
+    /// Length, columns and depths of the damage blocks.
+    blocks: [Vec<f64>; 2],
+    reader: RowReader,
+    rows: Vec<(i64, Vec<f64>)>,
+    pictures: HashMap<String, SteppedImages>,
+    /// What stood under *Now*.
+    texts: Vec<(i64, String)>,
+}
+
+/// What is collected from the chunks.
+#[derive(Default)]
+struct FoundRows {
+    grid: Vec<f64>,
+    depths_m: Vec<f64>,
+    blocks: [Vec<f64>; 2],
+    names: Vec<String>,
+    rows: Vec<(i64, Vec<f64>)>,
+    pictures: HashMap<String, SteppedImages>,
+    texts: Vec<(i64, String)>,
+}
+
+impl RecordedFrames {
+    /// Reads a recording of a run or of the explorer.
+    ///
+    /// # Errors
+    /// When it cannot be read, is damaged, is no recording of this version, or holds no picture.
+    pub fn read(path: &Path) -> Result<Self, RereadError> {
+        let refused = |reason: String| RereadError {
+            path: path.display().to_string(),
+            reason,
+        };
+        let (program, scene_toml) = origin(path).map_err(refused)?;
+        let scene = Scene::from_toml(&scene_toml).map_err(|error| refused(error.to_string()))?;
+        let found = FoundRows::read(path).map_err(refused)?;
+        let unfit = "holds no frames that can be read back: not recorded by this version of asperity, or without a \
+                     step";
+        let grid = scalars::grid_of(&found.grid).ok_or_else(|| refused(unfit.to_owned()))?;
+        let frames = Self {
+            scene: Arc::new(scene),
+            scene_toml,
+            program,
+            grid,
+            depths_m: found.depths_m.into(),
+            blocks: found.blocks,
+            reader: RowReader::new(found.names),
+            rows: found.rows,
+            pictures: found.pictures,
+            texts: found.texts,
+        };
+        if frames.shown().is_empty() || frames.steps().count() < frames.rows.len() {
+            return Err(refused(unfit.to_owned()));
+        }
+        Ok(frames)
+    }
+
+    fn pictures_of(&self, entity: &str) -> &[(i64, Arc<[u8]>)] {
+        self.pictures.get(entity).map_or(&[], Vec::as_slice)
+    }
+
+    /// Every step that has scalars, in order, without fields.
+    pub fn steps(&self) -> impl Iterator<Item = Frame> {
+        self.rows.iter().filter_map(|(_, row)| self.scalars(row))
+    }
+
+    /// How many steps have scalars.
+    pub fn n_steps(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Steps that have pictures, in order.
+    pub fn shown(&self) -> Vec<u64> {
+        let pictures = self.pictures_of(maps::PRESSURE).iter();
+        let has_row = |step: &i64| self.row(*step).is_some();
+        let steps = pictures.map(|(step, _)| *step).filter(has_row);
+        steps.filter_map(|step| u64::try_from(step).ok()).collect()
+    }
+
+    /// Those of them whose fields are all their own.
+    pub fn whole(&self) -> Vec<u64> {
+        let traction = self.pictures_of(maps::TRACTION);
+        let is_whole = |step: &u64| traction.iter().any(|(own, _)| *own == *step as i64);
+        self.shown().into_iter().filter(is_whole).collect()
+    }
+
+    fn row(&self, step: i64) -> Option<&[f64]> {
+        let at = self
+            .rows
+            .binary_search_by_key(&step, |(own, _)| *own)
+            .ok()?;
+        Some(&self.rows[at].1)
+    }
+
+    fn scalars(&self, row: &[f64]) -> Option<Frame> {
+        let mut frame = self.grid.clone();
+        self.reader.fill(row, &mut frame)?;
+        Some(frame)
+    }
+
+    /// A step that has pictures.
+    pub fn frame(&self, step: u64) -> Option<Frame> {
+        let step = i64::try_from(step).ok()?;
+        let mut frame = self.scalars(self.row(step)?)?;
+        let (nx, nodes) = (frame.nx, frame.nx * frame.ny);
+        let map = |entity, unit| {
+            let values = self.values(entity, step, unit, nodes)?;
+            Some(turned_over(&values, nx))
+        };
+        let flat = || vec![0.0; nodes];
+        frame.pressure_pa = map(maps::PRESSURE, GPA)?;
+        frame.film_m = map(maps::FILM, UM)?;
+        frame.traction_pa = map(maps::TRACTION, MPA).unwrap_or_else(flat);
+        frame.roughness_1_m = map(maps::ROUGHNESS_1, UM).unwrap_or_else(flat);
+        frame.roughness_2_m = map(maps::ROUGHNESS_2, UM).unwrap_or_else(flat);
+        let touches = self
+            .bytes(maps::CONTACT, step)
+            .filter(|all| all.len() == nodes);
+        let touches = touches.map(|all| turned_over(all, nx));
+        frame.contact = touches.unwrap_or_else(|| vec![0; nodes]);
+        frame
+            .contact
+            .iter_mut()
+            .for_each(|class| *class = u8::from(*class == classes::TOUCHES));
+        frame.slice = self.slice(step, nx);
+        frame.damage = [0, 1].map(|body| self.damage(body, step));
+        Some(frame)
+    }
+
+    fn slice(&self, step: i64, nx: usize) -> Option<StressSlice> {
+        let values = nx * self.depths_m.len();
+        Some(StressSlice {
+            depths_m: Arc::clone(&self.depths_m),
+            effective_pa: self.values(slice::EFFECTIVE, step, GPA, values)?,
+            tau_xz_pa: self
+                .values(slice::TAU_XZ, step, GPA, values)
+                .unwrap_or_else(|| vec![0.0; values]),
+        })
+    }
+
+    /// A damage map down to the depths that are shown.
+    fn damage(&self, body: usize, step: i64) -> Option<DamageBlock> {
+        let [length_m, columns, depths @ ..] = self.blocks[body].as_slice() else {
+            return None;
+        };
+        let (columns, rows) = (*columns as usize, depths.len());
+        let powers = self.values(
+            damage::DAMAGE[body],
+            step,
+            Unit::new("", 1.0),
+            columns * rows,
+        )?;
+        let mut block = DamageBlock {
+            length_m: *length_m,
+            columns,
+            depths_m: depths.into(),
+            damage: vec![0.0; columns * rows],
+            ..DamageBlock::default()
+        };
+        for column in 0..columns {
+            let mut filled = false;
+            for row in 0..rows {
+                let power = powers[row * columns + column];
+                if power.is_nan() {
+                    continue;
+                }
+                filled = true;
+                let damage = 10_f32.powf(power);
+                block.damage[column * rows + row] = damage;
+                if f64::from(damage) > block.pit_damage {
+                    block.pit_damage = damage.into();
+                    block.pit_depth_m = depths[row];
+                    block.pit_place_m = length_m * (column as f64 + 0.5) / columns as f64;
+                }
+            }
+            block.filled += usize::from(filled);
+        }
+        Some(block)
+    }
+
+    /// The caption and the numbers that stood beside a step.
+    pub fn text(&self, step: u64) -> &str {
+        let after = self.texts.partition_point(|(own, _)| *own <= step as i64);
+        self.texts[..after].last().map_or("", |(_, text)| text)
+    }
+
+    /// The picture that holds at a step.
+    fn bytes(&self, entity: &str, step: i64) -> Option<&[u8]> {
+        let pictures = self.pictures_of(entity);
+        let after = pictures.partition_point(|(own, _)| *own <= step);
+        pictures[..after].last().map(|(_, bytes)| &**bytes)
+    }
+
+    /// Its values in SI, as many as are asked for.
+    fn values(&self, entity: &str, step: i64, unit: Unit, count: usize) -> Option<Vec<f32>> {
+        let bytes = self.bytes(entity, step)?;
+        let halves = bytes
+            .chunks_exact(2)
+            .map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
+        let values = halves.map(|half| (f64::from(value_of(half)) / unit.per_si) as f32);
+        (bytes.len() == 2 * count).then(|| values.collect())
+    }
+}
+
+/// Rows from the last to the first.
+fn turned_over<T: Copy>(values: &[T], columns: usize) -> Vec<T> {
+    values
+        .chunks_exact(columns.max(1))
+        .rev()
+        .flatten()
+        .copied()
+        .collect()
+}
+
+/// IEEE 754 binary16.
+fn value_of(half: u16) -> f32 {
+    let (exponent, digits) = (i32::from((half >> 10) & 0x1f), f32::from(half & 0x3ff));
+    let size = match exponent {
+        0 => digits * 2.0_f32.powi(-24),
+        31 => f32::NAN,
+        _ => (1024.0 + digits) * 2.0_f32.powi(exponent - 25),
+    };
+    if half & 0x8000 == 0 { size } else { -size }
+}
+
+impl FoundRows {
+    fn read(path: &Path) -> Result<Self, String> {
+        let file = asperity_engine::files::open_plain(path).map_err(|error| error.to_string())?;
+        let messages = DecoderApp::decode_eager(BufReader::new(file));
+        let mut found = Self::default();
+        for message in messages.map_err(|error| error.to_string())? {
+            let LogMsg::ArrowMsg(store, arrow) = message.map_err(|error| error.to_string())? else {
+                continue;
+            };
+            if !store.is_blueprint() {
+                let chunk = Chunk::from_arrow_msg(&arrow).map_err(|error| error.to_string())?;
+                found.take(&chunk);
+            }
+        }
+        found.rows.sort_by_key(|(step, _)| *step);
+        found.rows.dedup_by_key(|(step, _)| *step);
+        found.texts.sort_by_key(|(step, _)| *step);
+        for pictures in found.pictures.values_mut() {
+            pictures.sort_by_key(|(step, _)| *step);
+        }
+        Ok(found)
+    }
+
+    fn take(&mut self, chunk: &Chunk) {
+        let path = chunk.entity_path().to_string();
+        let entity = path.trim_start_matches('/');
+        let steps = chunk.timelines().get(&STEP.into());
+        let steps = steps.map_or(&[][..], |column| column.times_raw());
+        if let Some(image) = entity.strip_suffix("/image") {
+            self.take_pictures(
+                chunk,
+                image,
+                steps,
+                DepthImage::descriptor_buffer().component,
+            );
+        } else if entity == maps::CONTACT {
+            self.take_pictures(
+                chunk,
+                entity,
+                steps,
+                SegmentationImage::descriptor_buffer().component,
+            );
+        } else if entity == scalars::SCALARS {
+            self.names
+                .extend(strings(chunk, SeriesLines::descriptor_names().component));
+            self.rows.extend(steps.iter().copied().zip(numbers(chunk)));
+        } else if entity == text::NOW {
+            let texts = strings(chunk, TextDocument::descriptor_text().component);
+            self.texts.extend(steps.iter().copied().zip(texts));
+        } else {
+            let of_body = |body: usize| damage::block(damage::DAMAGE[body]) == entity;
+            let place = match entity {
+                scalars::GRID => &mut self.grid,
+                scalars::DEPTHS => &mut self.depths_m,
+                _ if of_body(0) => &mut self.blocks[0],
+                _ if of_body(1) => &mut self.blocks[1],
+                _ => return,
+            };
+            if let Some(values) = numbers(chunk).next_back() {
+                *place = values;
+            }
+        }
+    }
+
+    fn take_pictures(
+        &mut self,
+        chunk: &Chunk,
+        entity: &str,
+        steps: &[i64],
+        buffer: ComponentIdentifier,
+    ) {
+        let known = [
+            maps::PRESSURE,
+            maps::FILM,
+            maps::CONTACT,
+            maps::TRACTION,
+            maps::ROUGHNESS_1,
+            maps::ROUGHNESS_2,
+            slice::EFFECTIVE,
+            slice::TAU_XZ,
+            damage::DAMAGE[0],
+            damage::DAMAGE[1],
+        ];
+        if !known.contains(&entity) {
+            return;
+        }
+        let rows = chunk.iter_slices::<&[u8]>(buffer);
+        let pictures = steps.iter().copied().zip(rows);
+        let pictures =
+            pictures.filter_map(|(step, row)| Some((step, Arc::from(row.first()?.as_slice()))));
+        self.pictures
+            .entry(entity.to_owned())
+            .or_default()
+            .extend(pictures);
+    }
+}
+
+/// Numbers of every row.
+fn numbers(chunk: &Chunk) -> impl DoubleEndedIterator<Item = Vec<f64>> {
+    let component = Scalars::descriptor_scalars().component;
+    let rows: Vec<_> = chunk
+        .iter_slices::<f64>(component)
+        .map(<[f64]>::to_vec)
+        .collect();
+    rows.into_iter()
+}
+
+/// Texts of every row, one after another.
+fn strings(chunk: &Chunk, component: ComponentIdentifier) -> Vec<String> {
+    let rows = chunk.iter_slices::<String>(component);
+    rows.flat_map(|row| row.iter().map(ToString::to_string).collect::<Vec<_>>())
+        .collect()
+}

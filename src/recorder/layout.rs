@@ -1,0 +1,169 @@
+//! The layout in the file: tabs, views, cameras, ranges.
+//!
+//! The library writes containers and views but no properties of views (camera, bounds, background).
+//! So the layout is first sent into memory, the properties are logged after it under
+//! `view/<id>/<Property>`, and the lot is sent to the recording. That path is a convention of the
+//! viewer and not of its interface: `tests/screenshots` shows whether it still holds.
+
+pub(super) mod tabs;
+pub(super) mod views;
+
+use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
+use rerun::blueprint::components::{LoopMode, PanelState, PlayState};
+use rerun::blueprint::{
+    Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, SelectionPanel, Tabs, TimePanel,
+};
+use rerun::{RecordingStream, RecordingStreamBuilder};
+
+use self::views::{Property, Views};
+use super::moment::{SIMULATED_TIME, STEP, check_clock};
+use super::plot::PlotBox;
+use super::stream::{APPLICATION, Stream};
+use super::tooth::ShownTooth;
+use asperity_engine::observe::ObserveError;
+use asperity_engine::scene::ContactKind;
+
+/// Time that a passage of 4 a takes when it is played, s.
+const PASSAGE_SHOWN_S: f64 = 10.0;
+
+/// What the first frame tells the layout.
+pub(super) struct ShownViews {
+    /// Whether the run goes on while it is shown.
+    pub(super) live: bool,
+    /// Time of a passage of 4 a, s; `None` where nothing moves.
+    pub(super) passage_s: Option<f64>,
+    pub(super) kind: ContactKind,
+    pub(super) map: PlotBox,
+    pub(super) interferogram: PlotBox,
+    pub(super) centre_line: PlotBox,
+    pub(super) slice: Option<PlotBox>,
+    /// The same of a line contact over the logarithm of the depth, which is shown in its place.
+    pub(super) over_log: Option<PlotBox>,
+    pub(super) trace: Option<PlotBox>,
+    /// Both surfaces, and below them the trace.
+    pub(super) profile: Option<[[f64; 2]; 2]>,
+    pub(super) kymograph: PlotBox,
+    /// The tooth that the contact rides along.
+    pub(super) tooth: Option<ShownTooth>,
+    /// Target and position of the camera, and of the one that looks down on the pressure.
+    pub(super) camera: Option<[[f64; 3]; 2]>,
+    pub(super) lecture: Option<[[f64; 3]; 2]>,
+    pub(super) rough: [bool; 2],
+    /// Bodies whose damage is mapped.
+    pub(super) damaged: [bool; 2],
+    pub(super) life: bool,
+    /// Whether a body has a hardness at which it flows.
+    pub(super) yields: bool,
+}
+
+/// Sends the layout to a recording.
+pub(super) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveError> {
+    let mut views = Views::default();
+    let tabs = tabs::all(&mut views, shown);
+    send_tabs(
+        stream,
+        tabs,
+        &views.properties,
+        (shown.live, shown.passage_s),
+    )
+}
+
+/// Sends tabs: whether the run goes on while they are shown, and how long a passage takes in it.
+pub(super) fn send_tabs(
+    stream: &Stream,
+    tabs: Vec<ContainerLike>,
+    properties: &[Property],
+    (live, passage_s): (bool, Option<f64>),
+) -> Result<(), ObserveError> {
+    let time = TimePanel::new()
+        .with_state(PanelState::Collapsed)
+        .with_play_state(PlayState::Following)
+        .with_loop_mode(loop_mode(live))
+        .with_fps(15.0);
+    // Milliseconds, so slowly that a passage can be followed; where nothing moves there are only steps.
+    let time = match passage_s {
+        Some(passage_s) => time
+            .with_timeline(SIMULATED_TIME)
+            .with_playback_speed(passage_s / PASSAGE_SHOWN_S),
+        None => time.with_timeline(STEP),
+    };
+    let blueprint = Blueprint::new(Tabs::new(tabs))
+        .with_auto_layout(false)
+        .with_auto_views(false)
+        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
+        .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
+        .with_time_panel(time);
+    send_with(stream.recording(), &blueprint, properties).map_err(|error| {
+        ObserveError::new(
+            stream.output(),
+            format!("its layout could not be made: {error}"),
+        )
+    })
+}
+
+/// What grows is followed and never jumps back; what is whole is played again and again.
+fn loop_mode(live: bool) -> LoopMode {
+    if live { LoopMode::Off } else { LoopMode::All }
+}
+
+/// Sends a layout and the properties of its views.
+fn send_with(
+    recording: &RecordingStream,
+    blueprint: &Blueprint,
+    properties: &[Property],
+) -> Result<(), Box<dyn std::error::Error>> {
+    check_clock()?;
+    let (draft, storage) = RecordingStreamBuilder::new(APPLICATION)
+        .enabled(true)
+        .memory()?;
+    let not_yet = BlueprintActivation {
+        make_active: false,
+        make_default: false,
+    };
+    blueprint.send(&draft, not_yet)?;
+    draft.flush_blocking()?;
+    let messages = storage.take();
+    // Its sink holds it: it would live for ever, with its threads.
+    draft.disconnect();
+    let mut messages: Vec<LogMsg> = messages
+        .into_iter()
+        .filter(|message| message.store_id().is_blueprint())
+        .filter(|message| !matches!(message, LogMsg::BlueprintActivationCommand(_)))
+        .collect();
+    let id: StoreId = messages
+        .first()
+        .map(|message| message.store_id().clone())
+        .ok_or("the layout is empty")?;
+
+    let (extra, storage) = RecordingStreamBuilder::from_store_id(&id)
+        .enabled(true)
+        .send_properties(false)
+        .memory()?;
+    extra.set_time_sequence("blueprint", 0);
+    for Property { path, value } in properties {
+        extra.log(path.as_str(), value.as_ref())?;
+    }
+    extra.flush_blocking()?;
+    let properties = storage.take();
+    extra.disconnect();
+    let properties = properties.into_iter();
+    messages.extend(properties.filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
+    let activation = BlueprintActivationCommand {
+        blueprint_id: id,
+        make_active: true,
+        make_default: true,
+    };
+    recording.send_blueprint(messages, activation);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_live_does_not_loop() {
+        assert_eq!(loop_mode(true), LoopMode::Off);
+        assert_eq!(loop_mode(false), LoopMode::All);
+    }
+}

@@ -1,0 +1,382 @@
+//! The tabs: the first is for an audience, the next for looking closer; what is used rarely comes last.
+
+use rerun::blueprint::{ContainerLike, Grid, Horizontal, TextLogView, Vertical};
+
+use super::super::centre_line::CENTRE_LINE;
+use super::super::damage;
+use super::super::interferogram::INTERFEROGRAM;
+use super::super::kymograph;
+use super::super::maps;
+use super::super::over_log;
+use super::super::plot::Margin;
+use super::super::profile::PROFILE;
+use super::super::series::{YIELDED, by_itself, entity};
+use super::super::slice;
+use super::super::text;
+use super::super::tooth;
+use super::super::trace::TRACE;
+use super::ShownViews;
+use super::views::Views;
+use asperity_engine::scene::ContactKind;
+use asperity_picture::Subject;
+
+/// All tabs of a run.
+pub(super) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
+    let mut tabs = vec![lecture(views, shown)];
+    tabs.extend(tooth(views, shown));
+    tabs.extend(profile(views, shown));
+    tabs.push(contact(views, shown));
+    // The rows of a line contact are all alike: maps of it would be pictures of curves.
+    if shown.kind == ContactKind::Point {
+        tabs.push(maps_of_a_point(views, shown));
+    }
+    if shown.trace.is_some() {
+        tabs.push(point(views, shown));
+    }
+    if shown.life {
+        tabs.push(life(views));
+    }
+    tabs.extend(damage_of_both(views, shown));
+    tabs.push(scalars(views, shown));
+    tabs.push(convergence(views));
+    tabs.push(scene(views));
+    tabs
+}
+
+/// What an audience sees: the contact large, the life in large type, what a point feels, pressure over time.
+fn lecture(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let large = match shown.lecture {
+        Some(camera) => views.lecture_space("Pressure on the film, stress below", camera),
+        None => views.map(Subject::Pressure.title(), maps::PRESSURE, &[], &shown.map),
+    };
+    let mut right = vec![views.document("What is seen", text::LECTURE)];
+    if let Some(plot) = &shown.trace {
+        right.push(views.plot("A point that passes", &[TRACE], plot, Margin::Plain));
+    }
+    right.push(over_time(views, shown, true));
+    let mut shares = vec![0.9];
+    shares.resize(right.len(), 1.0);
+    Horizontal::new([large, Vertical::new(right).with_row_shares(shares).into()])
+        .with_column_shares(vec![1.6, 1.0])
+        .with_name("Lecture")
+        .into()
+}
+
+/// Both gears turning with the contact on them, and what it is like over the path of contact.
+fn tooth(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let tooth = shown.tooth.as_ref()?;
+    let title = "Where on the tooth the contact is";
+    let large = views.plot(title, &[tooth::GEARS], &tooth.gears, Margin::Plain);
+    let left = Vertical::new([large, views.document("What is seen", text::LECTURE)])
+        .with_row_shares(vec![1.7, 1.0]);
+    let titles = [
+        "Hertz pressure over the path of contact, GPa",
+        "Slide-to-roll ratio S over the path of contact",
+        "Radius R of the tooth over the path of contact, mm",
+    ];
+    let paths = titles.iter().zip(tooth::PATHS).zip(&tooth.paths);
+    let paths =
+        paths.map(|((title, entity), plot)| views.plot(title, &[entity], plot, Margin::Plain));
+    let right = Vertical::new(paths.collect::<Vec<_>>());
+    let both = Horizontal::new([ContainerLike::from(left), right.into()]);
+    let both = both.with_column_shares(vec![1.25, 1.0]);
+    Some(both.with_name("Tooth").into())
+}
+
+/// Both surfaces with the oil between them, and under them what the point that rides on one has felt.
+fn profile(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let title = "Both surfaces and the oil between them, along y = 0";
+    let large = views.framed(title, &[PROFILE, TRACE], shown.profile?);
+    let right = Vertical::new([
+        views.document("What is seen", text::LECTURE),
+        over_time(views, shown, false),
+    ]);
+    let both = Horizontal::new([large, right.into()]).with_column_shares(vec![1.9, 1.0]);
+    Some(both.with_name("Profile").into())
+}
+
+fn over_time(views: &mut Views, shown: &ShownViews, pressure: bool) -> ContainerLike {
+    let (title, entity) = if pressure {
+        ("Pressure along y = 0 against time", kymograph::PRESSURE)
+    } else {
+        ("Film along y = 0 against time", kymograph::FILM)
+    };
+    views.plot(title, &[entity], &shown.kymograph, Margin::Legend)
+}
+
+fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let mut upper = Vec::new();
+    let mut shares = Vec::new();
+    if let Some(camera) = shown.camera {
+        upper.push(views.space("Contact cut open at y = 0", camera));
+        shares.push(1.25);
+    }
+    match shown.kind {
+        ContactKind::Point => {
+            let film = Subject::Film.title();
+            upper.push(views.map(Subject::Pressure.title(), maps::PRESSURE, &[], &shown.map));
+            upper.push(views.map(film, maps::FILM, &[maps::CONTACT], &shown.map));
+        }
+        ContactKind::Line => {
+            upper.push(over_time(views, shown, true));
+            upper.push(over_time(views, shown, false));
+        }
+    }
+    shares.extend([1.0, 1.0]);
+    let mut lower = vec![views.document("Now", text::NOW)];
+    let mut lower_shares = vec![0.75];
+    if let Some(stress) = stress(views, shown, "") {
+        lower.push(stress);
+        lower_shares.push(1.0);
+    }
+    let centre = "Centre line: pressure and film";
+    lower.push(views.plot(centre, &[CENTRE_LINE], &shown.centre_line, Margin::Ticks));
+    lower_shares.push(1.0);
+    let last = if shown.life {
+        life_series(views, "Life, log10 (grey: band)")
+    } else {
+        pressure_series(views)
+    };
+    lower.push(last);
+    lower_shares.push(0.7);
+    Vertical::new([
+        Horizontal::new(upper).with_column_shares(shares).into(),
+        Horizontal::new(lower)
+            .with_column_shares(lower_shares)
+            .into(),
+    ])
+    .with_row_shares(vec![1.1, 1.0])
+    .with_name("Contact")
+    .into()
+}
+
+/// The effective stress with its greatest and the followed point: of a line over the logarithm of the depth; else a row
+/// for each of the solver's depths, which crowd below the surface as on such an axis.
+/// The `name` of a run of several ends the title.
+pub(in super::super) fn stress(
+    views: &mut Views,
+    shown: &ShownViews,
+    name: &str,
+) -> Option<ContainerLike> {
+    if let Some(plot) = &shown.over_log {
+        let contents = [over_log::EFFECTIVE, over_log::MARKS, over_log::HERTZ];
+        let title = format!("Stress σ_eff over log depth{name}");
+        return Some(views.plot(&title, &contents, plot, Margin::Legend));
+    }
+    let contents = [slice::EFFECTIVE, slice::PEAK, slice::POINT, slice::HERTZ];
+    let title = format!("Effective stress, a row per depth{name}");
+    Some(views.plot(&title, &contents, shown.slice.as_ref()?, Margin::Legend))
+}
+
+fn life_series(views: &mut Views, title: &str) -> ContainerLike {
+    // The title says it.
+    views.single(title, "life/log10_relative")
+}
+
+fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let map = &shown.map;
+    let fringes = Subject::Interferogram.title();
+    let mut all = vec![
+        views.map(fringes, INTERFEROGRAM, &[], &shown.interferogram),
+        views.map(Subject::Traction.title(), maps::TRACTION, &[], map),
+    ];
+    for (rough, subject, entity) in [
+        (shown.rough[0], Subject::Roughness1, maps::ROUGHNESS_1),
+        (shown.rough[1], Subject::Roughness2, maps::ROUGHNESS_2),
+    ] {
+        if rough {
+            all.push(views.map(subject.title(), entity, &[], map));
+        }
+    }
+    all.extend(shear(views, shown));
+    all.push(over_time(views, shown, true));
+    all.push(over_time(views, shown, false));
+    if all.len() % 4 == 3 {
+        all.push(views.document("Now", text::NOW));
+    }
+    Grid::new(all).with_grid_columns(4).with_name("Maps").into()
+}
+
+fn shear(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    if let Some(plot) = &shown.over_log {
+        let contents = [over_log::TAU_XZ, over_log::HERTZ];
+        let title = "Shear τxz over log depth";
+        return Some(views.plot(title, &contents, plot, Margin::Legend));
+    }
+    let contents = [slice::TAU_XZ, slice::HERTZ];
+    let title = "Shear τxz, a row per depth";
+    Some(views.plot(title, &contents, shown.slice.as_ref()?, Margin::Legend))
+}
+
+fn point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let mut upper = Vec::new();
+    if let Some(plot) = &shown.trace {
+        let title = "What the followed point has felt";
+        upper.push(views.plot(title, &[TRACE], plot, Margin::Plain));
+    }
+    match shown.kind {
+        ContactKind::Point => {
+            let contents = [slice::EFFECTIVE, slice::POINT];
+            let plot = shown.slice.iter();
+            upper.extend(
+                plot.map(|plot| views.plot("Where the point is", &contents, plot, Margin::Legend)),
+            );
+        }
+        ContactKind::Line => {
+            upper.extend(stress(views, shown, ""));
+            upper.extend(shear(views, shown));
+        }
+    }
+    let cycles = [
+        "material_point/cycles/counted",
+        "material_point/cycles/formula",
+    ];
+    let (stress, place) = ("material_point/stress_GPa", "material_point/position_mm");
+    let lower = vec![
+        views.named("At the point, GPa", &[stress], &["p", "σ_eff", "τxz"]),
+        views.named("Peaks in this crossing", &cycles, &["so far", "expected"]),
+        views.named("Where the point is, mm", &[place], &["x", "depth"]),
+    ];
+    let mut shares = vec![1.6];
+    shares.resize(upper.len(), 1.0);
+    Vertical::new([
+        Horizontal::new(upper).with_column_shares(shares).into(),
+        Horizontal::new(lower).into(),
+    ])
+    .with_row_shares(vec![1.3, 1.0])
+    .with_name("Material point")
+    .into()
+}
+
+fn life(views: &mut Views) -> ContainerLike {
+    let left = Vertical::new([
+        life_series(
+            views,
+            "Life, log10 (grey: band, green: what the mesh costs)",
+        ),
+        views.named(
+            "log10",
+            &["life/log10_factors", "life/log10_factors/load"],
+            &["cycles", "peaks", "traction", "load"],
+        ),
+    ]);
+    let contacts = |views: &mut Views, body: usize| {
+        let entity = |of: &str| format!("life/contacts_per_cycle/n_{body}_{of}");
+        let (formula, counted) = (entity("formula"), entity("counted"));
+        let title = format!("n of body {body}");
+        views.named(&title, &[&formula, &counted], &["formula", "counted"])
+    };
+    let middle = Vertical::new([
+        contacts(views, 1),
+        contacts(views, 2),
+        views.single("Greatest effective stress, GPa", "series/stress_GPa"),
+    ]);
+    let right = Vertical::new([
+        views.document("Now", text::NOW),
+        views.named("Motion", &["series/motion"], &["S", "its target", "U, m/s"]),
+    ]);
+    Horizontal::new([left, middle, right].map(ContainerLike::from))
+        .with_column_shares(vec![1.0, 0.9, 0.8])
+        .with_name("Life")
+        .into()
+}
+
+/// What collects in both bodies and where the pit starts; `None`: nothing is mapped.
+fn damage_of_both(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let bodies = (0..2).filter(|&body| shown.damaged[body]);
+    let maps = bodies.map(|body| {
+        let title = format!(
+            "Damage of body {}, worst of the smooth contact = 0",
+            body + 1
+        );
+        let contents = [damage::DAMAGE[body]];
+        views.plot(&title, &contents, &damage::plot_box(), Margin::Legend)
+    });
+    let maps: Vec<ContainerLike> = maps.collect();
+    (!maps.is_empty()).then(|| Horizontal::new(maps).with_name("Damage").into())
+}
+
+/// What is and what it ramps to.
+const TARGET: [&str; 2] = ["now", "target"];
+
+fn pressure_series(views: &mut Views) -> ContainerLike {
+    views.named(
+        "Pressure, GPa",
+        &["series/pressure_GPa"],
+        &["greatest", "Hertz"],
+    )
+}
+
+/// Every scalar against time, where it has no better place.
+fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    let kind = shown.kind;
+    let mut all = vec![
+        pressure_series(views),
+        views.named(
+            "Film, µm",
+            &["series/film_um"],
+            &["centre", "mean", "least"],
+        ),
+        views.named("Contact, %", &["series/contact_percent"], &["area", "load"]),
+        views.single("Friction coefficient", "series/friction"),
+        match kind {
+            ContactKind::Point => views.named("Load, N", &["series/load_N"], &TARGET),
+            ContactKind::Line => views.named("Load, N/m", &["series/load_N_per_m"], &TARGET),
+        },
+        views.named(
+            "Hertz half-width, µm",
+            &["series/half_width_um"],
+            &["along x", "across"],
+        ),
+        views.single("λ ratio", "series/lambda_ratio"),
+        views.single("Regime: 0 dry to 3 full film", "series/regime"),
+    ];
+    if shown.yields {
+        let title = match kind {
+            ContactKind::Point => "Yielded for good, µm³",
+            ContactKind::Line => "Yielded for good, µm³ per metre",
+        };
+        all.push(views.named(title, &[YIELDED], &["body 1", "body 2"]));
+    }
+    for quantity in by_itself() {
+        all.push(views.single(&quantity.label(kind), &entity(quantity, kind)));
+    }
+    Grid::new(all)
+        .with_grid_columns(3)
+        .with_name("Scalars")
+        .into()
+}
+
+fn convergence(views: &mut Views) -> ContainerLike {
+    Grid::new([
+        views.named(
+            "Errors, log10",
+            &["convergence/log10_errors"],
+            &["residual", "load", "film", "mass"],
+        ),
+        views.named(
+            "Iterations",
+            &["convergence/iterations"],
+            &["Newton", "linear", "retries", "converged (1)"],
+        ),
+        views.switches("Cautions (1: holds)", "series/cautions"),
+        TextLogView::new("Log").with_origin("/log").into(),
+    ])
+    .with_grid_columns(2)
+    .with_name("Convergence")
+    .into()
+}
+
+fn scene(views: &mut Views) -> ContainerLike {
+    Horizontal::new([
+        views.document("About", text::ABOUT),
+        views.document("Scene (TOML)", text::SCENE_TOML),
+        Vertical::new([
+            views.document("Plan", text::PLAN),
+            views.document("Notes on the data", text::NOTES),
+        ])
+        .into(),
+    ])
+    .with_name("Scene")
+    .into()
+}

@@ -1,0 +1,270 @@
+//! What images hold: values in half precision, and where their pixels lie in a view.
+
+use rerun::components::{Colormap, ImageBuffer, MagnificationFilter};
+use rerun::{AsComponents, DepthImage, Transform3D};
+
+use super::stream::Stream;
+use asperity_engine::math::number::nice_ceiling;
+use asperity_engine::observe::ObserveError;
+use asperity_picture::{Look, Ramp};
+
+/// Greatest number in half precision.
+pub(super) const MOST: f32 = 65_504.0;
+
+/// The viewer's map of those colours.
+fn colormap(ramp: Ramp) -> Colormap {
+    match ramp {
+        Ramp::Inferno => Colormap::Inferno,
+        Ramp::Magma => Colormap::Magma,
+        Ramp::Viridis => Colormap::Viridis,
+        Ramp::Diverging => Colormap::CyanToYellow,
+    }
+}
+
+/// Upper end of a look's range, in its unit.
+pub(super) fn top(look: &Look) -> f64 {
+    // To SI and back a round number may lose its last bit.
+    nice_ceiling(look.unit.of(look.range[1]))
+}
+
+/// Adds SI values in a look's unit and half precision, little-endian as the viewer wants them; what lies beyond.
+pub(super) fn store(look: &Look, field: Field, halves: &mut Vec<u16>) -> Beyond {
+    let (factor, top) = (look.unit.per_si as f32, top(look) as f32);
+    let mut beyond = Beyond::default();
+    field.write_to(halves, |row, halves| {
+        beyond.add(store_row(row, factor, top, halves), row, factor);
+    });
+    beyond
+}
+
+/// Same as bytes of their own.
+pub(super) fn stored(look: &Look, values_si: &[f32]) -> ImageBuffer {
+    let mut halves = Vec::with_capacity(values_si.len());
+    store(look, Field::TopDown(values_si), &mut halves);
+    let bytes: Vec<u8> = halves.into_iter().flat_map(u16::to_ne_bytes).collect();
+    ImageBuffer::from(bytes)
+}
+
+/// What of a picture lies beyond its ranges.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Beyond {
+    /// Samples above the colour range (by their size), which take the top colour.
+    pub(super) above: u64,
+    /// The greatest sample by its size, in the unit.
+    pub(super) greatest: f32,
+    /// Samples that could not be stored as they are: too great, or no numbers.
+    pub(super) clipped: u64,
+    /// By how much at most, in the unit.
+    pub(super) clipped_by: f32,
+}
+
+impl Beyond {
+    fn add(&mut self, (above, greatest): (u32, u32), row: &[f32], factor: f32) {
+        self.above += u64::from(above);
+        let greatest = f32::from_bits(greatest);
+        if greatest <= MOST {
+            self.greatest = self.greatest.max(greatest);
+            return;
+        }
+        for value in row.iter().map(|value| (value * factor).abs()) {
+            self.greatest = self.greatest.max(value);
+            // Of what is no number (which a field never holds by its contract) nobody knows by how much.
+            if value > MOST || value.is_nan() {
+                self.clipped += 1;
+                self.clipped_by = self.clipped_by.max(value - MOST);
+            }
+        }
+    }
+
+    /// Both.
+    pub(super) fn with(self, other: Self) -> Self {
+        Self {
+            above: self.above + other.above,
+            greatest: self.greatest.max(other.greatest),
+            clipped: self.clipped + other.clipped,
+            clipped_by: self.clipped_by.max(other.clipped_by),
+        }
+    }
+}
+
+/// Values of a picture, row by row.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Field<'a, T = f32> {
+    /// As a picture has them.
+    TopDown(&'a [T]),
+    /// As a frame has them, so many a row: y points up.
+    BottomUp(&'a [T], usize),
+}
+
+impl<T> Field<'_, T> {
+    /// Adds a pixel for each value, through a function of rows. Rows are read as they lie: a frame comes from
+    /// another core, and reading it backwards takes three times as long.
+    pub(super) fn write_to<P: Copy + Default>(
+        self,
+        pixels: &mut Vec<P>,
+        mut write: impl FnMut(&[T], &mut [P]),
+    ) {
+        let from = pixels.len();
+        match self {
+            Self::TopDown(values) => {
+                pixels.resize(from + values.len(), P::default());
+                write(values, &mut pixels[from..]);
+            }
+            Self::BottomUp(values, columns) => {
+                pixels.resize(from + values.len(), P::default());
+                let rows = pixels[from..].chunks_exact_mut(columns).rev();
+                for (row, out) in values.chunks_exact(columns).zip(rows) {
+                    write(row, out);
+                }
+            }
+        }
+    }
+}
+
+dispatched! {
+    /// Half precision, to the nearest, ties to even. How many sizes are above `top`, and the bits of the greatest.
+    fn store_row(row: &[f32], factor: f32, top: f32, halves: &mut [u16]) -> (u32, u32) {
+        let (mut above, mut greatest) = (0, 0);
+        for (out, value) in halves.iter_mut().zip(row) {
+            let bits = (value * factor).to_bits();
+            let size = bits & 0x7fff_ffff;
+            above += u32::from(size > top.to_bits());
+            greatest = if size > greatest { size } else { greatest };
+            // From 2^-14 on: fewer digits and another bias of the exponent.
+            let normal = (size + 0x0fff + ((size >> 13) & 1)).wrapping_sub(0x3800_0000) >> 13;
+            // Below, halves are multiples of 2^-24, as singles are between 0.5 and 1: the sum rounds.
+            let small = (f32::from_bits(size) + 0.5).to_bits().wrapping_sub(0x3f00_0000);
+            let half = if size < 0x3880_0000 { small } else { normal };
+            let half = if half > 0x7bff { 0x7bff } else { half };
+            let half = if size > 0x7f80_0000 { 0x7e00 } else { half };
+            *out = ((((bits >> 16) & 0x8000) | half) as u16).to_le();
+        }
+        (above, greatest)
+    }
+}
+
+/// A rectangle of pixels in a view: the centres of the first and the last pixel of both axes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PixelField {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    /// Centre of the upper left pixel.
+    pub(super) first: [f64; 2],
+    /// Size of a pixel.
+    pub(super) size: [f64; 2],
+}
+
+impl PixelField {
+    /// From pixel units of the image to the view.
+    pub(super) fn transform(&self) -> Transform3D {
+        let corner = [
+            (self.first[0] - 0.5 * self.size[0]) as f32,
+            (self.first[1] - 0.5 * self.size[1]) as f32,
+            0.0,
+        ];
+        Transform3D::from_translation_scale(corner, [self.size[0] as f32, self.size[1] as f32, 1.0])
+    }
+
+    pub(super) fn resolution(&self) -> [u32; 2] {
+        [self.columns as u32, self.rows as u32]
+    }
+}
+
+/// Logs how an image looks and where it is.
+pub(super) fn log_styled(
+    stream: &Stream,
+    entity: &str,
+    style: &dyn AsComponents,
+    pixels: &PixelField,
+) -> Result<(), ObserveError> {
+    stream.log_static(entity, &[style, &pixels.transform()])
+}
+
+pub(super) fn styled(look: &Look) -> DepthImage {
+    DepthImage::update_fields()
+        .with_meter(1.0)
+        .with_colormap(colormap(look.ramp()))
+        .with_magnification_filter(MagnificationFilter::Linear)
+}
+
+pub(super) fn range(look: &Look) -> DepthImage {
+    let top = top(look);
+    let low = if look.range[0] < 0.0 { -top } else { 0.0 };
+    DepthImage::update_fields().with_depth_range([low, top])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_engine::math::number::{GPA, Unit};
+
+    fn look(unit: Unit) -> Look {
+        Look::up_to("p", unit, 2e9, Ramp::Diverging)
+    }
+
+    fn stored(look: &Look, values: &[f32]) -> (Vec<f64>, Beyond) {
+        let mut halves = Vec::new();
+        let beyond = store(look, Field::TopDown(values), &mut halves);
+        let values = halves.into_iter().map(u16::from_le).map(value_of);
+        (values.collect(), beyond)
+    }
+
+    /// IEEE 754 binary16.
+    fn value_of(half: u16) -> f64 {
+        let (exponent, digits) = (i32::from((half >> 10) & 0x1f), f64::from(half & 0x3ff));
+        let size = match exponent {
+            0 => digits * 2.0_f64.powi(-24),
+            _ => (1024.0 + digits) * 2.0_f64.powi(exponent - 25),
+        };
+        if half & 0x8000 == 0 { size } else { -size }
+    }
+
+    #[test]
+    fn a_frames_rows_are_turned_over() {
+        let mut pixels = vec![9];
+        Field::BottomUp(&[1, 2, 3, 4, 5, 6], 2).write_to(
+            &mut pixels,
+            |row: &[i32], out: &mut [i32]| {
+                out.copy_from_slice(row);
+            },
+        );
+        assert_eq!(pixels, [9, 5, 6, 3, 4, 1, 2]);
+    }
+
+    #[test]
+    fn values_come_back_to_eleven_bits() {
+        let look = look(GPA);
+        assert!((top(&look) - 2.0).abs() < 1e-12);
+        let values: Vec<f32> = (0..3800)
+            .map(|k| 1.0e2 * 1.007_f32.powi(k) * if k % 2 == 0 { 1.0 } else { -1.0 })
+            .collect();
+        let (back, beyond) = stored(&look, &values);
+        assert_eq!(back.len(), values.len());
+        for (back, value) in back.into_iter().zip(&values) {
+            let value = f64::from(*value) * 1e-9;
+            let error = (back - value).abs();
+            // Half a unit in the last place, and the rounding of a single-precision product.
+            assert!(
+                error <= (0.501 / 1024.0 * value.abs()).max(0.5 * 2.0_f64.powi(-24)),
+                "{value}: {error}"
+            );
+        }
+        assert_eq!(beyond.clipped, 0);
+        let above = values.iter().filter(|value| value.abs() > 2e9).count();
+        assert_eq!(beyond.above, above as u64);
+    }
+
+    #[test]
+    fn what_cannot_be_stored_takes_the_end_and_is_counted() {
+        let unit = Look {
+            range: [-2.0, 2.0],
+            ..look(Unit::new("Pa", 1.0))
+        };
+        let (back, beyond) = stored(&unit, &[0.0, 7e4, -1e5, 65_504.0, 1.0]);
+        assert_eq!(back, [0.0, 65_504.0, -65_504.0, 65_504.0, 1.0]);
+        assert_eq!((beyond.clipped, beyond.clipped_by), (2, 1e5 - MOST));
+        assert_eq!((beyond.above, beyond.greatest), (3, 1e5));
+        let (_, beyond) = stored(&unit, &[f32::NAN, f32::INFINITY]);
+        assert_eq!(beyond.clipped, 2);
+    }
+}

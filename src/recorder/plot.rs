@@ -1,0 +1,305 @@
+//! Axes, ticks, titles and colour legends of the two-dimensional views.
+//!
+//! The viewer draws none of these, so they are lines and labels in the same view. The vertical axis
+//! of a view points down.
+
+use rerun::{Color, LineStrips2D, Points2D, Radius};
+
+use super::colour::{GREY, WHITE, faded, for_text};
+use super::geometry::Geometry;
+use super::stream::{Holds, Stream};
+use asperity_engine::math::number::{self, MM, plain, sig};
+use asperity_engine::observe::ObserveError;
+use asperity_engine::scene::ContactKind;
+use asperity_engine::sim::Frame;
+
+/// Upper edge of titles above a plot, as a share of its height: clear of the label of a tick at its top, which begins at
+/// [`HALF_LABEL`], also where a plot is only 170 points high and text takes 17.
+pub(super) const TITLES: f64 = 0.15;
+/// Half the height of a label: it stands so far above its tick.
+pub(super) const HALF_LABEL: f64 = 0.022;
+
+/// A tick: where, in units of the view, and its text.
+pub(super) type AxisTick = (f64, String);
+
+/// The frame of a plot.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PlotBox {
+    /// Left and right edge.
+    pub(super) x: [f64; 2],
+    /// Upper and lower edge (y points down).
+    pub(super) y: [f64; 2],
+    pub(super) x_ticks: Vec<AxisTick>,
+    pub(super) left_ticks: Vec<AxisTick>,
+    pub(super) right_ticks: Vec<AxisTick>,
+    /// Below the horizontal ticks.
+    pub(super) x_title: String,
+    /// Above the frame, each centred at a share of its width.
+    pub(super) titles: Vec<(f64, String, [u8; 3])>,
+    pub(super) left_colour: Option<[u8; 3]>,
+    pub(super) right_colour: Option<[u8; 3]>,
+}
+
+impl PlotBox {
+    fn width(&self) -> f64 {
+        self.x[1] - self.x[0]
+    }
+
+    fn height(&self) -> f64 {
+        self.y[1] - self.y[0]
+    }
+
+    /// What the view must show: the frame with its ticks and, on request, a legend at the right.
+    pub(super) fn bounds(&self, right: Margin) -> [[f64; 2]; 2] {
+        let (w, h) = (self.width(), self.height());
+        let right = match right {
+            Margin::Plain => 0.05,
+            Margin::Ticks => 0.15,
+            Margin::Legend => 0.26,
+        };
+        [
+            [self.x[0] - 0.14 * w, self.x[1] + right * w],
+            // Text keeps its size, so that a flat plot needs a larger share of its height for it.
+            [
+                self.y[0] - (TITLES + 0.025) * h,
+                self.y[1] + if h < 0.65 * w { 0.32 } else { 0.22 } * h,
+            ],
+        ]
+    }
+
+    /// Of a plane below the surface: x as the nodes have it, depth down with the ticks that a height is given.
+    pub(super) fn below_surface(g: Geometry, ticks: impl FnOnce(f64) -> Vec<AxisTick>) -> Self {
+        /// Height of the picture over its width.
+        const HEIGHT: f64 = 0.72;
+        let x = [g.x_min - 0.5 * g.dx, g.x_max() + 0.5 * g.dx];
+        let height = HEIGHT * (x[1] - x[0]);
+        Self {
+            x,
+            y: [0.0, height],
+            x_ticks: ticks_at(&number::ticks(x[0], x[1], 5), |x| x),
+            left_ticks: ticks(height),
+            x_title: "x, mm".into(),
+            titles: vec![(0.13, "depth z, µm".into(), WHITE)],
+            ..Self::default()
+        }
+    }
+
+    /// Where a place lies in it, its depth as a share of the height; `None` beside it.
+    pub(super) fn at_depth(&self, x_m: f64, share: f64) -> Option<[f32; 2]> {
+        let (x, [left, right]) = (x_m * MM, self.x);
+        let inside = (left..=right).contains(&x);
+        inside.then_some([x as f32, (self.y[1] * share) as f32])
+    }
+
+    /// Draws the frame once for the whole recording.
+    pub(super) fn log(&self, stream: &Stream, entity: &str) -> Result<(), ObserveError> {
+        self.log_that(stream, entity, Holds::Always)
+    }
+
+    /// Draws the frame, for good or until the next.
+    pub(super) fn log_that(
+        &self,
+        stream: &Stream,
+        entity: &str,
+        holds: Holds,
+    ) -> Result<(), ObserveError> {
+        let (w, h) = (self.width(), self.height());
+        let [left, right] = self.x;
+        let [top, bottom] = self.y;
+        let mut strips = vec![vec![
+            [left, top],
+            [right, top],
+            [right, bottom],
+            [left, bottom],
+            [left, top],
+        ]];
+        let tick = 0.015 * w.min(h).abs();
+        strips.extend(
+            self.x_ticks
+                .iter()
+                .map(|(x, _)| vec![[*x, bottom], [*x, bottom + tick]]),
+        );
+        strips.extend(
+            self.left_ticks
+                .iter()
+                .map(|(y, _)| vec![[left - tick, *y], [left, *y]]),
+        );
+        strips.extend(
+            self.right_ticks
+                .iter()
+                .map(|(y, _)| vec![[right, *y], [right + tick, *y]]),
+        );
+        let lines = LineStrips2D::new(strips.iter().map(|strip| points(strip)))
+            .with_colors([Color::from(GREY)])
+            .with_radii([Radius::new_ui_points(0.75)])
+            .with_draw_order(20.0);
+        stream.log_that(&format!("{entity}/frame"), &lines, holds)?;
+
+        let left_colour = self.left_colour.unwrap_or(WHITE);
+        let right_colour = self.right_colour.unwrap_or(WHITE);
+        let mut labels = Labels::default();
+        for (x, text) in &self.x_ticks {
+            labels.add([*x, bottom + 0.02 * h], text, WHITE);
+        }
+        for (y, text) in &self.left_ticks {
+            labels.add([left - 0.07 * w, y - HALF_LABEL * h], text, left_colour);
+        }
+        for (y, text) in &self.right_ticks {
+            labels.add([right + 0.07 * w, y - HALF_LABEL * h], text, right_colour);
+        }
+        labels.add(
+            [
+                0.5 * (left + right),
+                bottom + if h < 0.65 * w { 0.17 } else { 0.125 } * h,
+            ],
+            &self.x_title,
+            WHITE,
+        );
+        for (share, title, colour) in &self.titles {
+            labels.add([left + share * w, top - TITLES * h], title, *colour);
+        }
+        labels.log_that(stream, &format!("{entity}/labels"), holds)
+    }
+}
+
+/// What is drawn at the right of a plot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Margin {
+    /// Nothing.
+    Plain,
+    /// Ticks.
+    Ticks,
+    /// A colour legend.
+    Legend,
+}
+
+/// Texts at places.
+#[derive(Debug, Default)]
+pub(super) struct Labels {
+    at: Vec<[f32; 2]>,
+    texts: Vec<String>,
+    colours: Vec<Color>,
+}
+
+impl Labels {
+    /// A text whose upper edge is centred at a place; nothing for an empty text.
+    pub(super) fn add(&mut self, at: [f64; 2], text: &str, colour: [u8; 3]) {
+        if !text.is_empty() {
+            self.at.push([at[0] as f32, at[1] as f32]);
+            self.texts.push(text.to_owned());
+            self.colours.push(Color::from(for_text(colour)));
+        }
+    }
+
+    pub(super) fn log(&self, stream: &Stream, entity: &str) -> Result<(), ObserveError> {
+        self.log_that(stream, entity, Holds::Always)
+    }
+
+    /// For good or until the next.
+    pub(super) fn log_that(
+        &self,
+        stream: &Stream,
+        entity: &str,
+        holds: Holds,
+    ) -> Result<(), ObserveError> {
+        let labels = Points2D::new(self.at.iter().copied())
+            .with_radii([Radius::new_scene_units(0.0)])
+            .with_colors(self.colours.iter().copied())
+            .with_labels(self.texts.iter().map(String::as_str))
+            .with_show_labels(true)
+            .with_draw_order(30.0);
+        stream.log_that(entity, &labels, holds)
+    }
+}
+
+/// Where Hertz's contact is at the load of now. Logged when it has changed.
+#[derive(Debug, Default)]
+pub(super) struct HertzCurve {
+    shown_m: Option<[f64; 2]>,
+}
+
+impl HertzCurve {
+    /// Whether the half-widths are others than last time.
+    fn changes(&mut self, frame: &Frame) -> bool {
+        let now = Some([frame.a_m, frame.b_m]);
+        std::mem::replace(&mut self.shown_m, now) != now
+    }
+
+    /// From above: an ellipse, or the two edges of a line.
+    pub(super) fn log_ring(
+        &mut self,
+        stream: &Stream,
+        entity: &str,
+        frame: &Frame,
+    ) -> Result<(), ObserveError> {
+        if !self.changes(frame) {
+            return Ok(());
+        }
+        let (a, b) = (frame.a_m * MM, frame.b_m * MM);
+        // Of a line a stretch that lies inside of every picture, those of a part of the domain too.
+        let high = 1.2 * b;
+        let strips: Vec<Vec<[f64; 2]>> = match frame.kind {
+            ContactKind::Point => vec![
+                (0..=96)
+                    .map(|k| {
+                        let angle = std::f64::consts::TAU * f64::from(k) / 96.0;
+                        [a * angle.cos(), b * angle.sin()]
+                    })
+                    .collect(),
+            ],
+            ContactKind::Line => vec![vec![[-a, -high], [-a, high]], vec![[a, -high], [a, high]]],
+        };
+        stream.log(entity, &edges(&strips))
+    }
+
+    /// In a section whose surface is the upper edge of a plot: both edges, and the half-width in figures.
+    pub(super) fn log_width(
+        &mut self,
+        stream: &Stream,
+        entity: &str,
+        (plot, frame): (&PlotBox, &Frame),
+    ) -> Result<(), ObserveError> {
+        if !self.changes(frame) {
+            return Ok(());
+        }
+        let (a, top) = (frame.a_m * MM, plot.y[0]);
+        let end = top + 0.04 * plot.height();
+        let strips = [-a, a].map(|x| vec![[x, top], [x, end]]);
+        stream.log(entity, &edges(&strips))?;
+        let mut label = Labels::default();
+        let at = [0.5 * (plot.x[0] + plot.x[1]), top - TITLES * plot.height()];
+        label.add(at, &format!("a = {} µm", sig(frame.a_m * 1e6, 4)), GREY);
+        label.log_that(stream, &format!("{entity}/label"), Holds::FromNow)
+    }
+}
+
+fn edges(strips: &[Vec<[f64; 2]>]) -> LineStrips2D {
+    LineStrips2D::new(strips.iter().map(|strip| points(strip)))
+        .with_colors([faded(WHITE, 150)])
+        .with_radii([Radius::new_ui_points(0.75)])
+        .with_draw_order(15.0)
+}
+
+/// How a point that moves looks: its colour and how many points its radius has.
+pub(super) fn dot(colour: [u8; 3], radius: f32) -> Points2D {
+    Points2D::update_fields()
+        .with_radii([Radius::new_ui_points(radius)])
+        .with_colors([faded(colour, u8::MAX)])
+        .with_draw_order(26.0)
+}
+
+/// The viewer's single-precision points.
+pub(super) fn points(strip: &[[f64; 2]]) -> Vec<[f32; 2]> {
+    strip
+        .iter()
+        .map(|at| at.map(|value| value as f32))
+        .collect()
+}
+
+/// Ticks at round values; `place` says where in the view a value lies.
+pub(super) fn ticks_at(values: &[f64], place: impl Fn(f64) -> f64) -> Vec<AxisTick> {
+    values
+        .iter()
+        .map(|&value| (place(value), plain(value)))
+        .collect()
+}

@@ -1,0 +1,334 @@
+//! Scalars against time, each with its unit in the name.
+//!
+//! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second); what is
+//! not known yet is left out. Columns of a second are sent at once: row by row they would cost more than all pictures.
+
+use rerun::{Color, EntityPath, SeriesLines};
+
+use super::colour::curve::{BLUE, GREEN, GREY, OLIVE, ORANGE, PURPLE, SKY, VERMILION};
+use super::moment::Moment;
+use super::scalars;
+use super::stream::Stream;
+use asperity_engine::observe::ObserveError;
+use asperity_engine::scene::ContactKind;
+use asperity_engine::sim::{CATALOGUE, CautionCode, Frame, Quantity, named};
+
+/// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
+const LEAST_ERROR: f64 = 1e-12;
+
+/// Yielded for good.
+pub(super) const YIELDED: &str = "series/yielded_um3";
+
+/// Colours of lines, each with its quantity.
+type Coloured = &'static [(&'static Quantity, [u8; 3])];
+
+/// Lines that share an entity; none of them has a value while one is not known.
+#[derive(Clone, Copy)]
+enum CurveGroup {
+    /// Quantities in their units.
+    Linear(Coloured),
+    /// Logarithms of errors.
+    Errors(Coloured),
+    /// Logarithms of what is above 0.
+    Logarithms(Coloured),
+    /// One that the catalogue shows by itself.
+    ByItself(&'static Quantity),
+    /// Every scalar in SI, for programs.
+    All,
+    /// What is made for the recording: names and colours, and what adds a value for each, or none.
+    Made(
+        &'static [(&'static str, [u8; 3])],
+        fn(&Frame, &mut Vec<f64>),
+    ),
+}
+
+use CurveGroup::{Errors, Linear, Logarithms, Made};
+
+#[rustfmt::skip]
+static GROUPS: [(&str, CurveGroup); 27] = [
+    ("series/pressure_GPa", Linear(&[(named("p_max_pa"), ORANGE), (named("p_hertz_pa"), GREY)])),
+    ("series/film_um", Linear(&[(named("h_central_m"), SKY), (named("h_mean_m"), GREEN), (named("h_min_m"), BLUE)])),
+    ("series/contact_percent", Linear(&[(named("contact_ratio"), SKY), (named("contact_load_ratio"), ORANGE)])),
+    ("series/friction", Linear(&[(named("friction_coefficient"), GREEN)])),
+    ("series/motion", Linear(&[(named("slide_roll"), OLIVE), (named("slide_roll_target"), GREY), (named("entrainment_m_s"), PURPLE)])),
+    ("series/load_N", Linear(&[(named("load_n"), SKY), (named("load_target_n"), GREY)])),
+    ("series/load_N_per_m", Linear(&[(named("load_n"), SKY), (named("load_target_n"), GREY)])),
+    ("series/half_width_um", Linear(&[(named("a_m"), GREEN), (named("b_m"), GREY)])),
+    ("series/regime", Made(&[("0 dry, 1 boundary, 2 mixed, 3 full film", SKY)], |frame, out| out.push(scalars::code(frame.metrics.regime)))),
+    ("series/cautions", Made(&CAUTIONS, cautions)),
+    (YIELDED, Made(&[("body 1 has yielded, µm³", SKY), ("body 2 has yielded, µm³", ORANGE)], yielded)),
+    ("convergence/log10_errors", Errors(&[(named("residual"), GREEN), (named("load_error"), SKY), (named("film_error"), PURPLE), (named("mass_error"), ORANGE)])),
+    ("convergence/iterations", Linear(&[(named("newton_iterations"), SKY), (named("linear_iterations"), ORANGE), (named("retries"), VERMILION), (named("converged"), GREEN)])),
+    ("series/stress_GPa", Linear(&[(named("sigma_eff_max_pa"), PURPLE)])),
+    ("series/lambda_ratio", Linear(&[(named("lambda_ratio"), SKY)])),
+    ("life/log10_relative", Logarithms(&[(named("life_relative_low"), GREY), (named("life_relative"), VERMILION), (named("life_relative_high"), GREY)])),
+    ("life/log10_factors", Logarithms(&[(named("cycle_factor"), SKY), (named("peak_factor"), ORANGE), (named("traction_factor"), GREEN)])),
+    ("life/log10_factors/load", Logarithms(&[(named("load_factor"), PURPLE)])),
+    ("life/relative", Linear(&[(named("life_relative"), VERMILION)])),
+    ("life/contacts_per_cycle/n_1_formula", Linear(&[(named("n_body_1"), SKY)])),
+    ("life/contacts_per_cycle/n_1_counted", Linear(&[(named("n_counted_body_1"), BLUE)])),
+    ("life/contacts_per_cycle/n_2_formula", Linear(&[(named("n_body_2"), ORANGE)])),
+    ("life/contacts_per_cycle/n_2_counted", Linear(&[(named("n_counted_body_2"), VERMILION)])),
+    ("material_point/stress_GPa", Made(&[("pressure above the point, GPa", ORANGE), ("effective stress, GPa", PURPLE), ("τxz, GPa", SKY)], |frame, out| {
+        let point = frame.material_point.map(|point| [point.pressure_pa, point.effective_pa, point.tau_xz_pa]);
+        out.extend(point.into_iter().flatten().map(|stress| stress * 1e-9));
+    })),
+    ("material_point/cycles/counted", Linear(&[(named("point_cycles_counted"), VERMILION)])),
+    ("material_point/cycles/formula", Made(&[("expected on average, n", GREY)], |frame, out| {
+        let n = [frame.metrics.n_body_1, frame.metrics.n_body_2];
+        out.extend(frame.material_point.and_then(|point| n[usize::from(point.body != 1)]));
+    })),
+    ("material_point/position_mm", Made(&[("x, mm", GREEN), ("depth, mm", GREY)], |frame, out| {
+        let point = frame.material_point.map(|point| [point.x_m, point.depth_m]);
+        out.extend(point.into_iter().flatten().map(|place| place * 1e3));
+    })),
+];
+
+/// Cautions that begin and end while a run goes on.
+const CAUTIONS: [(&str, [u8; 3]); 8] = [
+    ("not converged", VERMILION),
+    ("beyond yield", ORANGE),
+    ("no oil flows", GREY),
+    ("film below a molecule", BLUE),
+    ("mesh error of the film", GREEN),
+    ("a body stands", PURPLE),
+    ("models differ", OLIVE),
+    ("not settled", SKY),
+];
+
+fn cautions(frame: &Frame, out: &mut Vec<f64>) {
+    let mut holds = [0.0; CAUTIONS.len()];
+    let cautions = frame.cautions();
+    for line in cautions.iter().filter_map(|caution| line(caution.code)) {
+        holds[line] = 1.0;
+    }
+    out.extend(holds);
+}
+
+/// Nothing until something has flowed: most runs never do.
+fn yielded(frame: &Frame, out: &mut Vec<f64>) {
+    let flowed = frame.metrics.yielded_m3;
+    let flowed = flowed.filter(|both| both.iter().any(|&volume| volume > 0.0));
+    out.extend(flowed.into_iter().flatten().map(|volume| volume * 1e18));
+}
+
+impl CurveGroup {
+    /// Names and colours of the lines.
+    fn lines(self, kind: ContactKind) -> Vec<(String, [u8; 3])> {
+        let named = |of: Coloured, before: &str| {
+            let line = |(quantity, colour): &(&Quantity, _)| {
+                (format!("{before}{}", quantity.label(kind)), *colour)
+            };
+            of.iter().map(line).collect()
+        };
+        match self {
+            Linear(of) => named(of, ""),
+            Errors(of) | Logarithms(of) => named(of, "log10 "),
+            Self::ByItself(quantity) => vec![(quantity.label(kind), SKY)],
+            Self::All => scalars::names()
+                .map(|name| (name.to_owned(), SKY))
+                .collect(),
+            Made(lines, _) => lines
+                .iter()
+                .map(|(name, colour)| ((*name).to_owned(), *colour))
+                .collect(),
+        }
+    }
+
+    /// Adds a value for each line, or none while they are not known.
+    fn add(self, frame: &Frame, out: &mut Vec<f64>) {
+        let shown = |quantity: &Quantity| {
+            let unit = quantity.dimension.unit(frame.kind);
+            quantity.number(frame).map(|value| unit.of(value))
+        };
+        let error = |quantity: &Quantity| {
+            let error = quantity.number(frame);
+            error.map(|error| error.abs().max(LEAST_ERROR).log10())
+        };
+        let logarithm = |quantity: &Quantity| {
+            let value = quantity.number(frame).filter(|&value| value > 0.0);
+            value.map(f64::log10)
+        };
+        match self {
+            Linear(of) => add_all(of, shown, out),
+            Errors(of) => add_all(of, error, out),
+            Logarithms(of) => add_all(of, logarithm, out),
+            Self::ByItself(quantity) => out.extend(shown(quantity)),
+            Self::All => scalars::add(frame, out),
+            Made(_, add) => add(frame, out),
+        }
+    }
+}
+
+fn add_all(of: Coloured, value: impl Fn(&Quantity) -> Option<f64>, out: &mut Vec<f64>) {
+    let before = out.len();
+    out.extend(of.iter().map_while(|(quantity, _)| value(quantity)));
+    if out.len() < before + of.len() {
+        out.truncate(before);
+    }
+}
+
+/// Line of a caution in its group; none for what holds for the whole run.
+fn line(code: CautionCode) -> Option<usize> {
+    match code {
+        CautionCode::NotConverged => Some(0),
+        CautionCode::BeyondYield | CautionCode::StillYielding => Some(1),
+        CautionCode::Dry => Some(2),
+        CautionCode::FilmBelowMolecule => Some(3),
+        CautionCode::MeshFilm => Some(4),
+        CautionCode::StandingBody => Some(5),
+        CautionCode::ModelRange => Some(6),
+        CautionCode::NotSettled => Some(7),
+        // The list of cautions has it; the group of lines stays as viewers know it.
+        CautionCode::ShortDomain
+        | CautionCode::AboveSmooth
+        | CautionCode::NoLife
+        | CautionCode::StrengthUnknown
+        | CautionCode::ElasticOnly => None,
+    }
+}
+
+/// Colours of the lines of an entity, in their order.
+pub(super) fn colours(entity: &str) -> Vec<[u8; 3]> {
+    let of = GROUPS.iter().find(|(name, _)| *name == entity);
+    let lines = of.map(|(_, curves)| curves.lines(ContactKind::Point));
+    let lines = lines.into_iter().flatten();
+    lines.map(|(_, colour)| colour).collect()
+}
+
+/// The lines of a contact of that kind by their entities: a load is a force or a force per length.
+fn groups(kind: ContactKind) -> impl Iterator<Item = (String, CurveGroup)> {
+    let other = match kind {
+        ContactKind::Point => "series/load_N_per_m",
+        ContactKind::Line => "series/load_N",
+    };
+    let groups = GROUPS.iter().filter(move |(entity, _)| *entity != other);
+    let groups = groups.map(|(entity, curves)| ((*entity).to_owned(), *curves));
+    let all = (scalars::SCALARS.to_owned(), CurveGroup::All);
+    groups
+        .chain(
+            by_itself()
+                .map(move |quantity| (entity(quantity, kind), CurveGroup::ByItself(quantity))),
+        )
+        .chain(std::iter::once(all))
+}
+
+/// What has a view of its own.
+pub(super) fn by_itself() -> impl Iterator<Item = &'static Quantity> {
+    CATALOGUE.iter().filter(|quantity| quantity.by_itself)
+}
+
+/// `series/traction_max_GPa` of `traction_max_pa`.
+pub(super) fn entity(quantity: &Quantity, kind: ContactKind) -> String {
+    let unit = match quantity.dimension.unit(kind).name {
+        "" => return format!("series/{}", quantity.name),
+        "%" => "percent".to_owned(),
+        "N/m" => "N_per_m".to_owned(),
+        unit => unit.replace('µ', "u").replace('³', "3").replace('/', "_"),
+    };
+    let si = ["_m_s", "_pa", "_m3", "_m", "_n", "_s"];
+    let stem = si
+        .iter()
+        .find_map(|suffix| quantity.name.strip_suffix(suffix));
+    format!("series/{}_{unit}", stem.unwrap_or(quantity.name))
+}
+
+/// A row of a group in the finished file and each of its values, bytes: times and names are compressed (19 to 25 were
+/// measured, the footer included), digits are not.
+const ROW: f64 = 27.0;
+const VALUE: f64 = 8.0;
+
+/// Steps that are collected at most before they are sent: a few hundred kilobytes.
+const MOST_WAITING: usize = 1024;
+
+/// The series of a recording, with what waits to be sent.
+pub(super) struct Series {
+    columns: Vec<SeriesColumn>,
+    waiting: usize,
+    /// What all of them so far will take of the finished file, bytes.
+    weight: f64,
+}
+
+struct SeriesColumn {
+    entity: EntityPath,
+    curves: CurveGroup,
+    lines: usize,
+    moments: Vec<Moment>,
+    values: Vec<f64>,
+}
+
+impl Series {
+    /// Logs names and colours, once for the whole recording, and collects from there on.
+    pub(super) fn new(stream: &Stream, kind: ContactKind) -> Result<Self, ObserveError> {
+        Self::chosen(stream, kind, |_| true)
+    }
+
+    /// Same for the entities that `keep` says.
+    pub(super) fn chosen(
+        stream: &Stream,
+        kind: ContactKind,
+        keep: impl Fn(&str) -> bool,
+    ) -> Result<Self, ObserveError> {
+        let mut columns = Vec::new();
+        for (entity, curves) in groups(kind).filter(|(entity, _)| keep(entity)) {
+            let lines = curves.lines(kind);
+            columns.push(SeriesColumn {
+                entity: EntityPath::from(entity.as_str()),
+                curves,
+                lines: lines.len(),
+                moments: Vec::new(),
+                values: Vec::new(),
+            });
+            let colours = lines.iter().map(|(_, colour)| Color::from(*colour));
+            let style = SeriesLines::new()
+                .with_colors(colours)
+                .with_widths(lines.iter().map(|_| 1.8));
+            let style = style.with_names(lines.into_iter().map(|(name, _)| name));
+            stream.log_static(entity, &style)?;
+        }
+        Ok(Self {
+            columns,
+            waiting: 0,
+            weight: 0.0,
+        })
+    }
+
+    /// Takes up a step's scalars.
+    pub(super) fn follow(&mut self, frame: &Frame) {
+        let now = Moment::new(frame.step, frame.time_s, frame.passages);
+        for column in &mut self.columns {
+            let before = column.values.len();
+            column.curves.add(frame, &mut column.values);
+            if column.values.len() > before {
+                column.moments.push(now);
+                self.weight += ROW + VALUE * column.lines as f64;
+            }
+        }
+        self.waiting += 1;
+    }
+
+    /// What the scalars so far will take of the finished file, bytes.
+    pub(super) fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    /// Whether so many steps wait that they should not wait for the next tick.
+    pub(super) fn is_full(&self) -> bool {
+        self.waiting >= MOST_WAITING
+    }
+
+    /// Sends what waits.
+    pub(super) fn send(&mut self, stream: &Stream) -> Result<(), ObserveError> {
+        self.waiting = 0;
+        for column in &mut self.columns {
+            if column.moments.is_empty() {
+                continue;
+            }
+            let entity = column.entity.clone();
+            stream.log_columns(entity, &column.moments, &column.values, column.lines)?;
+            column.moments.clear();
+            column.values.clear();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,401 @@
+//! Words in the recording: what it is, how to repeat it, what happened, and the numbers of a frame.
+
+use std::fmt::Write as _;
+
+use rerun::components::MediaType;
+use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
+
+use super::note::Note;
+use super::picture::{Beyond, top};
+use super::series::by_itself;
+use super::stream::Stream;
+use asperity_engine::math::number::{counted, plain, seconds, sig, sig_or_dash};
+use asperity_engine::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
+use asperity_engine::scene::ContactKind;
+use asperity_engine::sim::{Caution, CautionCode, Frame, LifeEstimate};
+use asperity_picture::Look;
+
+pub(super) const ABOUT: &str = "text/about";
+pub(super) const SCENE_TOML: &str = "text/scene_toml";
+pub(super) const PLAN: &str = "text/plan";
+pub(super) const NOTES: &str = "text/notes_on_the_data";
+pub(super) const NOW: &str = "text/now";
+/// Same for an audience, in large type.
+pub(super) const LECTURE: &str = "text/lecture";
+pub(super) const LOG: &str = "log";
+/// What the run began with, for programs.
+pub(super) const ORIGIN: &str = "text/origin";
+/// Knobs that were turned, for programs.
+pub(super) const COMMANDS: &str = "commands";
+/// How far the recording goes, for programs: the last one holds.
+pub(super) const REACH: &str = "text/reach";
+
+/// What no reader of the numbers should forget.
+pub(super) const CAUTION: &str =
+    "relative life is an estimate under assumptions: isothermal, elastic, no wear, initiation only";
+
+/// What is known before the first frame.
+pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), ObserveError> {
+    let scene = &context.scene;
+    let about = format!(
+        "# {title}\n\n{about}\n\nRecorded by {program}.\n\n## To repeat it\n\n```\nasperity run --from \
+         THIS_FILE.rrd --out again.rrd\n```\n\nturns the same knobs at the same steps and gives the same \
+         numbers, bit for bit (same version of the program). Without the knobs: save the text under \
+         *Scene* as `scene.toml`, then\n\n```\nasperity run scene.toml --out again.rrd\n```\n\n\
+         The run is deterministic: no seed. Commands given while it ran are in the log, each with \
+         its step.\n\n## Signs\n\nx is the rolling direction, z points into body 1 (the body \
+         below). Pressure is positive in compression. S = (U2 - U1)/U with U = (U1 + U2)/2. \
+         Traction on body 1 is positive along +x. Relative life compares with the smooth, \
+         frictionless, S = 0 contact of the same load and geometry.\n",
+        title = if scene.title.is_empty() {
+            "A passage"
+        } else {
+            &scene.title
+        },
+        about = scene.about,
+        program = context.program,
+    );
+    stream.log_static(ABOUT, &TextDocument::from_markdown(about))?;
+    let toml = TextDocument::new(context.scene_toml.as_str());
+    stream.log_static(SCENE_TOML, &toml)?;
+    let origin = Note::Origin {
+        program: context.program.clone(),
+        began: context.began,
+        scene_toml: context.scene_toml.clone(),
+    };
+    stream.log_static(ORIGIN, &TextDocument::new(origin.to_text()))?;
+    let plan = TextDocument::new(context.plan_text.as_str());
+    stream.log_static(PLAN, &plan)
+}
+
+/// How numbers are stored.
+pub(super) fn log_notes<'a>(
+    stream: &Stream,
+    looks: impl Iterator<Item = (&'static str, &'a Look)>,
+    cadence: &str,
+    exaggeration: &str,
+) -> Result<(), ObserveError> {
+    let mut notes = format!(
+        "# Notes on the data\n\n{cadence} Interferogram, traction, \
+         roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in \
+         half precision (0.05 %), in the unit of the entity's name. Colours have one range: what can come by the scene's \
+         script. A knob turned by hand beyond the script widens it from then on: the legends change, the log tells, and \
+         below stand the widest. Values above the range take the top colour and are told under *Now*, but film takes a dark one of its own, in the map and over time; none is cut \
+         off in the file below 65 504 units. The slice below body 1 and the damage maps have a row for each depth \
+         that was computed; the depths are in the axis. Entities under `slice_over_log_depth` and `profile_y0` are resampled \
+         for looking at. Damage that has not been counted yet is no number (NaN).\n\n\
+         | entity | colours up to |\n|---|---|\n"
+    );
+    for (entity, look) in looks {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            notes,
+            "| `{entity}` | {} {} |",
+            plain(top(look)),
+            look.unit.name
+        );
+    }
+    stream.log_static(NOTES, &TextDocument::from_markdown(notes))?;
+    let markdown = TextDocument::update_fields().with_media_type(MediaType::markdown());
+    stream.log_static(NOW, &markdown)?;
+    stream.log_static(LECTURE, &markdown)
+}
+
+/// A map whose range was widened: entity, its tops before and after, unit.
+pub(super) type Widened = (&'static str, [f64; 2], &'static str);
+
+/// Ranges that hold from now on.
+pub(super) fn log_widened(stream: &Stream, widened: &[Widened]) -> Result<(), ObserveError> {
+    for (entity, [before, after], unit) in widened {
+        let [before, after] = [before, after].map(|top| plain(*top));
+        let line = format!(
+            "a knob was turned beyond the scene's script: the colours of {entity} reach {after} {unit} from here on, before {before}"
+        );
+        log_line(stream, &line, TextLogLevel::INFO)?;
+    }
+    Ok(())
+}
+
+/// A map of which something is above the colours: entity, what, unit.
+pub(super) type Above = (&'static str, Beyond, &'static str);
+
+/// The caption that holds and the numbers of a frame.
+pub(super) fn log_now(
+    stream: &Stream,
+    frame: &Frame,
+    caption: &str,
+    above: &[Above],
+) -> Result<(), ObserveError> {
+    let text = TextDocument::update_fields().with_text(now(frame, caption, above));
+    stream.log(NOW, &text)?;
+    let text = TextDocument::update_fields().with_text(lecture(frame, caption));
+    stream.log(LECTURE, &text)
+}
+
+/// A text with the band that came out of the run's companion, below the life.
+pub(super) fn with_band(text: &str, band: &str) -> String {
+    let Some(life) = text
+        .lines()
+        .find(|line| line.starts_with(HEADING) || line.starts_with(LIFE_NOW))
+    else {
+        return text.to_owned();
+    };
+    let with = match life.split_once(" (") {
+        Some((number, _)) if life.starts_with(HEADING) => format!("{number} ({band})"),
+        _ => format!("{life}\n\n**{band} with what the mesh costs**"),
+    };
+    text.replacen(life, &with, 1)
+}
+
+/// Cautions that an audience reads.
+const READ: usize = 2;
+
+/// Caption and life, each a heading, and what to think of it.
+fn lecture(frame: &Frame, caption: &str) -> String {
+    let m = &frame.metrics;
+    let mut text = String::with_capacity(512);
+    let slide_roll = sig(m.slide_roll, 3);
+    let motion = match m.slide_roll {
+        0.0 => "both bodies roll alike".to_owned(),
+        s if s > 0.0 => "body 1 is the slower".to_owned(),
+        _ => "body 2 is the slower".to_owned(),
+    };
+    // Writing to a string cannot fail.
+    let _ = match caption {
+        "" => writeln!(text, "## S = {slide_roll}: {motion}\n"),
+        caption => writeln!(text, "## {caption}\n"),
+    };
+    if let Some(life) = &m.life {
+        let [value, low, high] = [
+            life.life_relative,
+            life.life_relative_low,
+            life.life_relative_high,
+        ]
+        .map(|v| sig(v, 2));
+        let _ = writeln!(text, "{HEADING} {value} ({low} to {high})\n");
+    } else {
+        let _ = writeln!(
+            text,
+            "# {} GPa\n\n### greatest pressure\n",
+            sig(m.p_max_pa * 1e-9, 3)
+        );
+    }
+    for caution in frame.cautions().iter().take(READ) {
+        let _ = writeln!(text, "- {}", caution.text);
+    }
+    text
+}
+
+/// Before the life in the lecture, and among the numbers.
+const HEADING: &str = "# Life";
+const LIFE_NOW: &str = "### Relative life";
+
+fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
+    let m = &frame.metrics;
+    let mut text = String::with_capacity(1024);
+    if !caption.is_empty() {
+        let _ = writeln!(text, "> {caption}\n");
+    }
+    if let Some(life) = &m.life {
+        push_life(&mut text, life);
+    }
+    // The weightiest first; the last one holds for every run, and the numbers come before it.
+    let cautions = frame.cautions();
+    let always = |caution: &&Caution| caution.code == CautionCode::ElasticOnly;
+    for caution in cautions.iter().filter(|caution| !always(caution)) {
+        let _ = writeln!(text, "- {}", caution.text);
+    }
+    text.push('\n');
+    push_table(&mut text, frame);
+    for (
+        entity,
+        Beyond {
+            above, greatest, ..
+        },
+        unit,
+    ) in above
+    {
+        let greatest = sig(f64::from(*greatest), 3);
+        let _ = writeln!(
+            text,
+            "| above the colours | {entity}: {nodes}, up to {greatest} {unit} |",
+            nodes = counted(*above, "node")
+        );
+    }
+    for caution in cautions.iter().filter(always) {
+        let _ = writeln!(text, "\n{}", caution.text);
+    }
+    text
+}
+
+fn push_life(text: &mut String, life: &LifeEstimate) {
+    let settled = if life.settled { "" } else { " *(not settled)*" };
+    let [value, low, high, cycles, peaks, traction] = [
+        life.life_relative,
+        life.life_relative_low,
+        life.life_relative_high,
+        life.cycle_factor,
+        life.peak_factor,
+        life.traction_factor,
+    ]
+    .map(|value| sig(value, 3));
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{LIFE_NOW} {value}{settled}\n\n{low} to {high}; cycles {cycles} × peaks {peaks} × traction {traction}\n"
+    );
+    if let (Some(global), Some(damage)) = (life.detail.life_global, life.detail.life_damage) {
+        let [global, damage] = [global, damage].map(|life| sig(life, 3));
+        let _ = writeln!(text, "paper's count {global}; counted by damage {damage}\n");
+    }
+    if life.load_factor > 0.0 {
+        let factor = sig(life.load_factor, 3);
+        let _ = writeln!(
+            text,
+            "× load {factor}, against the scene's load and speed\n"
+        );
+    }
+}
+
+fn push_table(text: &mut String, frame: &Frame) {
+    let m = &frame.metrics;
+    let unit = match frame.kind {
+        ContactKind::Point => "N",
+        ContactKind::Line => "N/m",
+    };
+    let mut row = |name: &str, value: String| {
+        let _ = writeln!(text, "| {name} | {value} |");
+    };
+    let digits = |value: f64| sig(value, 4);
+    let u = m.entrainment_m_s;
+    let speeds = [-0.5, 0.5].map(|half| digits(u * (1.0 + half * m.slide_roll)));
+    row(
+        "time",
+        format!("{}, passage {:.2}", seconds(frame.time_s), frame.passages),
+    );
+    row("---", "---".to_owned());
+    row("S", towards(m.slide_roll, m.slide_roll_target, ""));
+    row("U1, U2", format!("{} m/s", speeds.join(", ")));
+    row("load", towards(m.load_n, m.load_target_n, unit));
+    row(
+        "p_Hertz, a",
+        format!(
+            "{} GPa, {} µm",
+            digits(frame.p_hertz_pa * 1e-9),
+            digits(frame.a_m * 1e6)
+        ),
+    );
+    row("p_max", format!("{} GPa", digits(m.p_max_pa * 1e-9)));
+    row(
+        "h central, min",
+        format!(
+            "{}, {} nm",
+            digits(m.h_central_m * 1e9),
+            digits(m.h_min_m * 1e9)
+        ),
+    );
+    let [area, load] = [m.contact_ratio, m.contact_load_ratio].map(|part| sig(100.0 * part, 3));
+    row("contact", format!("{area} % of area, {load} % of load"));
+    row("regime", m.regime.name().to_owned());
+    let friction = sig(m.friction_coefficient, 3);
+    match m.lambda_ratio {
+        Some(lambda) => row("friction, λ", format!("{friction}, {}", sig(lambda, 3))),
+        None => row("friction", friction),
+    }
+    if let (Some(stress), Some(depth)) = (m.sigma_eff_max_pa, m.sigma_eff_max_depth_m) {
+        let (stress, depth) = (digits(stress * 1e-9), sig(depth * 1e6, 3));
+        row("σ_eff max", format!("{stress} GPa, {depth} µm deep"));
+    }
+    let formula = [m.n_body_1, m.n_body_2];
+    if formula.iter().any(Option::is_some) {
+        let pair = |n: [Option<f64>; 2]| n.map(|n| sig_or_dash(n, 3)).join(", ");
+        let counted = pair([m.n_counted_body_1, m.n_counted_body_2]);
+        row("n of 1, 2", format!("{}; counted {counted}", pair(formula)));
+    }
+    for quantity in by_itself() {
+        if let Some(value) = quantity.number(frame) {
+            row(quantity.symbol, quantity.in_words(value, frame.kind));
+        }
+    }
+}
+
+/// A knob's value, and where it goes while it moves.
+fn towards(value: f64, target: f64, unit: &str) -> String {
+    let [now, then] = [value, target].map(|value| sig(value, 4));
+    let text = if now == then {
+        format!("{now} {unit}")
+    } else {
+        format!("{now}, going to {then} {unit}")
+    };
+    text.trim_end().to_owned()
+}
+
+/// How far the recording goes; `ended`: nothing comes after.
+pub(super) fn log_reach(
+    stream: &Stream,
+    last_step: u64,
+    turns: u64,
+    ended: bool,
+) -> Result<(), ObserveError> {
+    let reach = Note::Reach {
+        last_step,
+        turns,
+        ended,
+    };
+    let reach = TextDocument::new(reach.to_text());
+    stream.log_for_now(REACH, reach.as_serialized_batches())
+}
+
+/// Something that happened, after so many knobs had been turned.
+pub(super) fn log_event(stream: &Stream, event: &RunEvent, turns: u64) -> Result<(), ObserveError> {
+    let (text, level) = match &event.kind {
+        RunEventKind::Set { key, value, .. } => (
+            format!("step {}: {key} set to {value}", event.step),
+            TextLogLevel::INFO,
+        ),
+        RunEventKind::Caption(caption) => (caption.clone(), TextLogLevel::INFO),
+        RunEventKind::NotConverged { residual } => (
+            format!(
+                "step {} did not converge: residual {}",
+                event.step,
+                sig(*residual, 3)
+            ),
+            TextLogLevel::WARN,
+        ),
+    };
+    if let RunEventKind::Set {
+        key,
+        value,
+        by,
+        steps_made,
+    } = &event.kind
+    {
+        let line = Note::Turn {
+            n: turns,
+            steps_made: *steps_made,
+            key: key.clone(),
+            value: *value,
+            by: *by,
+        };
+        stream.log(COMMANDS, &TextLog::new(line.to_text()))?;
+    }
+    log_line(stream, &text, level)
+}
+
+/// A line of the log.
+pub(super) fn log_line(stream: &Stream, text: &str, level: &str) -> Result<(), ObserveError> {
+    stream.log(LOG, &TextLog::new(text).with_level(level))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_knob_that_rests_goes_nowhere() {
+        assert_eq!(towards(0.5, 0.5, ""), "0.5000");
+        assert_eq!(towards(0.5, 1.0, ""), "0.5000, going to 1.000");
+        assert_eq!(towards(800.0, 800.0, "N"), "800.0 N");
+        assert_eq!(towards(800.0, 900.0, "N"), "800.0, going to 900.0 N");
+    }
+}

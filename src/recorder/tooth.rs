@@ -1,0 +1,300 @@
+//! A gear's teeth while the contact rides along one: both gears turning, the line of action with its places, and Hertz
+//! pressure, sliding and radius over the path of contact, each with the run's own value on it.
+
+use rerun::{LineStrips2D, Points2D, Radius};
+
+use super::centre_line::line;
+use super::colour::{GREEN, GREY, ORANGE, PURPLE, SKY, WHITE, faded};
+use super::plot::{Labels, PlotBox, dot, points, ticks_at};
+use super::stream::Stream;
+use super::waiting::Curves;
+use asperity_engine::math::number::{GPA, MM, nice_ceiling, sig, ticks};
+use asperity_engine::observe::ObserveError;
+use asperity_engine::physics::gear::{GearTeeth, LineOfAction};
+use asperity_engine::physics::line::hertz_from_load;
+use asperity_engine::scene::{Scene, Tooth};
+use asperity_engine::sim::Frame;
+
+pub(super) const GEARS: &str = "tooth/gears";
+/// Pressure, sliding, radius.
+pub(super) const PATHS: [&str; 3] = [
+    "tooth/path/hertz_pressure_GPa",
+    "tooth/path/slide_roll",
+    "tooth/path/radius_mm",
+];
+/// Width and height of the picture of the gears, in modules.
+const PICTURE: [f64; 2] = [7.2, 5.0];
+/// Height of the curves over their width.
+const HEIGHT: f64 = 0.26;
+const CURVES: [[u8; 3]; 3] = [ORANGE, PURPLE, SKY];
+
+/// The teeth and the path.
+pub(super) struct ToothEntity {
+    tooth: Tooth,
+    gears: GearTeeth,
+    line: LineOfAction,
+    teeth: [Curves; 2],
+    paths: [PathCurve; 3],
+}
+
+/// A quantity over the path of contact.
+struct PathCurve {
+    plot: PlotBox,
+    /// Value at the lower and the upper edge.
+    range: [f64; 2],
+    now: Curves,
+    dot: String,
+}
+
+impl ToothEntity {
+    /// Sets up the picture of a scene that rides along a tooth; `None` of others.
+    pub(super) fn new(
+        stream: &Stream,
+        scene: Option<&Scene>,
+    ) -> Result<Option<Self>, ObserveError> {
+        let Some((scene, tooth)) = scene.and_then(|scene| Some((scene, scene.tooth?))) else {
+            return Ok(None);
+        };
+        let gears = tooth.gears();
+        let Some(line_of_action) = gears.line_of_action() else {
+            return Ok(None);
+        };
+        log_line(stream, &gears, &line_of_action)?;
+        let gear = |name: &str, colour| {
+            let entity = format!("{GEARS}/{name}");
+            stream.log_static(entity.as_str(), &line(colour, 1.25))?;
+            Ok(stream.curves(entity))
+        };
+        let path = |k: usize, values| {
+            PathCurve::new(stream, PATHS[k], (values, CURVES[k]), &line_of_action)
+        };
+        let [pressure, sliding, radius] = path_curves(scene, &tooth, &line_of_action);
+        Ok(Some(Self {
+            teeth: [gear("pinion", SKY)?, gear("wheel", WHITE)?],
+            paths: [path(0, pressure)?, path(1, sliding)?, path(2, radius)?],
+            tooth,
+            gears,
+            line: line_of_action,
+        }))
+    }
+
+    /// The picture of the gears and those of the path.
+    pub(super) fn plots(&self) -> ShownTooth {
+        ShownTooth {
+            gears: gears_box(&self.gears),
+            paths: self.paths.each_ref().map(|path| path.plot.clone()),
+        }
+    }
+
+    /// Logs where the contact is now.
+    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+        let line = &self.line;
+        let place_m = self.tooth.place_m(line, frame.time_s);
+        // After E the run goes on as it was there.
+        let held_m = place_m.clamp(line.a, line.e);
+        for (gear, curves) in self.teeth.into_iter().enumerate() {
+            let outline = self.gears.outline(line, gear, held_m, 2);
+            stream.log_curves(curves, |pen| {
+                let [across, high] = half_picture(&self.gears);
+                for at in outline {
+                    let [x, y] = [at[0] * MM, -at[1] * MM];
+                    if x.abs() <= across && y.abs() <= high {
+                        pen.to([x as f32, y as f32]);
+                    } else {
+                        pen.lift();
+                    }
+                }
+            })?;
+        }
+        let at = in_view(self.gears.contact(line, held_m));
+        let at = Points2D::update_fields().with_positions([at]);
+        stream.log(&format!("{GEARS}/contact"), &at)?;
+        let m = &frame.metrics;
+        let radius_mm = MM * held_m * (line.length - held_m) / line.length;
+        let values = [GPA.of(frame.p_hertz_pa), m.slide_roll, radius_mm];
+        for (path, value) in self.paths.iter().zip(values) {
+            path.log(stream, (held_m - line.a) * MM, value)?;
+        }
+        Ok(())
+    }
+}
+
+/// What the layout has to know of a tooth.
+pub(super) struct ShownTooth {
+    pub(super) gears: PlotBox,
+    pub(super) paths: [PlotBox; 3],
+}
+
+/// A curve over the path: mm from A, value.
+type PathValues = Vec<[f64; 2]>;
+
+/// Hertz pressure by the script; sliding and radius of the tooth itself.
+fn path_curves(scene: &Scene, tooth: &Tooth, line: &LineOfAction) -> [PathValues; 3] {
+    let e_prime_pa = scene.e_prime_pa();
+    let load = scene.events.iter().filter_map(|event| {
+        let load = event.set.get("load.force_n_per_m")?;
+        let place_mm = (tooth.place_m(line, event.at_s) - line.a) * MM;
+        let p = hertz_from_load(scene.contact.rx_m, e_prime_pa, *load).p_max_pa;
+        Some([place_mm, GPA.of(p)])
+    });
+    let gears = tooth.gears();
+    let over = |value: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
+        (0..=48)
+            .map(|k| line.a + (line.e - line.a) * f64::from(k) / 48.0)
+            .map(|place_m| [(place_m - line.a) * MM, value(place_m)])
+            .collect()
+    };
+    // U2/U1 = ω2 ρ2/(ω1 ρ1).
+    let ratio = f64::from(gears.teeth[0]) / f64::from(gears.teeth[1]);
+    let sliding = over(&|s| {
+        let (one, two) = (s, ratio * (line.length - s));
+        2.0 * (two - one) / (two + one)
+    });
+    let radius = over(&|s| MM * s * (line.length - s) / line.length);
+    [load.collect(), sliding, radius]
+}
+
+impl PathCurve {
+    fn new(
+        stream: &Stream,
+        entity: &str,
+        (values, colour): (PathValues, [u8; 3]),
+        line_of_action: &LineOfAction,
+    ) -> Result<Self, ObserveError> {
+        let all = || values.iter().map(|[_, y]| *y);
+        let (least, most) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
+        let top = nice_ceiling(most.max(1e-9));
+        let range = [
+            if least < 0.0 {
+                -nice_ceiling(-least)
+            } else {
+                0.0
+            },
+            top,
+        ];
+        let long = (line_of_action.e - line_of_action.a) * MM;
+        let plot = PlotBox {
+            x: [0.0, long],
+            y: [-HEIGHT * long, 0.0],
+            x_ticks: ticks_at(&ticks(0.0, long, 6), |x| x),
+            left_ticks: ticks_at(&ticks(range[0], range[1], 3), |y| height(y, range, long)),
+            x_title: "path of contact from A, mm".into(),
+            ..PlotBox::default()
+        };
+        plot.log(stream, &format!("{entity}/axes"))?;
+        let strip = values.into_iter().map(|[x, y]| [x, height(y, range, long)]);
+        let strip = points(&strip.collect::<Vec<_>>());
+        let curve = line(colour, 1.5).with_strips([strip]);
+        stream.log_static(format!("{entity}/curve"), &curve)?;
+        log_places(stream, entity, &plot, line_of_action)?;
+        let now = format!("{entity}/now");
+        stream.log_static(now.as_str(), &dot(GREEN, 5.0).with_show_labels(true))?;
+        let under = format!("{entity}/line_at_now");
+        stream.log_static(under.as_str(), &line(GREEN, 1.0))?;
+        Ok(Self {
+            plot,
+            range,
+            now: stream.curves(under),
+            dot: now,
+        })
+    }
+
+    /// A line at the contact's place and the run's own value on it.
+    fn log(&self, stream: &Stream, place_mm: f64, value: f64) -> Result<(), ObserveError> {
+        let [x, [top, bottom]] = [self.plot.x, self.plot.y];
+        let place = place_mm.clamp(x[0], x[1]) as f32;
+        stream.log_curves(self.now, |pen| {
+            pen.to([place, top as f32]);
+            pen.to([place, bottom as f32]);
+        })?;
+        let y = height(value, self.range, x[1]).clamp(top, bottom) as f32;
+        let now = Points2D::update_fields()
+            .with_positions([[place, y]])
+            .with_labels([sig(value, 3)]);
+        stream.log(&self.dot, &now)
+    }
+}
+
+/// Where a value lies in the view of a path of that length.
+fn height(value: f64, [low, top]: [f64; 2], long: f64) -> f64 {
+    -HEIGHT * long * (value - low) / (top - low)
+}
+
+/// B, C and D in a curve of the path.
+fn log_places(
+    stream: &Stream,
+    entity: &str,
+    plot: &PlotBox,
+    line_of_action: &LineOfAction,
+) -> Result<(), ObserveError> {
+    let LineOfAction { a, b, c, d, .. } = *line_of_action;
+    let [top, bottom] = plot.y;
+    let at = [b, c, d].map(|place| (place - a) * MM);
+    let lines = at.map(|x| points(&[[x, top], [x, bottom]]));
+    let colours = [GREY, WHITE, GREY].map(|colour| faded(colour, 150));
+    let lines = LineStrips2D::new(lines)
+        .with_colors(colours)
+        .with_radii([Radius::new_ui_points(0.5)])
+        .with_draw_order(8.0);
+    stream.log_static(format!("{entity}/places"), &lines)?;
+    let mut labels = Labels::default();
+    for (x, text) in at.into_iter().zip(["B", "C", "D"]) {
+        labels.add([x, bottom - 0.2 * (bottom - top)], text, GREY);
+    }
+    labels.log(stream, &format!("{entity}/names"))
+}
+
+/// Half the picture's width and height, mm.
+fn half_picture(gears: &GearTeeth) -> [f64; 2] {
+    PICTURE.map(|modules| 0.5 * modules * gears.module_m * MM)
+}
+
+fn gears_box(gears: &GearTeeth) -> PlotBox {
+    let [across, high] = half_picture(gears);
+    PlotBox {
+        x: [-across, across],
+        y: [-high, high],
+        ..PlotBox::default()
+    }
+}
+
+/// From the pitch point upwards to the viewer's view.
+fn in_view([x, y]: [f64; 2]) -> [f32; 2] {
+    [(x * MM) as f32, (-y * MM) as f32]
+}
+
+/// The line of action with its places, and what is what.
+fn log_line(
+    stream: &Stream,
+    gears: &GearTeeth,
+    line_of_action: &LineOfAction,
+) -> Result<(), ObserveError> {
+    let LineOfAction { a, b, c, d, e, .. } = *line_of_action;
+    let place = |s: f64| in_view(gears.contact(line_of_action, s));
+    let way = line(GREY, 1.0).with_strips([[place(a), place(e)]]);
+    stream.log_static(format!("{GEARS}/line_of_action"), &way)?;
+    let places = [a, b, c, d, e].map(place);
+    let marks = Points2D::new(places)
+        .with_radii([2.5, 2.5, 4.0, 2.5, 2.5].map(Radius::new_ui_points))
+        .with_colors([faded(WHITE, u8::MAX)])
+        .with_draw_order(24.0);
+    stream.log_static(format!("{GEARS}/places"), &marks)?;
+    let [across, high] = half_picture(gears);
+    let mut labels = Labels::default();
+    let below = 0.05 * high;
+    for ([x, y], text) in places
+        .into_iter()
+        .zip(["A", "B", "C: pitch point", "D", "E"])
+    {
+        labels.add([f64::from(x), f64::from(y) + below], text, WHITE);
+    }
+    labels.add(
+        [-0.62 * across, 0.86 * high],
+        "pinion (body 1), drives →",
+        SKY,
+    );
+    labels.add([0.66 * across, -0.97 * high], "wheel (body 2) →", WHITE);
+    labels.log(stream, &format!("{GEARS}/names"))?;
+    let contact = dot(ORANGE, 7.0).with_draw_order(28.0);
+    stream.log_static(format!("{GEARS}/contact"), &contact)
+}

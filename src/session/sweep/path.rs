@@ -1,0 +1,366 @@
+//! Paths: a gear tooth along its line of action, a ball round its race, a cam's flank.
+//!
+//! A path makes one case of every point by closed forms ([`asperity_engine::physics::gear`],
+//! [`asperity_engine::physics::race_and_cam`]) and adds columns that say where the point is. `path.csv` holds all that
+//! is known before anything is simulated: R, U1, U2, S, load, p_h, film by regression, λ, n of both bodies.
+//!
+//! ```toml
+//! [gear]                              # the base scene must be a line contact; body 1 is the pinion, which drives
+//! teeth = [16, 24]
+//! module_m = 0.0045                   # or pitch_radii_m = [0.036, 0.054], the reference circles
+//! pressure_angle_deg = 20.0
+//! centre_distance_m = 0.0915          # left out: m (z1 + z2)/2
+//! tip_diameters_m = [0.08246, 0.11836]     # left out: m (z + 2)
+//! face_width_m = 0.014
+//! torque_n_m = 200.0                  # of the pinion
+//! speed_rpm = 1500.0                  # of the pinion
+//! load_sharing = "half"               # "half", "trapezoid" (1/3 to 2/3) or "whole"
+//! points = 17                         # evenly from A to E; B, C and D beside
+//! ```
+//! A `[cam]` goes along the flank, or along `angles_deg = [from, to]` of it, from the nose. Round the nose both
+//! surfaces move against each other, |S| > 2: a scene's S ends at ±2 (one surface stands), so such angles are
+//! refused by name.
+
+use std::f64::consts::PI;
+
+use toml::{Table, Value};
+
+use super::axis::{VariedKey, shown};
+use super::path_keys::Keys;
+use asperity_engine::physics::gear::{GearPair, GearTeeth, LoadSharing};
+use asperity_engine::physics::race_and_cam::{BallRace, FlatFollower};
+use asperity_engine::scene::{ContactKind, Scene, SceneError};
+
+/// Where a case is on its path: columns of the table with their values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathPoint {
+    /// Name with unit, and value.
+    pub values: Vec<(&'static str, f64)>,
+}
+
+/// Columns of a path.
+pub(super) fn columns(points: &[PathPoint]) -> impl Iterator<Item = &'static str> + '_ {
+    let values = points.first().map(|point| point.values.iter());
+    values.into_iter().flatten().map(|(name, _)| *name)
+}
+
+/// The values of a column.
+pub(super) fn column(points: &[PathPoint], name: &str) -> Option<Vec<f64>> {
+    let at = columns(points).position(|column| column == name)?;
+    Some(points.iter().map(|point| point.values[at].1).collect())
+}
+
+/// The axes and points of a path.
+pub(super) struct Path {
+    pub(super) axes: Vec<VariedKey>,
+    pub(super) points: Vec<PathPoint>,
+}
+
+/// A point under way: where it is, and what the scene gets.
+struct PathStop {
+    values: Vec<(&'static str, f64)>,
+    keys: Vec<(&'static str, f64)>,
+}
+
+/// Reads `[gear]`, `[race]` or `[cam]` for a base scene.
+pub(super) fn read(kind: &str, table: &Table, scene: &Scene) -> Result<Path, SceneError> {
+    let wanted = if kind == "race" {
+        ContactKind::Point
+    } else {
+        ContactKind::Line
+    };
+    if scene.kind() != wanted {
+        let (is, must) = match wanted {
+            ContactKind::Point => ("\"line\"", "\"point\" on a [race]"),
+            ContactKind::Line => ("\"point\"", "\"line\" on a [gear] or [cam]"),
+        };
+        return Err(SceneError::value("contact.kind", is, must));
+    }
+    let keys = Keys { kind, table };
+    let stops = match kind {
+        "gear" => gear(&keys)?,
+        "race" => race(&keys)?,
+        _ => cam(&keys)?,
+    };
+    let names: Vec<&str> = stops[0].keys.iter().map(|(name, _)| *name).collect();
+    let axes = names.iter().enumerate().map(|(k, name)| VariedKey {
+        key: (*name).to_owned(),
+        values: stops
+            .iter()
+            .map(|stop| Value::Float(stop.keys[k].1))
+            .collect(),
+    });
+    Ok(Path {
+        axes: axes.collect(),
+        points: stops
+            .iter()
+            .map(|stop| PathPoint {
+                values: stop.values.clone(),
+            })
+            .collect(),
+    })
+}
+
+const RPM: f64 = PI / 30.0;
+
+fn gear(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
+    keys.known(&[
+        "teeth",
+        "module_m",
+        "pitch_radii_m",
+        "pressure_angle_deg",
+        "centre_distance_m",
+        "tip_diameters_m",
+        "face_width_m",
+        "torque_n_m",
+        "speed_rpm",
+        "load_sharing",
+        "points",
+    ])?;
+    let pair = gear_pair(keys)?;
+    let Some(line) = pair.gears.line_of_action() else {
+        return Err(SceneError::value(
+            "gear.tip_diameters_m",
+            format!("{:?}", pair.gears.tip_diameters_m),
+            GearTeeth::MESHING,
+        ));
+    };
+    let n = keys.points(17)?;
+    let even = |k: usize| line.a + (line.e - line.a) * k as f64 / (n - 1) as f64;
+    let mut places: Vec<f64> = (0..n).map(even).collect();
+    places[n - 1] = line.e;
+    places.extend([line.b, line.c, line.d]);
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|one, two| (*one - *two).abs() < 1e-9);
+    Ok(places
+        .into_iter()
+        .map(|place| {
+            let mesh = pair.at(&line, place);
+            // S of the pitch point is 0, not what rounding leaves of it.
+            let s = mesh.slide_roll();
+            PathStop {
+                values: vec![
+                    ("path_m", place - line.a),
+                    ("rho_1_m", mesh.radii_m[0]),
+                    ("rho_2_m", mesh.radii_m[1]),
+                    ("u_1_m_s", mesh.speeds_m_s[0]),
+                    ("u_2_m_s", mesh.speeds_m_s[1]),
+                    ("load_share", mesh.share),
+                    (
+                        "time_s",
+                        (place - line.a) / (pair.gears.base_radii_m()[0] * pair.speed_rad_s),
+                    ),
+                ],
+                keys: vec![
+                    ("contact.rx_m", mesh.radius_m()),
+                    ("load.force_n_per_m", mesh.load_n_per_m),
+                    ("motion.entrainment_m_s", mesh.entrainment_m_s()),
+                    ("motion.slide_roll", if s.abs() < 1e-9 { 0.0 } else { s }),
+                ],
+            }
+        })
+        .collect())
+}
+
+pub(super) fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
+    let teeth = keys.pair("teeth", (5.0, 1000.0), "teeth, pinion first")?;
+    let whole = teeth.filter(|pair| pair.iter().all(|z| z.fract() == 0.0));
+    let Some(teeth) = whole.map(|pair| pair.map(|z| z as u32)) else {
+        let written = keys
+            .table
+            .get("teeth")
+            .map_or_else(|| "nothing".to_owned(), shown);
+        let allowed = "two whole numbers, 5 to 1000, pinion first";
+        return Err(SceneError::value("gear.teeth", written, allowed));
+    };
+    let radii = keys.pair("pitch_radii_m", (1e-4, 10.0), "m, pinion first")?;
+    let module_m = match (keys.maybe("module_m", (1e-5, 0.1), "m")?, radii) {
+        (Some(module_m), None) => module_m,
+        (None, Some([one, two])) => {
+            let [m_1, m_2] = [one, two].map(|r| 2.0 * r);
+            let modules = [m_1 / f64::from(teeth[0]), m_2 / f64::from(teeth[1])];
+            if (modules[0] / modules[1] - 1.0).abs() > 1e-6 {
+                return Err(SceneError::value(
+                    "gear.pitch_radii_m",
+                    format!("{one}, {two}"),
+                    "radii in the ratio of the numbers of teeth",
+                ));
+            }
+            modules[0]
+        }
+        _ => {
+            return Err(SceneError::Missing {
+                key: "gear.module_m".to_owned(),
+                allowed: "exactly one of module_m (1e-5 to 0.1 m) and pitch_radii_m".to_owned(),
+            });
+        }
+    };
+    let standard = teeth.map(|z| module_m * f64::from(z));
+    let centre = keys.maybe("centre_distance_m", (1e-4, 10.0), "m")?;
+    let tips = keys.pair("tip_diameters_m", (1e-4, 20.0), "m, pinion first")?;
+    let load_sharing = match keys.table.get("load_sharing").map(|v| (v.as_str(), v)) {
+        None | Some((Some("half"), _)) => LoadSharing::Half,
+        Some((Some("trapezoid"), _)) => LoadSharing::Trapezoid,
+        Some((Some("whole"), _)) => LoadSharing::Whole,
+        Some((_, other)) => {
+            let allowed = "\"half\", \"trapezoid\" or \"whole\"";
+            return Err(SceneError::value(
+                "gear.load_sharing",
+                shown(other),
+                allowed,
+            ));
+        }
+    };
+    let angle = keys.maybe("pressure_angle_deg", (10.0, 35.0), "degrees")?;
+    Ok(GearPair {
+        gears: GearTeeth {
+            teeth,
+            module_m,
+            pressure_angle_rad: angle.unwrap_or(20.0).to_radians(),
+            centre_distance_m: centre.unwrap_or(0.5 * (standard[0] + standard[1])),
+            tip_diameters_m: tips.unwrap_or(standard.map(|d| d + 2.0 * module_m)),
+        },
+        face_width_m: keys.number("face_width_m", (1e-4, 10.0), "m")?,
+        torque_n_m: keys.number("torque_n_m", (1e-3, 1e7), "N m")?,
+        speed_rad_s: RPM * keys.number("speed_rpm", (0.01, 1e6), "1/min")?,
+        load_sharing,
+    })
+}
+
+fn race(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
+    keys.known(&[
+        "ball_diameter_m",
+        "pitch_diameter_m",
+        "conformity",
+        "balls",
+        "radial_load_n",
+        "speed_rpm",
+        "half_zone_deg",
+        "points",
+    ])?;
+    let race = BallRace {
+        ball_diameter_m: keys.number("ball_diameter_m", (1e-4, 1.0), "m")?,
+        pitch_diameter_m: keys.number("pitch_diameter_m", (1e-3, 10.0), "m")?,
+        conformity: keys.number("conformity", (0.501, 0.6), "")?,
+        balls: keys.number("balls", (3.0, 500.0), "")? as u32,
+        radial_load_n: keys.number("radial_load_n", (1e-3, 1e8), "N")?,
+        speed_rad_s: RPM * keys.number("speed_rpm", (0.01, 1e6), "1/min")?,
+    };
+    if race.pitch_diameter_m <= race.ball_diameter_m {
+        return Err(SceneError::value(
+            "race.pitch_diameter_m",
+            race.pitch_diameter_m,
+            "more than the ball's diameter",
+        ));
+    }
+    let zone = keys.maybe("half_zone_deg", (1.0, 85.0), "degrees")?;
+    let zone = zone.unwrap_or(75.0);
+    let n = keys.points(9)?;
+    let [rx, ry] = race.radii_m();
+    Ok((0..n)
+        .map(|k| {
+            let angle = zone * (2.0 * k as f64 / (n - 1) as f64 - 1.0);
+            PathStop {
+                values: vec![("path_deg", angle)],
+                keys: vec![
+                    ("contact.rx_m", rx),
+                    ("contact.ry_m", ry),
+                    ("load.force_n", race.load_n(angle.to_radians())),
+                    ("motion.entrainment_m_s", race.entrainment_m_s()),
+                ],
+            }
+        })
+        .collect())
+}
+
+fn cam(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
+    keys.known(&[
+        "base_radius_m",
+        "lift_m",
+        "half_angle_deg",
+        "speed_rpm",
+        "preload_n",
+        "stiffness_n_per_m",
+        "mass_kg",
+        "width_m",
+        "angles_deg",
+        "points",
+    ])?;
+    let end = keys.number("half_angle_deg", (10.0, 170.0), "degrees")?;
+    let cam = FlatFollower {
+        base_radius_m: keys.number("base_radius_m", (1e-3, 1.0), "m")?,
+        lift_m: keys.number("lift_m", (1e-5, 0.5), "m")?,
+        half_angle_rad: end.to_radians(),
+        speed_rad_s: RPM * keys.number("speed_rpm", (0.01, 1e6), "1/min")?,
+        preload_n: keys.number("preload_n", (0.0, 1e6), "N")?,
+        stiffness_n_per_m: keys.number("stiffness_n_per_m", (0.0, 1e9), "N/m")?,
+        mass_kg: keys.number("mass_kg", (0.0, 1e4), "kg")?,
+        width_m: keys.number("width_m", (1e-4, 1.0), "m")?,
+    };
+    // The flank: from the turning point of the lift, where the follower's speed is 0, to the end of it. The
+    // turning point itself has S = 2; half a step away from it both surfaces move.
+    let n = keys.points(9)?;
+    let unit = "degrees from the nose, the lesser first";
+    let ends = keys.pair("angles_deg", (0.0, end), unit)?;
+    let [near, far] = ends.unwrap_or([0.5 * end, end]);
+    if near >= far {
+        let allowed = format!("two numbers, 0 to {end} {unit}");
+        return Err(SceneError::value(
+            "cam.angles_deg",
+            format!("[{near}, {far}]"),
+            allowed,
+        ));
+    }
+    let [near, far] = [near, far].map(f64::to_radians);
+    (0..n)
+        .map(|k| far - (far - near) * (k as f64 + 0.5) / n as f64)
+        .map(|angle| cam_stop(&cam, angle))
+        .collect()
+}
+
+/// The contact at `angle` (radians from the nose); refused where the cam does not touch or the surfaces move against
+/// each other.
+fn cam_stop(cam: &FlatFollower, angle: f64) -> Result<PathStop, SceneError> {
+    let at = cam.at(angle);
+    if at.radius_m <= 0.0 || at.load_n_per_m <= 0.0 {
+        return Err(SceneError::value(
+            "cam.lift_m",
+            cam.lift_m,
+            format!(
+                "a cam that touches all along its flank; at {:.1} degrees from the nose R = {:.3e} m, load {:.3e} N/m",
+                angle.to_degrees(),
+                at.radius_m,
+                at.load_n_per_m
+            ),
+        ));
+    }
+    let [follower, nose] = at.speeds_m_s;
+    let entrainment = 0.5 * (follower + nose);
+    if follower < 0.0 {
+        let end = cam.half_angle_rad.to_degrees();
+        return Err(SceneError::value(
+            "cam.angles_deg",
+            format!("{:.1}", angle.to_degrees()),
+            format!(
+                "angles of the flank, {:.1} to {end:.1} degrees from the nose: nearer to it the surfaces move \
+                 against each other (here S = {:.1}), and motion.slide_roll goes from -2 to 2",
+                0.5 * end,
+                (nose - follower) / entrainment
+            ),
+        ));
+    }
+    Ok(PathStop {
+        values: vec![
+            ("path_deg", angle.to_degrees()),
+            ("lift_m", at.lift_m),
+            ("u_1_m_s", follower),
+            ("u_2_m_s", nose),
+        ],
+        keys: vec![
+            ("contact.rx_m", at.radius_m),
+            ("load.force_n_per_m", at.load_n_per_m),
+            ("motion.entrainment_m_s", entrainment),
+            ("motion.slide_roll", (nose - follower) / entrainment),
+        ],
+    })
+}

@@ -1,0 +1,262 @@
+//! The table of a sweep: one row a case, one column a number.
+//!
+//! Keys that vary come first under their own names, then what came out. Names carry their units (`_m`, `_pa`,
+//! `_m_s`); a second header line would break most readers. Cells that were not computed are empty. `scene` is
+//! the digest of the whole scene of the row: `base.toml` beside the table with the row's keys set is that
+//! scene. Nothing in the table depends on the machine's speed; seconds go to a file of their own.
+
+use std::fmt::Write as _;
+
+use toml::Value;
+
+use super::case::{CaseEnd, CaseRecord, CaseStart};
+use super::error::SweepError;
+use super::folder::Folder;
+use super::spec::Sweep;
+use crate::cells::{Cells, csv_line};
+use asperity_engine::files::fnv;
+use asperity_engine::sim::{CATALOGUE, Summary};
+
+/// Where a column's number stands in a record.
+type InRecord = fn(&CaseRecord) -> Option<f64>;
+
+/// Columns after those of the path and the axes; what the catalogue shows by itself follows them.
+#[rustfmt::skip]
+const COLUMNS: [(&str, InRecord); 56] = [
+    ("h_regression_m", |r| r.h_regression_m),
+    ("h_min_regression_m", |r| r.h_min_regression_m),
+    ("lambda_ratio", |r| r.lambda_ratio),
+    ("a_m", |r| got(r, |s| s.a_m)),
+    ("p_hertz_pa", |r| got(r, |s| s.p_hertz_pa)),
+    ("load_n", |r| got(r, |s| s.load_n)),
+    ("h_central_m", |r| got(r, |s| s.h_central_m)),
+    ("h_min_m", |r| got(r, |s| s.h_min_m)),
+    ("h_min_least_m", |r| got(r, |s| s.h_min_least_m)),
+    ("p_max_pa", |r| got(r, |s| s.p_max_pa)),
+    ("p_max_greatest_pa", |r| got(r, |s| s.p_max_greatest_pa)),
+    ("contact_ratio", |r| got(r, |s| s.contact_ratio)),
+    ("contact_load_ratio", |r| got(r, |s| s.contact_load_ratio)),
+    ("friction_coefficient", |r| got(r, |s| s.friction_coefficient)),
+    ("n_body_1", |r| r.summary.n_body_1),
+    ("n_body_2", |r| r.summary.n_body_2),
+    ("n_counted_body_1", |r| r.summary.n_counted_body_1),
+    ("n_counted_body_2", |r| r.summary.n_counted_body_2),
+    ("i_ref", |r| r.summary.i_ref),
+    ("i_mean", |r| r.summary.i_mean),
+    ("cycle_factor", |r| r.summary.cycle_factor),
+    ("stress_factor", |r| r.summary.stress_factor),
+    ("peak_factor", |r| r.summary.peak_factor),
+    ("traction_factor", |r| r.summary.traction_factor),
+    ("load_factor", |r| r.summary.load_factor),
+    ("life_relative", |r| r.summary.life_relative),
+    ("life_relative_low", |r| r.summary.life_relative_low),
+    ("life_relative_high", |r| r.summary.life_relative_high),
+    ("life_body", |r| r.summary.life_body.map(f64::from)),
+    ("life_body_1", |r| r.summary.life_body_1),
+    ("life_body_2", |r| r.summary.life_body_2),
+    ("life_system", |r| r.summary.life_system),
+    ("life_global", |r| r.summary.life_global),
+    ("life_damage", |r| r.summary.life_damage),
+    ("life_snapshot", |r| r.summary.life_snapshot),
+    ("life_swept", |r| r.summary.life_swept),
+    ("life_models_low", |r| r.summary.life_models_low),
+    ("life_models_high", |r| r.summary.life_models_high),
+    ("life_cycles", |r| r.summary.life_cycles),
+    ("survival_ratio", |r| r.summary.survival_ratio),
+    ("sigma_eff_max_pa", |r| r.summary.sigma_eff_max_pa),
+    ("sigma_eff_max_depth_m", |r| r.summary.sigma_eff_max_depth_m),
+    ("sigma_eff_max_x_m", |r| r.summary.sigma_eff_max_x_m),
+    ("cycles_end_depth_1_m", |r| r.summary.cycles_end_depth_1_m),
+    ("cycles_end_depth_2_m", |r| r.summary.cycles_end_depth_2_m),
+    ("pit_depth_1_m", |r| r.summary.pit_body_1.map(|pit| pit.depth_m)),
+    ("pit_depth_2_m", |r| r.summary.pit_body_2.map(|pit| pit.depth_m)),
+    ("period_s", |r| r.summary.period_s),
+    ("period_drift", |r| r.summary.period_drift),
+    ("load_error", |r| got(r, |s| s.load_error)),
+    ("mass_error", |r| got(r, |s| s.mass_error)),
+    ("steps", |r| got(r, |s| s.steps as f64)),
+    ("steps_not_converged", |r| got(r, |s| s.steps_not_converged as f64)),
+    ("newton_iterations", |r| got(r, |s| s.counters.newton_iterations as f64)),
+    ("linear_iterations", |r| got(r, |s| s.counters.linear_iterations as f64)),
+    ("ffts", |r| got(r, |s| s.counters.ffts as f64)),
+];
+
+/// Without a step there are no means.
+fn got(record: &CaseRecord, number: fn(&Summary) -> f64) -> Option<f64> {
+    (record.summary.steps > 0).then(|| number(&record.summary))
+}
+
+/// Names of all those columns.
+fn columns() -> impl Iterator<Item = &'static str> {
+    let more = CATALOGUE.iter().filter(|quantity| quantity.by_itself);
+    let more = more.flat_map(|quantity| quantity.over).map(|(_, key)| *key);
+    COLUMNS.iter().map(|(name, _)| *name).chain(more)
+}
+
+/// A record's number in the column of that name.
+fn number(record: &CaseRecord, name: &str) -> Option<f64> {
+    match COLUMNS.iter().find(|(column, _)| *column == name) {
+        Some((_, of)) => of(record),
+        None => *record.summary.by_itself.get(name)?,
+    }
+}
+
+/// A sweep's rows, all there.
+#[derive(Debug, Clone)]
+pub struct Rows {
+    /// One record a case, in order.
+    pub records: Vec<CaseRecord>,
+}
+
+impl Rows {
+    /// Gathers the cases of a sweep from the folders of its shards; a case that is in several is in all of them
+    /// the same.
+    ///
+    /// # Errors
+    /// [`SweepError::Incomplete`] that names the chains with missing cases; [`SweepError::Folder`] when not all
+    /// folders were filled by one build of the program.
+    pub fn gather(sweep: &Sweep, folders: &[Folder]) -> Result<Self, SweepError> {
+        if let Some(pair) = folders
+            .windows(2)
+            .find(|pair| pair[0].build() != pair[1].build())
+        {
+            let reason = format!(
+                "was filled by build {}, {} by build {}: one table would mix the numbers of both",
+                pair[1].build(),
+                pair[0].root().display(),
+                pair[0].build()
+            );
+            return Err(SweepError::folder(pair[1].root(), reason));
+        }
+        let find = |case: usize| folders.iter().find_map(|folder| folder.read_case(case));
+        let records: Vec<_> = (0..sweep.len()).map(find).collect();
+        let missing = records.iter().filter(|record| record.is_none()).count();
+        if missing > 0 {
+            return Err(SweepError::Incomplete {
+                missing,
+                all: sweep.len(),
+                list: missing_chains(sweep, &records),
+            });
+        }
+        Ok(Self {
+            records: records.into_iter().flatten().collect(),
+        })
+    }
+
+    /// The column of that name, an axis or a number of the records; empty cells are NaN.
+    pub fn column(&self, sweep: &Sweep, name: &str) -> Option<Vec<f64>> {
+        if let Some(axis) = sweep.axes.iter().position(|axis| axis.key == name) {
+            let numbers = sweep.axes[axis].numbers()?;
+            let cases = 0..sweep.len();
+            return Some(cases.map(|case| numbers[sweep.place(case)[axis]]).collect());
+        }
+        if let Some(values) = super::path::column(&sweep.path, name) {
+            return Some(values);
+        }
+        let column = columns().find(|column| *column == name)?;
+        let cell = |record: &CaseRecord| number(record, column).unwrap_or(f64::NAN);
+        Some(self.records.iter().map(cell).collect())
+    }
+
+    /// The table.
+    ///
+    /// # Errors
+    /// [`SweepError::Case`] when a case is no scene any more (its height map has gone).
+    pub fn csv(&self, sweep: &Sweep) -> Result<String, SweepError> {
+        let head = ["case".to_owned()]
+            .into_iter()
+            .chain(super::path::columns(&sweep.path).map(str::to_owned))
+            .chain(sweep.axes.iter().map(|axis| axis.key.clone()))
+            .chain(["scene", "began", "end"].map(str::to_owned))
+            .chain(columns().map(|column| sweep.header(column).to_owned()));
+        let mut text = csv_line(head);
+        let mut row = Cells::default();
+        for record in &self.records {
+            Self::row(sweep, record, &mut row)?;
+            text.push_str(&csv_line(row.iter()));
+        }
+        Ok(text)
+    }
+
+    fn row(sweep: &Sweep, record: &CaseRecord, row: &mut Cells) -> Result<(), SweepError> {
+        let scene = sweep.scene(record.index)?;
+        let scene = toml::to_string(&scene).unwrap_or_default();
+        row.clear();
+        row.text(record.index);
+        if let Some(point) = sweep.path.get(record.index) {
+            for (_, value) in &point.values {
+                row.number(*value);
+            }
+        }
+        for value in sweep.values(record.index) {
+            write_value(row, value);
+        }
+        row.text(format_args!("{:016x}", fnv(scene.as_bytes())));
+        row.text(match record.began {
+            CaseStart::Cold => "cold",
+            CaseStart::Warm => "warm",
+        });
+        row.text(match record.end {
+            CaseEnd::Converged => "converged",
+            CaseEnd::NotConverged => "not_converged",
+            CaseEnd::Stalled => "stalled",
+        });
+        for column in columns() {
+            row.optional(number(record, column));
+        }
+        Ok(())
+    }
+
+    /// Seconds of every case, beside the table because they are another number in every run.
+    pub fn seconds_csv(&self) -> String {
+        let mut text = "case,seconds_s\n".to_owned();
+        for record in &self.records {
+            let _ = writeln!(text, "{},{:.3}", record.index, record.seconds);
+        }
+        text
+    }
+
+    /// The worst end of all cases.
+    pub fn worst(&self) -> CaseEnd {
+        let has = |end| self.records.iter().any(|record| record.end == end);
+        if has(CaseEnd::Stalled) {
+            CaseEnd::Stalled
+        } else if has(CaseEnd::NotConverged) {
+            CaseEnd::NotConverged
+        } else {
+            CaseEnd::Converged
+        }
+    }
+}
+
+/// A value as the sweep file has it.
+pub(super) fn write_value(row: &mut Cells, value: &Value) {
+    match value {
+        Value::Float(number) if number.is_infinite() => row.text(number),
+        Value::Float(number) => row.number(*number),
+        Value::String(text) => row.text(text),
+        other => row.text(other),
+    }
+}
+
+/// Chains with missing cases, at most a dozen of them by name.
+fn missing_chains(sweep: &Sweep, records: &[Option<CaseRecord>]) -> String {
+    const NAMED: usize = 12;
+    let lacking: Vec<_> = sweep
+        .chains()
+        .into_iter()
+        .enumerate()
+        .filter(|(_, cases)| records[cases.clone()].iter().any(Option::is_none))
+        .collect();
+    let names: Vec<_> = lacking
+        .iter()
+        .take(NAMED)
+        .map(|(chain, cases)| format!("chain {chain} (cases {} to {})", cases.start, cases.end - 1))
+        .collect();
+    let more = lacking.len().saturating_sub(NAMED);
+    if more > 0 {
+        format!("{} and {more} more", names.join(", "))
+    } else {
+        names.join(", ")
+    }
+}
