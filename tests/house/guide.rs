@@ -176,7 +176,7 @@ fn presets_and_cautions_are_told() {
         );
     }
     let life = page("life.md");
-    let enumeration = read(&root().join("src/sim/caution.rs"));
+    let enumeration = read(&root().join("src/engine/sim/caution.rs"));
     let variants = between(&enumeration, "pub enum CautionCode {", "\n}")[0].lines();
     let mut told = 0;
     for line in variants.map(str::trim).filter(|line| line.ends_with(',')) {
