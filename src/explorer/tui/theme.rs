@@ -7,6 +7,7 @@
 mod ramp;
 
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
 
 use asperity_picture::Ramp;
 use ramp::{map_index, nearest_index};
@@ -208,6 +209,26 @@ impl Theme {
         if self.is_ascii() { ascii } else { unicode }
     }
 
+    /// Words as they are, in ASCII where only that may be drawn.
+    pub(crate) fn words(self, text: impl AsRef<str>) -> String {
+        let text = text.as_ref();
+        if self.is_ascii() {
+            in_ascii(text)
+        } else {
+            text.to_owned()
+        }
+    }
+
+    /// Words in the look of a role, as a part of a line.
+    pub(crate) fn span(self, text: impl AsRef<str>, role: Role) -> Span<'static> {
+        Span::styled(self.words(text), self.style(role))
+    }
+
+    /// Words in the look of a role, as a line.
+    pub(crate) fn line(self, text: impl AsRef<str>, role: Role) -> Line<'static> {
+        Line::styled(self.words(text), self.style(role))
+    }
+
     /// Whether maps are drawn in half blocks of colour (else in characters of growing ink).
     pub fn paints(self) -> bool {
         !self.is_ascii()
@@ -278,6 +299,38 @@ impl Theme {
             }
         }
     }
+}
+
+/// What only Unicode terminals show, in letters for those that do not.
+fn in_ascii(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '∞' => plain.push_str("inf"),
+            'λ' => plain.push_str("lambda"),
+            'ζ' => plain.push_str("zeta"),
+            'µ' | 'μ' => plain.push('u'),
+            'σ' => plain.push_str("sigma"),
+            'τ' => plain.push_str("tau"),
+            '₁' => plain.push('1'),
+            '₂' => plain.push('2'),
+            '×' => plain.push('x'),
+            '→' => plain.push_str("->"),
+            '–' | '−' => plain.push('-'),
+            '≈' => plain.push('~'),
+            '≥' => plain.push_str(">="),
+            '≤' => plain.push_str("<="),
+            '±' => plain.push_str("+-"),
+            '·' => plain.push('.'),
+            '…' => plain.push_str("..."),
+            '⏎' => plain.push_str("CR"),
+            '◂' => plain.push('<'),
+            '▸' => plain.push('>'),
+            other if other.is_ascii() => plain.push(other),
+            _ => plain.push('?'),
+        }
+    }
+    plain
 }
 
 /// Of the light contrast.

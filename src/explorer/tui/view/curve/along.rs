@@ -1,6 +1,6 @@
 //! The three curves: life against S, friction against S, friction against the speed (Stribeck).
 
-use super::{CurveFigure, Place};
+use super::{CurveFigure, CurvePoint};
 use crate::tui::action::Action;
 use crate::tui::app::{App, CurveKind, Leading};
 use crate::tui::dial::Dial;
@@ -51,15 +51,19 @@ fn life(app: &App) -> CurveFigure {
         .map(|s| (s, app.formula_at(s).unwrap_or(f64::NAN).log10()))
         .collect();
     let point = |found: &Found| {
-        let [low, life, high] = found.life?.map(f64::log10);
-        Some((found.at.slide_roll, life, Some([low, high])))
+        let [low, y, high] = found.life?.map(f64::log10);
+        Some(CurvePoint {
+            x: found.at.slide_roll,
+            y,
+            band: Some([low, high]),
+        })
     };
     let points: Vec<_> = app.simulated(Along::SlideRoll).filter_map(point).collect();
     // At ±2 a body stands and the life falls without end: the axis is not for that.
     let known = formula.iter().filter(|place| place.0.abs() < MOVES);
     let known = known.map(|place| place.1);
     let now = app.leading_life().map(f64::log10);
-    let y = decades(known.chain(points.iter().map(|place| place.1)).chain(now));
+    let y = decades(known.chain(points.iter().map(|point| point.y)).chain(now));
     CurveFigure {
         name: "life against S",
         formula,
@@ -69,19 +73,23 @@ fn life(app: &App) -> CurveFigure {
         x,
         y,
         y_ends: y.map(power),
-        foot: [
-            format!("S {:.0}", x[0]),
-            "0".to_owned(),
-            format!("{:.0}", x[1]),
-        ],
+        foot: slide_roll_foot(x),
     }
 }
 
+fn slide_roll_foot([from, to]: [f64; 2]) -> [String; 3] {
+    [format!("S {from:.0}"), "0".to_owned(), format!("{to:.0}")]
+}
+
 /// What was simulated of the friction along a knob, and the top of its axis. No formula.
-fn frictions(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> (Vec<Place>, f64) {
-    let point = |found: &Found| (x(found), found.friction, None);
+fn frictions(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> (Vec<CurvePoint>, f64) {
+    let point = |found: &Found| CurvePoint {
+        x: x(found),
+        y: found.friction,
+        band: None,
+    };
     let points: Vec<_> = app.simulated(along).map(point).collect();
-    let most = points.iter().map(|place| place.1).fold(0.01, f64::max);
+    let most = points.iter().map(|point| point.y).fold(0.01, f64::max);
     (points, nice_ceiling(most))
 }
 
@@ -106,11 +114,7 @@ fn friction(app: &App) -> CurveFigure {
         x,
         y: [0.0, most],
         y_ends: ["0".to_owned(), sig(most, 1)],
-        foot: [
-            format!("S {:.0}", x[0]),
-            "0".to_owned(),
-            format!("{:.0}", x[1]),
-        ],
+        foot: slide_roll_foot(x),
     }
 }
 

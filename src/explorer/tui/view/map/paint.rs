@@ -10,7 +10,7 @@ use crate::tui::app::{App, MapKind};
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::tick;
-use crate::tui::view::{ascii_text, put};
+use crate::tui::view::place::{columns, columns_from, put};
 use asperity_picture::interferogram::colour as fringe;
 use asperity_picture::{AboveRange, CONTACT, Look, Palette, Tint};
 
@@ -85,21 +85,10 @@ pub(super) enum MapMark {
 }
 
 impl MapMark {
-    /// Draws it at a place, with so many pixels to each side.
-    pub(super) fn draw(
-        self,
-        picture: &mut Bitmap,
-        window: &MapWindow,
-        (x, y): (f64, f64),
-        half: f64,
-    ) {
+    /// Draws it at parts of the picture along and down, with so many pixels to each side.
+    pub(super) fn draw(self, picture: &mut Bitmap, [along, down]: [f64; 2], half: f64) {
         /// How far the black around it goes.
         const EDGE: f64 = 1.35;
-        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
-        let (along, down) = (part(x, window.x), part(y, window.y));
-        if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
-            return;
-        }
         let middle = [along * picture.width as f64, down * picture.height as f64].map(f64::floor);
         for row in 0..picture.height {
             for column in 0..picture.width {
@@ -127,31 +116,34 @@ pub(super) fn paint(
     image: Rect,
     buffer: &mut Buffer,
 ) {
-    let pixel = |column: usize, row: usize| {
-        Pixel::of(look, raster, window, kind, (column, row)).color(theme, look)
-    };
-    for row in 0..usize::from(image.height) {
-        for column in 0..usize::from(image.width) {
-            let at = (image.x + column as u16, image.y + row as u16);
-            let Some(cell) = buffer.cell_mut(at) else {
-                continue;
-            };
-            if theme.paints() {
-                let (upper, lower) = (pixel(column, 2 * row), pixel(column, 2 * row + 1));
-                // A blank upper half would be painted in the colour of letters.
-                let symbol = if upper == Color::Reset { "▄" } else { "▀" };
-                let (ink, back) = if upper == Color::Reset {
-                    (lower, upper)
-                } else {
-                    (upper, lower)
-                };
-                cell.set_symbol(if ink == Color::Reset { " " } else { symbol })
-                    .set_fg(ink)
-                    .set_bg(back);
-            } else {
-                let ring = kind.is_plane() && on_ellipse(window, raster, column, row);
-                cell.set_symbol(ink(look, raster, kind, ring, column, row));
-            }
+    if theme.paints() {
+        half_blocks(image, buffer, |column, row| {
+            Pixel::of(look, raster, window, kind, (column, row)).color(theme, look)
+        });
+        return;
+    }
+    for (place, at) in image.positions().enumerate() {
+        let (column, row) = (place % raster.columns, place / raster.columns);
+        let ring = kind.is_plane() && on_ellipse(window, raster, column, row);
+        if let Some(cell) = buffer.cell_mut(at) {
+            cell.set_symbol(ink(look, raster, kind, ring, column, row));
+        }
+    }
+}
+
+/// Paints two pixels a cell, by their column and row.
+pub(super) fn half_blocks(area: Rect, buffer: &mut Buffer, pixel: impl Fn(usize, usize) -> Color) {
+    for at in area.positions() {
+        let (column, row) = (usize::from(at.x - area.x), usize::from(at.y - area.y));
+        let (upper, lower) = (pixel(column, 2 * row), pixel(column, 2 * row + 1));
+        // A blank upper half would be painted in the colour of letters.
+        let (symbol, ink, back) = match (upper, lower) {
+            (Color::Reset, Color::Reset) => (" ", upper, lower),
+            (Color::Reset, _) => ("▄", lower, upper),
+            _ => ("▀", upper, lower),
+        };
+        if let Some(cell) = buffer.cell_mut(at) {
+            cell.set_symbol(symbol).set_fg(ink).set_bg(back);
         }
     }
 }
@@ -201,63 +193,54 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
     if bar.width < 4 || bar.height < 3 {
         return;
     }
-    let pixels = f64::from(2 * bar.height - 1);
+    let last = f64::from(2 * bar.height - 1);
     let [low, high] = look.range;
-    for row in 0..bar.height {
-        let value = |half: u16| high - (high - low) * f64::from(2 * row + half) / pixels;
-        // Its upper edge has the colour of what is above.
-        let above = |half: u16| f64::from(u8::from(row + half == 0)) * 1e-6 * (high - low);
-        let color = |half: u16| {
-            let pixel = Pixel {
-                tint: look.tint(value(half) + above(half), false),
-                is_lit: false,
-            };
-            pixel.color(theme, look)
-        };
-        if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
-            if theme.paints() {
-                cell.set_symbol("▀").set_fg(color(0)).set_bg(color(1));
-            } else if kind == MapKind::Fringes {
-                let [_, green, _] = fringe(value(0) as f32, 0.0);
-                cell.set_symbol(Theme::map_ink(f32::from(green) / 255.0));
+    let value = |row: usize| high - (high - low) * row as f64 / last;
+    let strip = columns(bar, 1, 1);
+    if theme.paints() {
+        half_blocks(strip, buffer, |_, row| {
+            // Its upper edge has the colour of what is above.
+            let above = f64::from(u8::from(row == 0)) * 1e-6 * (high - low);
+            let tint = look.tint(value(row) + above, false);
+            let is_lit = false;
+            Pixel { tint, is_lit }.color(theme, look)
+        });
+    } else {
+        for (row, at) in strip.positions().enumerate() {
+            let value = value(2 * row);
+            let share = if kind == MapKind::Fringes {
+                let [_, green, _] = fringe(value as f32, 0.0);
+                f32::from(green) / 255.0
             } else {
-                cell.set_symbol(Theme::map_ink(inked(look, look.share(value(0)))));
+                inked(look, look.share(value))
+            };
+            if let Some(cell) = buffer.cell_mut(at) {
+                cell.set_symbol(Theme::map_ink(share));
             }
         }
     }
-    let text = Rect {
-        x: bar.x + 3,
-        width: bar.width - 3,
-        ..bar
-    };
-    let dim = theme.style(Role::Dim);
-    let number = |value: f64| Line::styled(number(theme, look, value, text.width), dim);
+    let text = columns_from(bar, 3);
+    let number = |value: f64| theme.line(number(look, value, text.width), Role::Dim);
     put(text, 0, &number(high), buffer);
-    put(
-        text,
-        1,
-        &Line::styled(ascii_text(theme, look.unit.name), dim),
-        buffer,
-    );
+    put(text, 1, &theme.line(look.unit.name, Role::Dim), buffer);
     if bar.height >= 7 {
         put(text, bar.height / 2, &number(0.5 * (low + high)), buffer);
     }
     put(text, bar.height - 1, &number(low), buffer);
     if kind == MapKind::Contact && bar.height >= 9 {
-        let spot = Line::from(vec![
-            Span::styled(theme.pick("█", "#"), Style::new().fg(theme.rgb(CONTACT))),
-            Span::styled("touch", dim),
-        ]);
-        put(text, bar.height - 3, &spot, buffer);
+        let contact = Style::new().fg(theme.rgb(CONTACT));
+        let spot = Span::styled(theme.pick("█", "#"), contact);
+        let line = Line::from(vec![spot, theme.span("contact", Role::Dim)]);
+        put(text, bar.height - 3, &line, buffer);
     }
 }
 
 /// A number of the legend, which says what of the range's ends holds beyond, where there is room.
-fn number(theme: Theme, look: &Look, value: f64, room: u16) -> String {
+fn number(look: &Look, value: f64, room: u16) -> String {
     let text = if look.above == AboveRange::Dark && value == look.range[1] {
         format!(">{}", tick(look.unit.of(value)))
     } else {
-        ascii_text(theme, &look.number(value))
+        look.number(value)
     };
     if text.chars().count() <= usize::from(room) {
         text
