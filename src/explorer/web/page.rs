@@ -324,8 +324,8 @@ fn wiring(session: &NearEnd, setup: Setup, beside: &PageSweep, files: &Files) ->
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "tests")]
 mod tests {
+    #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct};
 

@@ -20,13 +20,13 @@ use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::view::chart::Symbol;
-use crate::tui::view::place::{columns, put, rows, rows_from};
+use crate::tui::view::place::{columns, put, rows};
 use crate::tui::view::{Areas, PanelSpacing, panel};
 use asperity_engine::sim::Frame;
 use asperity_picture::{Picture, Subject};
 use heading::heading;
 use motion::motion;
-use paint::{MapMark, Pixel, color_bar, look, paint};
+use paint::{MapMark, MapPainter, color_bar, look};
 use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
@@ -42,18 +42,25 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
     if app.map == MapKind::Profile {
         return profile::side_view(app, frame, inner, buffer);
     }
-    let (picture, bar) = split(areas, inner);
     let look = look(app);
-    let window = window(app, frame, picture);
-    let image = image_area(app.map, &window, picture);
+    let room = MapRoom::of(app, frame, areas);
+    let (window, image) = (&room.window, room.image);
     if image.is_empty() {
         return None;
     }
-    let pixels = (usize::from(image.width), pixel_rows(theme, image));
-    match picture_of(app, frame, &window, pixels) {
+    let rows = usize::from(image.height) * if theme.paints() { 2 } else { 1 };
+    match picture_of(app, frame, window, (usize::from(image.width), rows)) {
         // Its room stays blank: the terminal's own pixels come there.
         Some(_) if app.is_in_pixels() => {}
-        Some(raster) => paint(theme, &raster, &look, &window, app.map, image, buffer),
+        Some(raster) => {
+            let painter = MapPainter {
+                kind: app.map,
+                look: &look,
+                window,
+                raster: &raster,
+            };
+            painter.paint(theme, image, buffer);
+        }
         None => {
             let text = theme.line("no stress is computed in this scene", Role::Dim);
             put(image, image.height / 2, &text, buffer);
@@ -67,23 +74,21 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
             }
         }
     }
-    axes::draw(app, frame, &window, image, inner, buffer);
-    color_bar(theme, &look, app.map, bar, buffer);
+    axes::draw(app, frame, window, image, inner, buffer);
+    color_bar(theme, &look, app.map, room.bar, buffer);
     motion(app, frame, areas, inner, buffer);
-    probe(app, frame, picture, image, buffer);
+    probe(app, frame, &room, buffer);
     None
 }
 
 /// The cells that the map fills.
 pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
     let frame = app.frame()?;
-    if app.map == MapKind::Profile {
-        let (area, _) = profile::rooms(areas.inside(PanelKind::Map));
-        return Some(area).filter(|area| !area.is_empty());
-    }
-    let (picture, _) = split(areas, areas.inside(PanelKind::Map));
-    let window = window(app, frame, picture);
-    Some(image_area(app.map, &window, picture)).filter(|image| !image.is_empty())
+    let area = match app.map {
+        MapKind::Profile => profile::rooms(areas.inside(PanelKind::Map)).0,
+        _ => MapRoom::of(app, frame, areas).image,
+    };
+    (!area.is_empty()).then_some(area)
 }
 
 /// The map in pixels, so many for a cell.
@@ -93,14 +98,15 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitma
     if app.map == MapKind::Profile {
         return profile::in_pixels(app, frame, area, cell);
     }
-    let (picture, _) = split(areas, areas.inside(PanelKind::Map));
-    let window = window(app, frame, picture);
-    let look = look(app);
-    let (width, height) = Bitmap::size(area, cell);
-    let raster = picture_of(app, frame, &window, (width, height))?;
-    let mut picture = Bitmap::of(area, cell, |column, row| {
-        Pixel::of(&look, &raster, &window, app.map, (column, row)).rgba(&look)
-    });
+    let MapRoom { window, .. } = MapRoom::of(app, frame, areas);
+    let raster = picture_of(app, frame, &window, Bitmap::size(area, cell))?;
+    let painter = MapPainter {
+        kind: app.map,
+        look: &look(app),
+        window: &window,
+        raster: &raster,
+    };
+    let mut picture = Bitmap::of(area, cell, |column, row| painter.rgba(column, row));
     let marks = [
         (point_at(app, frame), MapMark::Diamond),
         (app.probe, MapMark::Cross),
@@ -142,17 +148,13 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
         let x = profile.x[0] + part * (profile.x[1] - profile.x[0]);
         return across.then_some(Action::PutPoint(x));
     }
-    let (picture, _) = split(areas, areas.inside(PanelKind::Map));
-    let window = window(app, frame, picture);
-    let image = image_area(app.map, &window, picture);
+    let MapRoom { window, image, .. } = MapRoom::of(app, frame, areas);
+    let part = |place: u16, start: u16, length: u16| {
+        (f64::from(place - start) + 0.5) / f64::from(length.max(1))
+    };
     image.contains(at).then(|| {
-        let part = |place: u16, start: u16, length: u16| {
-            (f64::from(place - start) + 0.5) / f64::from(length.max(1))
-        };
-        Action::Probe(
-            window.x_at(part(at.x, image.x, image.width)),
-            window.y_at(part(at.y, image.y, image.height)),
-        )
+        let x = window.x_at(part(at.x, image.x, image.width));
+        Action::Probe(x, window.y_at(part(at.y, image.y, image.height)))
     })
 }
 
@@ -165,19 +167,35 @@ fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
     put(area, area.height / 2, &theme.line(text, Role::Dim), buffer);
 }
 
-/// Room for the picture and for the colour bar; the motion takes the last row (full: and the first), the axes the
-/// row above it and the columns at the left.
-fn split(areas: &Areas, inner: Rect) -> (Rect, Rect) {
-    let above = u16::from(areas.density == PanelSpacing::Full);
-    let [left, below] = axes::room(inner);
-    let picture = rows(inner, above, inner.height.saturating_sub(1 + above + below));
-    let width = inner.width.saturating_sub(BAR + left);
-    let bar = columns(picture, left + width, inner.width - width);
-    (columns(picture, left, width), bar)
+/// Where the map is drawn, and which part of the plane.
+struct MapRoom {
+    /// The room that the map may fill.
+    picture: Rect,
+    /// The colour bar with its numbers.
+    bar: Rect,
+    window: MapWindow,
+    /// What it does fill.
+    image: Rect,
 }
 
-fn pixel_rows(theme: Theme, image: Rect) -> usize {
-    usize::from(image.height) * if theme.paints() { 2 } else { 1 }
+impl MapRoom {
+    /// The motion takes the last row (full: and the first), the axes the row above it and the columns at the left.
+    fn of(app: &App, frame: &Frame, areas: &Areas) -> Self {
+        let inner = areas.inside(PanelKind::Map);
+        let above = u16::from(areas.density == PanelSpacing::Full);
+        let [left, below] = axes::room(inner);
+        let height = inner.height.saturating_sub(1 + above + below);
+        let width = inner.width.saturating_sub(BAR + left);
+        let whole = rows(inner, above, height);
+        let picture = columns(whole, left, width);
+        let window = window(app, frame, picture);
+        Self {
+            picture,
+            bar: columns(whole, left + width, inner.width - width),
+            image: image_area(app.map, &window, picture),
+            window,
+        }
+    }
 }
 
 /// The part of the plane that is drawn, in half-widths.
@@ -279,7 +297,7 @@ fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
 }
 
 /// The values at the probe, on the last row of the picture.
-fn probe(app: &App, frame: &Frame, picture: Rect, image: Rect, buffer: &mut Buffer) {
+fn probe(app: &App, frame: &Frame, room: &MapRoom, buffer: &mut Buffer) {
     let Some((x, y)) = app.probe else { return };
     let (p, h) = (app.units.pressure(), app.units.film());
     let pressure_and_film = |(pressure, film): (f32, f32)| {
@@ -300,7 +318,7 @@ fn probe(app: &App, frame: &Frame, picture: Rect, image: Rect, buffer: &mut Buff
         let line = app
             .theme
             .line(format!(" x {x:.2} a  {text} "), Role::Strong);
-        let below = rows_from(picture, (image.bottom() - picture.y).saturating_sub(1));
-        put(below, 0, &line, buffer);
+        let last = (room.image.bottom() - room.picture.y).saturating_sub(1);
+        put(room.picture, last, &line, buffer);
     }
 }

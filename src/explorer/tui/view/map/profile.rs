@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::mark;
-use super::paint::{MapMark, half_blocks};
+use super::paint::{MapMark, half_blocks, letters};
 use crate::tui::app::{App, Zoom};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
@@ -98,12 +98,9 @@ fn draw(app: &App, profile: &SurfaceProfile, area: Rect, buffer: &mut Buffer) {
         });
         return;
     }
-    for (place, at) in area.positions().enumerate() {
-        let (column, row) = (place % columns.len(), place / columns.len());
-        if let Some(cell) = buffer.cell_mut(at) {
-            cell.set_symbol(letter(profile.at(&columns[column], row, rows)));
-        }
-    }
+    letters(area, buffer, |column, row| {
+        letter(profile.at(&columns[column], row, rows))
+    });
 }
 
 /// The followed point, riding on its body: parts of the picture along and down.
