@@ -25,8 +25,8 @@ use asperity_engine::scene::{Knob, Scene};
 use asperity_session::run::{Cooperative, Ending, LoopTurn, NearEnd, Request, Watcher};
 use asperity_session::sweep::{Background, Ground, SweepWorker};
 
-/// Most pixels of a picture: each is a colour computed anew.
-const MOST_PIXELS: usize = 160_000;
+/// Maximum number of pixels of a picture: each is a colour computed anew.
+const MAX_PIXELS: usize = 160_000;
 
 /// A run and its rows.
 struct PageRun {
@@ -163,7 +163,7 @@ impl WebPage {
         };
         let (mut width, mut height) = self.cell;
         let cells = usize::from(room.width) * usize::from(room.height);
-        while cells * usize::from(width) * usize::from(height) > MOST_PIXELS && width > 2 {
+        while cells * usize::from(width) * usize::from(height) > MAX_PIXELS && width > 2 {
             (width, height) = (width / 2, height / 2);
         }
         let cell = (width.max(1), height.max(1));

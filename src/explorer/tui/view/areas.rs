@@ -5,10 +5,10 @@ use ratatui::layout::{Constraint, Layout, Margin, Position, Rect};
 use crate::tui::app::PanelKind;
 use crate::tui::view::place::{columns, columns_from, rows_from};
 
-/// Least size of the screen, columns and rows.
-pub const LEAST: (u16, u16) = (60, 20);
-/// Least size of a narrower one: a phone held upright.
-pub const LEAST_NARROW: (u16, u16) = (40, 30);
+/// Minimum size of the screen, columns and rows.
+pub const MIN_SCREEN: (u16, u16) = (60, 20);
+/// Minimum size of a narrower one: a phone held upright.
+pub const MIN_NARROW_SCREEN: (u16, u16) = (40, 30);
 
 /// How much room there is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,11 +49,11 @@ pub struct Areas {
 impl Areas {
     /// The panels on a screen, with so many rows of a caption under the top line; `None` where it is too small.
     pub fn of(screen: Rect, caption_rows: u16) -> Option<Self> {
-        let caption_rows = caption_rows.min(MOST_WORDS);
-        if screen.width < LEAST.0 {
+        let caption_rows = caption_rows.min(MAX_CAPTION_ROWS);
+        if screen.width < MIN_SCREEN.0 {
             return Self::narrow(screen, caption_rows);
         }
-        if screen.height < LEAST.1 {
+        if screen.height < MIN_SCREEN.1 {
             return None;
         }
         let density = if screen.width >= 110 && screen.height >= 32 {
@@ -104,7 +104,7 @@ impl Areas {
     fn narrow(screen: Rect, caption_rows: u16) -> Option<Self> {
         /// Rows of the sentence on a knob, of the run's state, and of the keys.
         const STATUS: u16 = 3;
-        if screen.width < LEAST_NARROW.0 || screen.height < LEAST_NARROW.1 {
+        if screen.width < MIN_NARROW_SCREEN.0 || screen.height < MIN_NARROW_SCREEN.1 {
             return None;
         }
         let body_rows = screen.height - 1 - caption_rows - STATUS;
@@ -189,7 +189,7 @@ impl Areas {
     #[must_use]
     pub(super) fn with_two_maps(mut self) -> Self {
         let half = self.map.width / 2;
-        if half >= LEAST_MAP {
+        if half >= MIN_MAP_COLUMNS {
             self.frozen = columns(self.map, 0, half);
             self.map = columns_from(self.map, half);
         }
@@ -216,9 +216,9 @@ impl Areas {
 }
 
 /// Columns in which a map can be read.
-const LEAST_MAP: u16 = 26;
+const MIN_MAP_COLUMNS: u16 = 26;
 /// Rows of a caption, its title included.
-const MOST_WORDS: u16 = 6;
+const MAX_CAPTION_ROWS: u16 = 6;
 /// Rows that the life and its factors take.
 const LIFE_ROWS: u16 = 13;
 

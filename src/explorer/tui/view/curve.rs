@@ -25,6 +25,7 @@ struct CurvePoint {
 }
 
 /// A curve with its axes; places in the units of the axes.
+#[derive(Default)]
 struct CurveFigure {
     name: &'static str,
     /// What a formula says; empty: there is none.
@@ -153,8 +154,8 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
 
 /// The estimate over the passages seen, the present on the right.
 fn history(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
-    /// Half of the smallest range, decades: noise stays small.
-    const LEAST: f64 = 0.17;
+    /// Half of the minimum range, decades: noise stays small.
+    const MIN_HALF: f64 = 0.17;
     let theme = app.theme;
     let (first, last) = (app.history.front()?, app.history.back()?);
     let span = last.passages - first.passages;
@@ -176,7 +177,7 @@ fn history(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
         decades.fold(f64::MIN, f64::max),
     );
     let middle = 0.5 * (low + high);
-    let half = (0.55 * (high - low)).max(LEAST);
+    let half = (0.55 * (high - low)).max(MIN_HALF);
     let mut chart = CurvePanel::new(Plot {
         area,
         x: [first.passages, last.passages],

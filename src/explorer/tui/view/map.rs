@@ -227,12 +227,12 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
         };
     }
     let half = (-frame.y_min_m / frame.b_m).abs().max(0.1);
-    let (least, wanted_x) = match app.zoom {
+    let (half_height, wanted_x) = match app.zoom {
         Zoom::Contact => (half.min(1.15), (domain[1] - domain[0]).min(2.6)),
         Zoom::Domain => (half, domain[1] - domain[0]),
     };
     // As many half-widths per pixel as it takes to show the ellipse; then as much as fits.
-    let scale = (2.0 * least / pixels.max(1.0)).max(wanted_x / columns.max(1.0));
+    let scale = (2.0 * half_height / pixels.max(1.0)).max(wanted_x / columns.max(1.0));
     let across = (0.5 * scale * pixels).min(half);
     let along = scale * columns;
     MapWindow {

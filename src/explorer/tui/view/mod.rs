@@ -25,11 +25,11 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
-use crate::tui::app::{App, Overlay, PanelKind};
+use crate::tui::app::{App, Leading, Overlay, PanelKind};
 use crate::tui::event::{Pointer, PointerAct};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::{Role, Theme};
-pub use areas::{Areas, LEAST, LEAST_NARROW, PanelSpacing};
+pub use areas::{Areas, MIN_NARROW_SCREEN, MIN_SCREEN, PanelSpacing};
 use place::rows;
 
 /// The panels of the screen as it is now.
@@ -177,7 +177,12 @@ fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
 fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
     let text = format!(
         "{} x {} is too small: {} x {} shows the explorer, {} x {} a part of it. q quits.",
-        screen.width, screen.height, LEAST.0, LEAST.1, LEAST_NARROW.0, LEAST_NARROW.1
+        screen.width,
+        screen.height,
+        MIN_SCREEN.0,
+        MIN_SCREEN.1,
+        MIN_NARROW_SCREEN.0,
+        MIN_NARROW_SCREEN.1
     );
     Paragraph::new(text)
         .style(app.theme.style(Role::Warn))
@@ -229,6 +234,14 @@ fn bordered(theme: Theme, borders: Borders, role: Role) -> Block<'static> {
         .borders(borders)
         .border_set(set)
         .border_style(theme.style(role))
+}
+
+/// The look of a number: a role of its own where the simulation says it, else that of formulas.
+fn led(leading: Leading, simulated: Role) -> Role {
+    match leading {
+        Leading::Simulated => simulated,
+        Leading::Scaled | Leading::Formula => Role::Formula,
+    }
 }
 
 /// A panel's title: its name, with the key that changes it in the key's colour.

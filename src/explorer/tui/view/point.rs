@@ -226,7 +226,7 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: &Plot, buffer: &mut Buffer) {
         if first < free_from {
             continue;
         }
-        // Above the curve, or on it where it touches the top.
+        // Above the curve, or on it where it reaches the top.
         let row = plot.row(value(app.quantity, sample, frame));
         let row = row.saturating_sub(1).max(plot.area.y);
         buffer.set_line(first, row, &app.theme.line(number, Role::Cycles), width);

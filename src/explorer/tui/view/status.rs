@@ -4,12 +4,12 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Span;
 
-use crate::tui::app::{App, Leading, Trouble, WhyUnconverged};
+use crate::tui::app::{App, Trouble, WhyUnconverged};
 use crate::tui::theme::Role;
 use crate::tui::units::{seconds, sig};
 use crate::tui::view::footer::{hints_shown, recorder};
 use crate::tui::view::place::{columns, columns_from, fitted, put, put_right};
-use crate::tui::view::{Areas, PanelSpacing, knobs, overlay};
+use crate::tui::view::{Areas, PanelSpacing, knobs, led, overlay};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{
     CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named,
@@ -24,10 +24,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let mut row = 0;
     if let Some(why) = app.why() {
         let text = why.in_columns(usize::from(area.width) - 2);
-        let role = match why.of {
-            Leading::Simulated => Role::Strong,
-            Leading::Scaled | Leading::Formula => Role::Formula,
-        };
+        let role = led(why.of, Role::Strong);
         let line = app.theme.line(format!(" {text}"), role);
         put(area, row, &line, buffer);
         row += 1;

@@ -3,7 +3,6 @@
 use super::{CurveFigure, CurvePoint};
 use crate::tui::action::Action;
 use crate::tui::app::{App, CurveKind, Leading};
-use crate::tui::dial::Dial;
 use crate::tui::units::{nice_ceiling, sig};
 use asperity_engine::sim::Knob;
 use asperity_session::sweep::{Along, Found};
@@ -26,19 +25,16 @@ pub(super) fn goes_to(app: &App, x: f64) -> Action {
     match app.curve {
         CurveKind::Life | CurveKind::Friction => Action::GoTo(Knob::SlideRoll, x),
         CurveKind::Stribeck => {
-            let [least, _] = axis(app, Knob::EntrainmentMS).0;
-            Action::GoTo(Knob::EntrainmentMS, 10_f64.powf(x).copysign(least))
+            let [sign, _] = axis(app, Knob::EntrainmentMS).0;
+            Action::GoTo(Knob::EntrainmentMS, 10_f64.powf(x).copysign(sign))
         }
     }
 }
 
-fn dial(app: &App, knob: Knob) -> Option<&Dial> {
-    app.dials.iter().find(|dial| dial.knob == knob)
-}
-
 /// Range and target of a knob.
 fn axis(app: &App, knob: Knob) -> ([f64; 2], f64) {
-    dial(app, knob).map_or(([0.0, 1.0], 0.0), |dial| {
+    let dial = app.dials.iter().find(|dial| dial.knob == knob);
+    dial.map_or(([0.0, 1.0], 0.0), |dial| {
         ([dial.min, dial.max], dial.target)
     })
 }
@@ -72,7 +68,7 @@ fn life(app: &App) -> CurveFigure {
         now,
         x,
         y,
-        y_ends: y.map(power),
+        y_ends: y.map(|decade| sig(10_f64.powf(decade), 1)),
         foot: slide_roll_foot(x),
     }
 }
@@ -81,8 +77,8 @@ fn slide_roll_foot([from, to]: [f64; 2]) -> [String; 3] {
     [format!("S {from:.0}"), "0".to_owned(), format!("{to:.0}")]
 }
 
-/// What was simulated of the friction along a knob, and the top of its axis. No formula.
-fn frictions(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> (Vec<CurvePoint>, f64) {
+/// What was simulated of the friction along a knob, and the friction now, once it holds for where the knobs are. No formula.
+fn simulated_friction(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> CurveFigure {
     let point = |found: &Found| CurvePoint {
         x: x(found),
         y: found.friction,
@@ -90,31 +86,27 @@ fn frictions(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> (Vec<CurvePo
     };
     let points: Vec<_> = app.simulated(along).map(point).collect();
     let most = points.iter().map(|point| point.y).fold(0.01, f64::max);
-    (points, nice_ceiling(most))
-}
-
-/// Friction now, once it holds for where the knobs are.
-fn friction_now(app: &App) -> Option<f64> {
+    let most = nice_ceiling(most);
     let settled = app.leading() == Leading::Simulated;
-    app.frame()
-        .filter(|_| settled)
-        .map(|frame| frame.metrics.friction_coefficient)
+    let frame = app.frame().filter(|_| settled);
+    CurveFigure {
+        points,
+        now: frame.map(|frame| frame.metrics.friction_coefficient),
+        y: [0.0, most],
+        y_ends: ["0".to_owned(), sig(most, 1)],
+        ..CurveFigure::default()
+    }
 }
 
 /// The traction curve.
 fn friction(app: &App) -> CurveFigure {
     let (x, knob) = axis(app, Knob::SlideRoll);
-    let (points, most) = frictions(app, Along::SlideRoll, |found| found.at.slide_roll);
     CurveFigure {
         name: "friction against S",
-        formula: Vec::new(),
-        points,
         knob,
-        now: friction_now(app),
         x,
-        y: [0.0, most],
-        y_ends: ["0".to_owned(), sig(most, 1)],
         foot: slide_roll_foot(x),
+        ..simulated_friction(app, Along::SlideRoll, |found| found.at.slide_roll)
     }
 }
 
@@ -128,9 +120,6 @@ fn stribeck(app: &App) -> CurveFigure {
     } else {
         [ends[1], ends[0]]
     };
-    let (points, most) = frictions(app, Along::Entrainment, |found| {
-        place(found.at.entrainment_m_s)
-    });
     let lambdas = app
         .simulated(Along::Entrainment)
         .filter_map(|found| found.lambda);
@@ -145,27 +134,16 @@ fn stribeck(app: &App) -> CurveFigure {
     let unit = app.units.speed();
     CurveFigure {
         name: "Stribeck",
-        formula: Vec::new(),
-        points,
         knob: place(knob),
-        now: friction_now(app),
         x: slow_and_fast.map(place),
-        y: [0.0, most],
-        y_ends: ["0".to_owned(), sig(most, 1)],
         foot: [
             format!("U {}", sig(unit.of(slow_and_fast[0]), 1)),
             middle,
             unit.show(slow_and_fast[1], 1),
         ],
-    }
-}
-
-/// A power of ten in few letters.
-fn power(decade: f64) -> String {
-    match decade as i32 {
-        0 => "1".to_owned(),
-        1 => "10".to_owned(),
-        other => format!("1e{other}"),
+        ..simulated_friction(app, Along::Entrainment, |found| {
+            place(found.at.entrainment_m_s)
+        })
     }
 }
 

@@ -2,14 +2,14 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
+use ratatui::text::{Line, Span};
 
 use super::RowAllotment;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
 use crate::tui::view::place::{columns_from, fitted, fitting, put};
-use crate::tui::view::{Areas, PanelSpacing, digits};
+use crate::tui::view::{Areas, PanelSpacing, digits, led};
 
 /// What the number is, for the panel's title: where there is no room beside the figure, against what.
 pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
@@ -24,10 +24,7 @@ pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
 /// The number itself.
 pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let theme = app.theme;
-    let role = match app.leading() {
-        Leading::Simulated => Role::Strong,
-        Leading::Scaled | Leading::Formula => Role::Formula,
-    };
+    let role = led(app.leading(), Role::Strong);
     let text = short(app.leading_life());
     let area = rows.take(digits::ROWS);
     if app.leading_life().is_none() {
@@ -90,13 +87,11 @@ enum Beside {
     Nothing,
 }
 
-fn source(app: &App) -> (&'static str, Role) {
+/// Where the number comes from.
+fn source(app: &App, gap: &str) -> Span<'static> {
     let leading = app.leading();
-    let role = match leading {
-        Leading::Simulated => Role::Good,
-        Leading::Scaled | Leading::Formula => Role::Formula,
-    };
-    (leading.name(), role)
+    let words = format!("{}{gap}", leading.name());
+    app.theme.span(words, led(leading, Role::Good))
 }
 
 /// Beside the large figure: where the number comes from.
@@ -111,8 +106,7 @@ fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
         return Beside::Nothing;
     }
     let right = columns_from(area, used);
-    let (word, role) = source(app);
-    put(right, 0, &theme.line(word, role), buffer);
+    put(right, 0, &source(app, "").into(), buffer);
     put(right, 1, &theme.line("× smooth rolling", Role::Dim), buffer);
     put(right, 2, &theme.line("at the same load", Role::Dim), buffer);
     Beside::Source
@@ -124,31 +118,33 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
     if app.leading_life().is_none() {
         return Line::default();
     }
-    let (word, role) = source(app);
     let formula = format!("  formula {}", sig_or_dash(app.estimate.formula.life(), 2));
     let formula = theme.span(formula, Role::Formula);
     let parts = match (app.leading(), app.life()) {
         (Leading::Simulated, Some(life)) => {
             let (low, high) = (life.life_relative_low, life.life_relative_high);
             let band = format!("{}–{}", sig(low, 2), sig(high, 2));
-            let has_room = word.len() + 1 + band.chars().count() <= usize::from(width);
+            let band = theme.span(band, Role::Text);
+            let source = source(app, " ");
             let name = match beside {
                 Beside::Source => theme.span("num. error ", Role::Text),
-                Beside::Nothing if has_room => theme.span(format!("{word} "), role),
-                Beside::Nothing => theme.span("sim. ", role),
+                Beside::Nothing if source.width() + band.width() <= usize::from(width) => source,
+                Beside::Nothing => Span::styled("sim. ", source.style),
             };
-            vec![name, theme.span(band, Role::Text), formula]
+            vec![name, band, formula]
         }
         (leading, life) => {
             let settling = match life {
                 Some(life) => format!("settling {}", sig(life.life_relative, 2)),
                 None => "not simulated".to_owned(),
             };
-            let source = theme.span(format!("{word} "), role);
-            let source = Some(source).filter(|_| beside == Beside::Nothing);
-            let mut parts: Vec<_> = source.into_iter().collect();
-            parts.push(theme.span(settling, Role::Dim));
-            parts.extend(Some(formula).filter(|_| leading == Leading::Scaled));
+            let mut parts = vec![theme.span(settling, Role::Dim)];
+            if beside == Beside::Nothing {
+                parts.insert(0, source(app, " "));
+            }
+            if leading == Leading::Scaled {
+                parts.push(formula);
+            }
             parts
         }
     };

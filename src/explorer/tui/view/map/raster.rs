@@ -128,7 +128,7 @@ pub(super) fn rasterize(
         }
     }
     let spots = if picture.look.marks_contact {
-        touching(picture, &along, &down)
+        contacts(picture, &along, &down)
     } else {
         Vec::new()
     };
@@ -266,8 +266,8 @@ fn over(span: &PixelSpan, at: impl Fn(usize) -> f32) -> f32 {
     }
 }
 
-/// Which pixels touch.
-fn touching(picture: &Picture, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
+/// Which pixels hold asperity contact.
+fn contacts(picture: &Picture, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
     let rows = down.iter().flat_map(|vertical| {
         along.iter().map(move |horizontal| {
             vertical
