@@ -9,9 +9,10 @@ use crate::tui::app::{App, PanelKind, Zoom};
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
+use crate::tui::view::areas::Areas;
 use crate::tui::view::chart::{CurvePanel, Pen, Plot};
+use crate::tui::view::panel::{panel, title};
 use crate::tui::view::place::{columns, columns_from, put, put_right, rows};
-use crate::tui::view::{Areas, panel, title};
 use asperity_engine::sim::Frame;
 
 /// Columns of the numbers on either side.

@@ -12,44 +12,10 @@ use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::view::chart::{CurvePanel, Pen, Plot, Symbol};
 use crate::tui::view::place::{columns_from, put, put_middle, put_right, rows, rows_from};
+use along::CurveFigure;
 
 /// Rows from which a curve can be read, with its heading and its axis.
 const CURVE_ROWS: u16 = 7;
-
-/// What was simulated.
-struct CurvePoint {
-    x: f64,
-    y: f64,
-    /// Between which y it may lie.
-    band: Option<[f64; 2]>,
-}
-
-/// A curve with its axes; places in the units of the axes.
-#[derive(Default)]
-struct CurveFigure {
-    name: &'static str,
-    /// What a formula says; empty: there is none.
-    formula: Vec<(f64, f64)>,
-    /// What was simulated, with the ends of its band.
-    points: Vec<CurvePoint>,
-    /// Where the knob is.
-    knob: f64,
-    /// The number that leads now.
-    now: Option<f64>,
-    x: [f64; 2],
-    y: [f64; 2],
-    /// Numbers at the lower and upper end of y.
-    y_ends: [String; 2],
-    /// Words left, in the middle and right below the axis.
-    foot: [String; 3],
-}
-
-impl CurveFigure {
-    fn plot(&self, area: Rect) -> Plot {
-        let (x, y) = (self.x, self.y);
-        Plot { area, x, y }
-    }
-}
 
 /// A press on a plot along S, or along the speed, puts that knob there.
 pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {

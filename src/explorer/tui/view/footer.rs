@@ -8,7 +8,7 @@ use crate::tui::app::{App, ErrandKind, Overlay, PanelKind, RunPace};
 use crate::tui::choice::Form;
 use crate::tui::theme::Role;
 use crate::tui::units::bytes;
-use crate::tui::view::Areas;
+use crate::tui::view::areas::Areas;
 use crate::tui::view::place::{columns, rows_from};
 use crate::tui::wiring::RecorderActivity;
 

@@ -1,6 +1,6 @@
 //! Left: the knobs as sliders.
 
-mod speeds;
+pub(super) mod speeds;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Margin, Position, Rect};
@@ -11,14 +11,14 @@ use crate::tui::app::{App, PanelKind};
 use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
+use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::chart::Symbol;
+use crate::tui::view::panel::{panel, title};
 use crate::tui::view::place::{
     columns, columns_from, fitting, put, put_middle, put_right, rows, rows_from,
 };
-use crate::tui::view::{Areas, PanelSpacing, panel, title};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::Knob;
-pub(super) use speeds::{SPECIFIC, SYMBOLS};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;

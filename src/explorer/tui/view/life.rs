@@ -7,14 +7,15 @@ mod validity;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Margin, Position, Rect};
-use ratatui::style::{Modifier, Style};
 
 use crate::tui::action::Action;
-use crate::tui::app::{App, Leading, PanelKind};
+use crate::tui::app::{App, PanelKind};
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
-use crate::tui::view::place::{put, rows, rows_from};
-use crate::tui::view::{Areas, PanelSpacing, curve, panel, title};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::curve;
+use crate::tui::view::panel::{panel, title};
+use crate::tui::view::place::{RowAllotment, put};
 
 /// A press on the curve against S goes there.
 pub(super) fn pressed(app: &App, areas: &Areas, screen: Rect, at: Position) -> Option<Action> {
@@ -79,25 +80,4 @@ fn without_life(
     rows.take(1);
     counts::counts(app, rows, buffer);
     curve::render(app, rows.rest, buffer)
-}
-
-/// Rows handed out from above.
-struct RowAllotment {
-    rest: Rect,
-}
-
-impl RowAllotment {
-    fn take(&mut self, count: u16) -> Rect {
-        let taken = rows(self.rest, 0, count);
-        self.rest = rows_from(self.rest, count);
-        taken
-    }
-}
-
-/// Dims what the simulation says while it is on its way.
-fn simulated(app: &App, style: Style) -> Style {
-    match app.leading() {
-        Leading::Simulated => style,
-        Leading::Scaled | Leading::Formula => style.add_modifier(Modifier::DIM),
-    }
 }

@@ -12,21 +12,20 @@ mod raster;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Style;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::{Bitmap, PixelPlot};
-use crate::tui::theme::{Role, Theme};
-use crate::tui::view::chart::Symbol;
+use crate::tui::theme::Role;
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::panel::panel;
 use crate::tui::view::place::{columns, put, rows};
-use crate::tui::view::{Areas, PanelSpacing, panel};
 use asperity_engine::sim::Frame;
 use asperity_picture::{Picture, Subject};
 use heading::heading;
 use motion::motion;
-use paint::{MapMark, MapPainter, color_bar, look};
+use paint::{MapMark, MapPainter, color_bar, look, mark};
 use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
@@ -272,20 +271,6 @@ fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
         _ => 0.0,
     };
     Some((point.sample.x_m / frame.a_m, y))
-}
-
-/// A mark at parts of a picture along and down.
-fn mark(theme: Theme, image: Rect, part: [f64; 2], symbol: &'static str, buffer: &mut Buffer) {
-    let cells = |part: f64, cells: u16| (part * f64::from(cells)) as u16;
-    let at = (
-        image.x + cells(part[0], image.width),
-        image.y + cells(part[1], image.height),
-    );
-    let mut mark = Symbol::new(theme, symbol, "X", Role::Strong);
-    if theme.paints() {
-        mark.style = Style::new().fg(theme.rgb([255, 255, 255]));
-    }
-    mark.draw(at, buffer);
 }
 
 /// Pressure and film at a place of the centre line, so many passages ago.

@@ -12,6 +12,7 @@ mod knobs;
 mod life;
 mod map;
 mod overlay;
+mod panel;
 mod place;
 mod point;
 mod status;
@@ -20,15 +21,13 @@ use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Style};
-use ratatui::symbols;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Borders, Paragraph, Widget, Wrap};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
-use crate::tui::app::{App, Leading, Overlay, PanelKind};
+use crate::tui::app::{App, Overlay, PanelKind};
 use crate::tui::event::{Pointer, PointerAct};
 use crate::tui::pixels::{Bitmap, PixelPlot};
-use crate::tui::theme::{Role, Theme};
+use crate::tui::theme::Role;
 pub use areas::{Areas, MIN_NARROW_SCREEN, MIN_SCREEN, PanelSpacing};
 use place::rows;
 
@@ -188,72 +187,6 @@ fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
         .style(app.theme.style(Role::Warn))
         .wrap(Wrap { trim: true })
         .render(screen, buffer);
-}
-
-/// Draws a panel's frame and gives the room inside; the frame of the one that the keys speak of stands out.
-fn panel(app: &App, areas: &Areas, kind: PanelKind, title: Line<'_>, buffer: &mut Buffer) -> Rect {
-    let (theme, area) = (app.theme, areas.of_panel(kind));
-    let (role, key) = match app.enlarged {
-        Some(_) => (Role::Key, " Esc "),
-        None if app.is_frozen => (Role::Formula, ""),
-        None if app.focus == kind => (Role::Key, " ⏎ "),
-        None => (Role::Border, ""),
-    };
-    let has_room = title.width() + key.chars().count() + 2 < usize::from(area.width);
-    let borders = match areas.density {
-        PanelSpacing::Compact => Borders::TOP,
-        PanelSpacing::Full => Borders::ALL,
-    };
-    let mut block = bordered(theme, borders, role).title_top(title);
-    if has_room && !key.is_empty() {
-        block = block.title_top(theme.line(key, Role::Key).right_aligned());
-    }
-    block.render(area, buffer);
-    areas.inside(kind)
-}
-
-/// A frame in the theme's characters.
-fn bordered(theme: Theme, borders: Borders, role: Role) -> Block<'static> {
-    /// The same without box characters.
-    const ASCII: symbols::border::Set<'static> = symbols::border::Set {
-        top_left: "+",
-        top_right: "+",
-        bottom_left: "+",
-        bottom_right: "+",
-        vertical_left: "|",
-        vertical_right: "|",
-        horizontal_top: "-",
-        horizontal_bottom: "-",
-    };
-    let set = if theme.is_ascii() {
-        ASCII
-    } else {
-        symbols::border::ROUNDED
-    };
-    Block::new()
-        .borders(borders)
-        .border_set(set)
-        .border_style(theme.style(role))
-}
-
-/// The look of a number: a role of its own where the simulation says it, else that of formulas.
-fn led(leading: Leading, simulated: Role) -> Role {
-    match leading {
-        Leading::Simulated => simulated,
-        Leading::Scaled | Leading::Formula => Role::Formula,
-    }
-}
-
-/// A panel's title: its name, with the key that changes it in the key's colour.
-fn title<'a>(theme: Theme, key: &'a str, name: &'a str) -> Line<'a> {
-    let mut spans = vec![Span::raw(" ")];
-    if !key.is_empty() {
-        spans.push(theme.span(key, Role::Key));
-        spans.push(Span::raw(" "));
-    }
-    spans.push(theme.span(name, Role::Title));
-    spans.push(Span::raw(" "));
-    Line::from(spans)
 }
 
 #[cfg(test)]

@@ -9,8 +9,8 @@ use crate::tui::action::{Action, Group, KEYS, MOUSE};
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::choice::{Draft, Form};
 use crate::tui::theme::Role;
-use crate::tui::view::bordered;
-use crate::tui::view::knobs::{SPECIFIC, SYMBOLS};
+use crate::tui::view::knobs::speeds::{SPECIFIC, SYMBOLS};
+use crate::tui::view::panel::bordered;
 use crate::tui::view::place::{folded, put, rows_from};
 
 /// A box in the middle of a part of the screen.

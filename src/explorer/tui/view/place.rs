@@ -36,6 +36,19 @@ pub(super) fn columns_from(area: Rect, from: u16) -> Rect {
     columns(area, from, area.width)
 }
 
+/// Rows handed out from above.
+pub(super) struct RowAllotment {
+    pub(super) rest: Rect,
+}
+
+impl RowAllotment {
+    pub(super) fn take(&mut self, count: u16) -> Rect {
+        let taken = rows(self.rest, 0, count);
+        self.rest = rows_from(self.rest, count);
+        taken
+    }
+}
+
 /// Writes a line at a row of an area, if the row is there.
 pub(super) fn put(area: Rect, row: u16, line: &Line<'_>, buffer: &mut Buffer) {
     if row < area.height {

@@ -11,9 +11,10 @@ use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
 use crate::tui::units::{nice_ceiling, sig_or_dash, tick};
+use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::chart::{CurvePanel, Pen, Plot, Symbol};
+use crate::tui::view::panel::{panel, title};
 use crate::tui::view::place::{Entry, columns, columns_from, put, put_right, rows, table};
-use crate::tui::view::{Areas, PanelSpacing, panel, title};
 use asperity_engine::sim::{Frame, Stage};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {

@@ -7,9 +7,11 @@ use ratatui::text::Span;
 use crate::tui::app::{App, Trouble, WhyUnconverged};
 use crate::tui::theme::Role;
 use crate::tui::units::{seconds, sig};
+use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::footer::{hints_shown, recorder};
+use crate::tui::view::panel::led;
 use crate::tui::view::place::{columns, columns_from, fitted, put, put_right};
-use crate::tui::view::{Areas, PanelSpacing, knobs, led, overlay};
+use crate::tui::view::{knobs, overlay};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{
     CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named,

@@ -1,11 +1,48 @@
 //! The three curves: life against S, friction against S, friction against the speed (Stribeck).
 
-use super::{CurveFigure, CurvePoint};
+use ratatui::layout::Rect;
+
 use crate::tui::action::Action;
 use crate::tui::app::{App, CurveKind, Leading};
 use crate::tui::units::{nice_ceiling, sig};
+use crate::tui::view::chart::Plot;
 use asperity_engine::sim::Knob;
 use asperity_session::sweep::{Along, Found};
+
+/// What was simulated.
+pub(super) struct CurvePoint {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    /// Between which y it may lie.
+    pub(super) band: Option<[f64; 2]>,
+}
+
+/// A curve with its axes; places in the units of the axes.
+#[derive(Default)]
+pub(super) struct CurveFigure {
+    pub(super) name: &'static str,
+    /// What a formula says; empty: there is none.
+    pub(super) formula: Vec<(f64, f64)>,
+    /// What was simulated, with the ends of its band.
+    pub(super) points: Vec<CurvePoint>,
+    /// Where the knob is.
+    pub(super) knob: f64,
+    /// The number that leads now.
+    pub(super) now: Option<f64>,
+    pub(super) x: [f64; 2],
+    pub(super) y: [f64; 2],
+    /// Numbers at the lower and upper end of y.
+    pub(super) y_ends: [String; 2],
+    /// Words left, in the middle and right below the axis.
+    pub(super) foot: [String; 3],
+}
+
+impl CurveFigure {
+    pub(super) fn plot(&self, area: Rect) -> Plot {
+        let (x, y) = (self.x, self.y);
+        Plot { area, x, y }
+    }
+}
 
 /// Places of a formula over the range of S.
 const FINE: usize = 120;

@@ -3,11 +3,12 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::{RowAllotment, simulated};
 use crate::tui::app::App;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::{sig, sig_or_dash};
 use crate::tui::view::chart::{Plot, Symbol};
+use crate::tui::view::panel::simulated;
+use crate::tui::view::place::RowAllotment;
 use crate::tui::view::place::{columns, columns_from, fitting, put, put_right};
 use asperity_engine::scene::ContactKind;
 

@@ -3,10 +3,11 @@
 use ratatui::buffer::Buffer;
 use ratatui::text::{Line, Span};
 
-use super::{RowAllotment, simulated};
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
+use crate::tui::view::panel::simulated;
+use crate::tui::view::place::RowAllotment;
 use crate::tui::view::place::put;
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::Metrics;

@@ -4,12 +4,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::RowAllotment;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::digits;
+use crate::tui::view::panel::led;
+use crate::tui::view::place::RowAllotment;
 use crate::tui::view::place::{columns_from, fitted, fitting, put};
-use crate::tui::view::{Areas, PanelSpacing, digits, led};
 
 /// What the number is, for the panel's title: where there is no room beside the figure, against what.
 pub(super) fn name(app: &App, areas: &Areas) -> &'static str {

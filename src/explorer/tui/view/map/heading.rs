@@ -6,8 +6,9 @@ use super::profile;
 use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
+use crate::tui::view::areas::Areas;
+use crate::tui::view::panel::title;
 use crate::tui::view::place::fitting;
-use crate::tui::view::{Areas, title};
 
 /// The map's name, and as many words about it as there is room for.
 pub(super) fn heading(app: &App, areas: &Areas) -> Line<'static> {

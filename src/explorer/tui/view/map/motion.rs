@@ -6,9 +6,9 @@ use ratatui::layout::Rect;
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
+use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::chart::Symbol;
 use crate::tui::view::place::{columns, put, put_right, rows};
-use crate::tui::view::{Areas, PanelSpacing};
 use asperity_engine::sim::Frame;
 
 /// Both bodies' motion: chevrons that travel as far as the body does, in the picture's scale.

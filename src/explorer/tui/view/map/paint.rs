@@ -10,6 +10,7 @@ use crate::tui::app::{App, MapKind};
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::tick;
+use crate::tui::view::chart::Symbol;
 use crate::tui::view::place::{columns, columns_from, put};
 use asperity_picture::interferogram::colour as fringe;
 use asperity_picture::{AboveRange, CONTACT, Look, Palette, Tint};
@@ -142,6 +143,26 @@ pub(super) fn letters(
             cell.set_symbol(letter(column, row));
         }
     }
+}
+
+/// A mark at parts of a picture along and down.
+pub(super) fn mark(
+    theme: Theme,
+    image: Rect,
+    part: [f64; 2],
+    symbol: &'static str,
+    buffer: &mut Buffer,
+) {
+    let cells = |part: f64, cells: u16| (part * f64::from(cells)) as u16;
+    let at = (
+        image.x + cells(part[0], image.width),
+        image.y + cells(part[1], image.height),
+    );
+    let mut mark = Symbol::new(theme, symbol, "X", Role::Strong);
+    if theme.paints() {
+        mark.style = Style::new().fg(theme.rgb([255, 255, 255]));
+    }
+    mark.draw(at, buffer);
 }
 
 /// A mark on a picture, white on black.

@@ -3,8 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::mark;
-use super::paint::{MapMark, half_blocks, letters};
+use super::paint::{MapMark, half_blocks, letters, mark};
 use crate::tui::app::{App, Zoom};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
