@@ -208,7 +208,6 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         outputs,
     } = run;
     let recording = outputs.recording.clone();
-    let plan = &prepared.plan;
     let (settled, ground) = (session.settled_reader(), session.settled_reader());
     let scene = prepared.scene.clone();
     let status = session.status_reader();
@@ -216,15 +215,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
     let shown = recording.clone();
     let name = prepared.name.clone();
     Wiring {
-        setup: Setup {
-            scene: prepared.scene.clone(),
-            name: prepared.name.clone(),
-            load_n: plan.force_n,
-            half_width_m: plan.hertz.a_m,
-            p_hertz_pa: plan.hertz.p_max_pa,
-            plan_text: plan.to_string(),
-            left_out: plan.left_out.clone(),
-        },
+        setup: Setup::of(prepared.scene.clone(), &prepared.name, &prepared.plan),
         frames: session.latest(),
         commands: session.commands(),
         status: Box::new(move || run_status(&status(), recorded.as_ref())),
