@@ -20,12 +20,12 @@ mod error;
 mod folder;
 mod maps;
 mod path;
-mod path_keys;
 #[cfg(not(target_arch = "wasm32"))]
 mod plots;
 mod points;
 mod presets;
 mod read;
+mod reader;
 mod ride;
 mod run;
 mod spec;

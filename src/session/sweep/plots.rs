@@ -9,9 +9,10 @@
 //!
 //! Each is written as SVG and as PNG. Several axes make one curve for each combination of the others, at most eight.
 
-use super::axis::{VariedKey, shown};
+use super::axis::VariedKey;
 use super::error::SweepError;
 use super::folder::Folder;
+use super::reader::shown;
 use super::spec::{Combine, Sweep};
 use super::table::Rows;
 use asperity_engine::scene::Knob;
