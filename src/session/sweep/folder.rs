@@ -19,7 +19,7 @@ mod mark;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::case::CaseRecord;
+use super::case::{CaseRecord, Neighbour};
 use super::error::SweepError;
 use super::spec::Sweep;
 use crate::run::Checkpoint;
@@ -182,18 +182,18 @@ impl Folder {
     /// [`SweepError::Folder`] when the disk says no.
     pub(super) fn write_state(
         &self,
-        (chain, case): (usize, usize),
-        scene: &Scene,
-        state: &State,
+        chain: usize,
+        case: usize,
+        end: &Neighbour,
     ) -> Result<(), SweepError> {
         let checkpoint = Checkpoint {
             program: crate::program::PROGRAM.to_owned(),
-            scene: scene.to_toml(),
+            scene: end.scene.to_toml(),
             n_events_played: 0,
             n_unconverged: 0,
             n_turned_by_hand: 0,
             stats: Stats::default(),
-            sim: state.clone(),
+            sim: end.state.clone(),
         };
         self.write_by(&self.state_path(chain, case), |temporary| {
             std::fs::File::create(temporary)
@@ -203,8 +203,8 @@ impl Folder {
     }
 
     /// The state after a case; `None`: there is none, or none that fits.
-    pub(super) fn read_state(&self, at: (usize, usize), scene: &Scene) -> Option<State> {
-        let saved = Checkpoint::read_for(&self.state_path(at.0, at.1), scene);
+    pub(super) fn read_state(&self, chain: usize, case: usize, scene: &Scene) -> Option<State> {
+        let saved = Checkpoint::read_for(&self.state_path(chain, case), scene);
         saved.ok().map(|saved| saved.sim)
     }
 

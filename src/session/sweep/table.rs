@@ -181,16 +181,8 @@ impl Rows {
     fn row(sweep: &Sweep, record: &CaseRecord, row: &mut Cells) -> Result<(), SweepError> {
         let scene = sweep.scene(record.index)?;
         let scene = toml::to_string(&scene).unwrap_or_default();
-        row.clear();
-        row.text(record.index);
-        if let Some(point) = sweep.path.get(record.index) {
-            for (_, value) in &point.values {
-                row.number(*value);
-            }
-        }
-        for value in sweep.values(record.index) {
-            write_value(row, value);
-        }
+        begin_row(row, sweep, record.index);
+        write_values(row, sweep, record.index);
         row.text(format_args!("{:016x}", fnv(scene.as_bytes())));
         row.text(match record.began {
             CaseStart::Cold => "cold",
@@ -218,24 +210,28 @@ impl Rows {
 
     /// The worst end of all cases.
     pub fn worst(&self) -> CaseEnd {
-        let has = |end| self.records.iter().any(|record| record.end == end);
-        if has(CaseEnd::Stalled) {
-            CaseEnd::Stalled
-        } else if has(CaseEnd::NotConverged) {
-            CaseEnd::NotConverged
-        } else {
-            CaseEnd::Converged
-        }
+        let ends = self.records.iter().map(|record| record.end);
+        ends.max().unwrap_or(CaseEnd::Converged)
     }
 }
 
-/// A value as the sweep file has it.
-pub(super) fn write_value(row: &mut Cells, value: &Value) {
-    match value {
-        Value::Float(number) if number.is_infinite() => row.text(number),
-        Value::Float(number) => row.number(*number),
-        Value::String(text) => row.text(text),
-        other => row.text(other),
+/// Begins the row of a case: its number, and where it is on its path.
+pub(super) fn begin_row(row: &mut Cells, sweep: &Sweep, case: usize) {
+    row.clear();
+    row.text(case);
+    for (_, value) in sweep.path.get(case).into_iter().flat_map(|p| &p.values) {
+        row.number(*value);
+    }
+}
+
+/// Writes the values of a case, one an axis, as the sweep file has them.
+pub(super) fn write_values(row: &mut Cells, sweep: &Sweep, case: usize) {
+    for value in sweep.values(case) {
+        match value {
+            Value::Float(number) if !number.is_infinite() => row.number(*number),
+            Value::String(text) => row.text(text),
+            other => row.text(other),
+        }
     }
 }
 
