@@ -149,26 +149,31 @@ fn whole(full: &str, value: f64) -> Result<Value, SceneError> {
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 
     fn axis(text: &str) -> Result<VariedKey, SceneError> {
-        let table: toml::Table = format!("v = {text}").parse().unwrap();
+        let table: toml::Table = format!("v = {text}").parse().expect("TOML");
         VariedKey::read("motion.slide_roll", &table["v"])
     }
 
     #[test]
     fn ranges_are_even_and_end_where_they_say() {
         let values = axis("{ from = 0, to = 2, n = 21 }")
-            .unwrap()
+            .expect("read")
             .numbers()
-            .unwrap();
+            .expect("numbers");
         assert_eq!(values.len(), 21);
         assert_eq!((values[0], values[3], values[20]), (0.0, 0.3, 2.0));
         let values = axis("{ from = 0.01, to = 10, n = 4, spacing = \"log\" }");
-        assert_eq!(values.unwrap().numbers().unwrap(), [0.01, 0.1, 1.0, 10.0]);
-        assert_eq!(axis("[1, 2.5]").unwrap().numbers().unwrap(), [1.0, 2.5]);
+        assert_eq!(
+            values.expect("read").numbers().expect("numbers"),
+            [0.01, 0.1, 1.0, 10.0]
+        );
+        assert_eq!(
+            axis("[1, 2.5]").expect("read").numbers().expect("numbers"),
+            [1.0, 2.5]
+        );
     }
 
     #[test]
@@ -195,7 +200,7 @@ mod tests {
             ),
             ("{ from = 0, to = 1, m = 3 }", "only the keys from"),
         ] {
-            let error = axis(text).unwrap_err().to_string();
+            let error = axis(text).expect_err("refused").to_string();
             assert!(error.contains(said), "{text}: {error}");
         }
     }

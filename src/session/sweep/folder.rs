@@ -26,20 +26,10 @@ use crate::run::Checkpoint;
 use asperity_engine::files::{fnv, publish, sync_file};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{State, Stats};
-use mark::{Company, FolderMark, Lock, MARK, TEMPORARY};
+pub use mark::Existing;
+use mark::{Entry, FolderMark, Lock, MARK, TEMPORARY};
 
 const MAGIC: &str = "asperity case 1 ";
-
-/// What to do about a folder that holds cases already.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Existing {
-    /// Refuse it.
-    Refuse,
-    /// Go on where they end.
-    Resume,
-    /// Throw them away.
-    Replace,
-}
 
 /// A sweep's folder.
 #[derive(Debug, Clone)]
@@ -68,13 +58,13 @@ impl Folder {
             );
             return Err(SweepError::folder(root, reason));
         }
-        let company = Company::enter(root, existing)?;
+        let entry = Entry::new(root, existing)?;
         let mut folder = Self {
             root: root.to_owned(),
             mark,
             lock: Lock::none(),
         };
-        if company.is_alone() {
+        if entry.is_alone {
             mark::tidy(root);
         }
         if existing == Existing::Replace {
@@ -90,7 +80,7 @@ impl Folder {
         if let Ok(scene) = sweep.base_scene() {
             folder.write_own(!is_same, "base.toml", &scene.to_toml())?;
         }
-        folder.lock = company.share();
+        folder.lock = entry.share();
         Ok(folder)
     }
 
