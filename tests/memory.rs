@@ -131,11 +131,11 @@ fn a_session_that_has_ended_holds_nothing() {
             ending: Ending::OnStop,
         })
         .unwrap();
-        while session.status().steps < 3 {
+        while session.handle.status().steps < 3 {
             assert!(!session.is_finished());
             std::thread::sleep(Duration::from_millis(1));
         }
-        session.send(Command::Stop);
+        session.handle.send(Command::Stop);
         let outcome = session.join().unwrap();
         assert!(outcome.checkpoint.is_some());
         drop(outcome);

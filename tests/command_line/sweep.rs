@@ -338,7 +338,7 @@ fn hostile_files_are_refused_by_key_value_and_range() {
         ),
         (
             "[chain]\npassages = nan\n[vary]\nmotion.slide_roll = [1.0]",
-            &["chain.passages", "0.25 to 1e4"],
+            &["chain.passages", "0.25 to 10000"],
         ),
         (
             "[gear]\nteeth = [16, 24]\n[vary]\nmotion.slide_roll = [1.0]",
