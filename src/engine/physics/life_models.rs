@@ -137,41 +137,24 @@ impl LifeEquation {
 ///
 /// ```text
 /// global   n                                                  everywhere (the paper; an upper bound on damage)
-/// depth    1 + (n − 1) w(z)     w = 1 for z ≤ W/2, falling to 0 at z = 2 W
 /// counted  n(z) from the histories of material points
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CycleProfile<'a> {
     /// One n.
     Global(f64),
-    /// Full n near the surface only.
-    Depth {
-        /// n by formula.
-        n: f64,
-        /// W of the mating crests, in the unit of the depths.
-        wavelength: f64,
-    },
     /// Counted at every depth.
     Counted(&'a [f64]),
 }
 
 impl CycleProfile<'_> {
-    /// n at the `k`-th depth, `z`.
-    pub fn at(&self, k: usize, z: f64) -> f64 {
+    /// n at the `k`-th depth.
+    pub fn at(&self, k: usize) -> f64 {
         match *self {
             Self::Global(n) => n,
-            Self::Depth { n, wavelength } => 1.0 + (n - 1.0) * near_surface(z, wavelength),
             Self::Counted(n) => n.get(k).copied().unwrap_or(1.0),
         }
     }
-}
-
-/// 1 for z ≤ W/2, 0 from 2 W on, linear between.
-fn near_surface(z: f64, wavelength: f64) -> f64 {
-    if !wavelength.is_finite() || wavelength <= 0.0 {
-        return 0.0;
-    }
-    ((2.0 - z / wavelength) / 1.5).clamp(0.0, 1.0)
 }
 
 /// Life by a calibration point: the smooth, frictionless contact lives `cycles` loading cycles at the Hertz
@@ -217,20 +200,9 @@ mod tests {
     }
 
     #[test]
-    fn micro_cycles_live_near_the_surface() {
-        let profile = CycleProfile::Depth {
-            n: 9.0,
-            wavelength: 0.2,
-        };
-        for (z, n) in [(0.0, 9.0), (0.1, 9.0), (0.25, 5.0), (0.4, 1.0), (2.0, 1.0)] {
-            assert_relative_eq!(profile.at(0, z), n, max_relative = 1e-12);
-        }
-        let ridges = CycleProfile::Depth {
-            n: 1.0,
-            wavelength: f64::INFINITY,
-        };
-        assert_eq!(ridges.at(0, 0.1), 1.0);
-        assert_eq!(CycleProfile::Counted(&[3.0]).at(1, 0.1), 1.0);
+    fn a_depth_that_was_not_counted_is_one_cycle() {
+        assert_eq!(CycleProfile::Counted(&[3.0]).at(0), 3.0);
+        assert_eq!(CycleProfile::Counted(&[3.0]).at(1), 1.0);
     }
 
     #[test]

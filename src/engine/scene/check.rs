@@ -70,6 +70,10 @@ pub(super) fn unknown(full: &str) -> SceneError {
         let key = super::error::shortened(full);
         return SceneError::value(key, "a setting", "tables [[event]] in a scene file");
     }
+    if full == "life.volume" {
+        let instead = "nothing; life.cycles = \"damage\", \"global\" or \"peaks\" brings the integral that belongs to it";
+        return SceneError::value(full, "a setting", instead);
+    }
     let paths: Vec<String> = keys::all_paths()
         .chain(SECTIONS.iter().map(|section| section.path.to_owned()))
         .chain(["event".to_owned()])

@@ -50,37 +50,19 @@ pub enum CycleBasis {
     Damage,
     /// One global n for the whole volume (the paper's form; an upper bound on damage).
     Global,
-    /// n(z): the formula's down to half a wavelength, falling to 1 at two.
-    Depth,
     /// Counted by depth; a cycle of effective stress counts by its peak.
     Peaks,
-    /// Counted by depth; a cycle of signed shear counts by its range.
-    Ranges,
 }
 
 impl CycleBasis {
     /// Every basis.
-    pub const ALL: [Self; 5] = [
-        Self::Damage,
-        Self::Global,
-        Self::Depth,
-        Self::Peaks,
-        Self::Ranges,
-    ];
-
-    /// The volume integral that belongs to it, where the scene names none.
-    pub fn integral(self) -> VolumeIntegral {
-        match self {
-            Self::Damage => VolumeIntegral::Material,
-            Self::Global | Self::Depth | Self::Peaks | Self::Ranges => VolumeIntegral::Snapshot,
-        }
-    }
+    pub const ALL: [Self; 3] = [Self::Damage, Self::Global, Self::Peaks];
 
     /// Of whose loading cycles its lives are.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Damage => "loading cycles of the faster body",
-            Self::Global | Self::Depth | Self::Peaks | Self::Ranges => "own loading cycles",
+            Self::Global | Self::Peaks => "own loading cycles",
         }
     }
 
@@ -89,23 +71,9 @@ impl CycleBasis {
         match self {
             Self::Damage => "counted by damage",
             Self::Global => "the paper's count",
-            Self::Depth => "n by depth",
             Self::Peaks => "counted by peaks",
-            Self::Ranges => "counted by ranges",
         }
     }
-}
-
-/// Which volume integral is taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum VolumeIntegral {
-    /// Mean over material points of the greatest stress that each meets.
-    Material,
-    /// Mean of the integral over the phases of a passage.
-    Snapshot,
-    /// Greatest stress of every track over the passage: the bound.
-    Swept,
 }
 
 /// Whose life is the scene's.
@@ -128,7 +96,7 @@ pub enum BodyChoice {
 pub enum Spread {
     /// No spread.
     Off,
-    /// Over the cycle bases and both integrals of the scene's model: costs nothing more.
+    /// Over the cycle bases, with the scene's model: costs nothing more.
     Cycles,
     /// Over all models too.
     Models,
@@ -164,9 +132,6 @@ pub struct Life {
     pub survival: f64,
     /// Cycle basis.
     pub cycles: CycleBasis,
-    /// Volume integral; `None`: the one that belongs to `cycles`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub volume: Option<VolumeIntegral>,
     /// Whose life it is.
     pub body: BodyChoice,
     /// h of Lundberg-Palmgren and Ioannides-Harris.
@@ -202,7 +167,6 @@ impl Default for Life {
             weibull_slope: 10.0 / 9.0,
             survival: 0.5,
             cycles: CycleBasis::Damage,
-            volume: None,
             body: BodyChoice::Weaker,
             depth_exponent: 7.0 / 3.0,
             cut_off_a: 0.05,
@@ -222,11 +186,6 @@ impl Life {
     /// Cycles and Hertz pressure (Pa) of the calibration point.
     pub fn calibration(&self) -> Option<(f64, f64)> {
         self.calibration_cycles.zip(self.calibration_pressure_pa)
-    }
-
-    /// The volume integral that is taken.
-    pub fn integral(&self) -> VolumeIntegral {
-        self.volume.unwrap_or(self.cycles.integral())
     }
 
     /// Whether damage is mapped for body 1 and body 2.

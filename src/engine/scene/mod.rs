@@ -24,7 +24,7 @@ mod tooth;
 
 pub use error::SceneError;
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
-pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, VolumeIntegral};
+pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread};
 pub use load::Override;
 pub use lubricant::{
     Cavitation, DensityLaw, EyringFlow, Friction, Lubricant, Rheology, ViscosityLaw,

@@ -44,7 +44,7 @@ pub fn basis(setup: &Setup) -> EstimateBasis {
         law,
         count: match life.cycles {
             CycleBasis::Damage => Count::Damage,
-            _ => Count::Contacts,
+            CycleBasis::Global | CycleBasis::Peaks => Count::Contacts,
         },
         oil: oil(scene),
         boundary: scene.friction.boundary,

@@ -102,10 +102,11 @@ fn has_settled(sim: &Simulation) -> bool {
 /// The scene of a case with the passages that the sweep gives it.
 pub(super) fn shortened(mut scene: Scene, chain: ChainKeys) -> (Scene, Length) {
     let points_cross = scene.life.as_ref().is_some_and(|life| {
-        matches!(
-            life.cycles,
-            CycleBasis::Damage | CycleBasis::Peaks | CycleBasis::Ranges
-        ) || life.maps() != [false; 2]
+        let counted = match life.cycles {
+            CycleBasis::Damage | CycleBasis::Peaks => true,
+            CycleBasis::Global => false,
+        };
+        counted || life.maps() != [false; 2]
     });
     match chain.passages {
         Some(passages) => scene.time.passages = passages,

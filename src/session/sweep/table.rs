@@ -22,7 +22,7 @@ type InRecord = fn(&CaseRecord) -> Option<f64>;
 
 /// Columns after those of the path and the axes; what the catalogue shows by itself follows them.
 #[rustfmt::skip]
-const COLUMNS: [(&str, InRecord); 56] = [
+const COLUMNS: [(&str, InRecord); 54] = [
     ("h_regression_m", |r| r.h_regression_m),
     ("h_min_regression_m", |r| r.h_min_regression_m),
     ("lambda_ratio", |r| r.lambda_ratio),
@@ -57,8 +57,6 @@ const COLUMNS: [(&str, InRecord); 56] = [
     ("life_system", |r| r.summary.life_system),
     ("life_global", |r| r.summary.life_global),
     ("life_damage", |r| r.summary.life_damage),
-    ("life_snapshot", |r| r.summary.life_snapshot),
-    ("life_swept", |r| r.summary.life_swept),
     ("life_models_low", |r| r.summary.life_models_low),
     ("life_models_high", |r| r.summary.life_models_high),
     ("life_cycles", |r| r.summary.life_cycles),
