@@ -125,9 +125,8 @@ impl Counting {
 
     /// Whether counts that were saved are of the same make, with so many depths, and nothing in them points astray.
     pub(super) fn fits(&self, saved: &Self, depths: usize) -> bool {
-        let whole = |profile: &Profile| {
-            profile.shear.len() == depths && profile.by_peaks.len() == depths
-        };
+        let whole =
+            |profile: &Profile| profile.shear.len() == depths && profile.by_peaks.len() == depths;
         let mut trackers = self.trackers.iter().zip(&saved.trackers);
         saved.shown_depth < depths.max(1)
             && saved.profiles.iter().all(whole)

@@ -44,9 +44,9 @@ use serde::{Deserialize, Serialize};
 
 pub use self::spec::TrackerSpec;
 pub use super::axis::Line;
-use super::cycle_count::{Crossing, CrossingHistory};
 pub use super::cycle_count::CycleCount;
 use super::cycle_count::DamageBasis;
+use super::cycle_count::{Crossing, CrossingHistory};
 use super::damage::DamageMap;
 use crate::physics::turning::{PassedMaximum, Peaks};
 

@@ -158,7 +158,7 @@ fn dial(knob: Knob, home: f64, load: (ContactKind, f64)) -> Dial {
     let ([min, max], typical) = knob.reach(home, load);
     Dial {
         knob,
-        label: line.label,
+        label: knob.name(),
         steps: line.steps,
         far: line.big_step,
         min,
