@@ -106,10 +106,7 @@ impl Dial {
 
     /// Unit of its values.
     pub fn unit(&self, units: Units) -> Unit {
-        let kind = match self.knob {
-            Knob::ForceNPerM => ContactKind::Line,
-            _ => ContactKind::Point,
-        };
+        let kind = self.knob.load_of().unwrap_or_default();
         units.unit(self.knob.quantity().dimension, kind)
     }
 

@@ -47,7 +47,9 @@ impl Resolution {
             Varied::Nodes => self.nodes as f64,
             Varied::Step => self.step,
             Varied::Tolerance => self.tolerance,
-            _ => self.depths as f64,
+            Varied::Depths | Varied::Decay | Varied::Samples | Varied::Precision => {
+                self.depths as f64
+            }
         }
     }
 

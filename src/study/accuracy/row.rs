@@ -2,56 +2,30 @@
 
 use std::time::Instant;
 
-/// What is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum StudiedPart {
-    /// Dry Hertz contact by conjugate gradients.
-    DryHertz,
-    /// Deflection by a transform pair, in both precisions.
-    Deflection,
-    /// Smooth steady film.
-    SmoothFilm,
-    /// Moving waves, sliding.
-    RoughFilm,
-    /// Stress in the plane y = 0.
-    Slice,
-    /// Stress in the volume: its greatest von Mises.
-    Volume,
-    /// Integral of a power of the stress.
-    LifeIntegral,
-    /// Cycles that material points count.
-    CountedCycles,
-    /// The default scene from start-up to life.
-    Life,
-}
+use asperity_engine::closed_set;
 
-impl StudiedPart {
-    /// Every part.
-    pub const ALL: [Self; 9] = [
-        Self::DryHertz,
-        Self::Deflection,
-        Self::SmoothFilm,
-        Self::RoughFilm,
-        Self::Slice,
-        Self::Volume,
-        Self::LifeIntegral,
-        Self::CountedCycles,
-        Self::Life,
-    ];
-
-    /// Name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::DryHertz => "dry Hertz",
-            Self::Deflection => "deflection",
-            Self::SmoothFilm => "smooth film",
-            Self::RoughFilm => "rough film",
-            Self::Slice => "stress slice",
-            Self::Volume => "stress volume",
-            Self::LifeIntegral => "life integral",
-            Self::CountedCycles => "counted cycles",
-            Self::Life => "passage to life",
-        }
+closed_set! {
+    /// What is measured.
+    #[derive(PartialOrd, Ord)]
+    pub enum StudiedPart {
+        /// Dry Hertz contact by conjugate gradients.
+        DryHertz = "dry Hertz",
+        /// Deflection by a transform pair, in both precisions.
+        Deflection = "deflection",
+        /// Smooth steady film.
+        SmoothFilm = "smooth film",
+        /// Moving waves, sliding.
+        RoughFilm = "rough film",
+        /// Stress in the plane y = 0.
+        Slice = "stress slice",
+        /// Stress in the volume: its greatest von Mises.
+        Volume = "stress volume",
+        /// Integral of a power of the stress.
+        LifeIntegral = "life integral",
+        /// Cycles that material points count.
+        CountedCycles = "counted cycles",
+        /// The default scene from start-up to life.
+        Life = "passage to life",
     }
 }
 
@@ -122,7 +96,10 @@ impl Varied {
 
     /// Whether an order of convergence means anything.
     fn has_order(self) -> bool {
-        matches!(self, Self::Nodes | Self::Step | Self::Samples)
+        match self {
+            Self::Nodes | Self::Step | Self::Samples => true,
+            Self::Tolerance | Self::Depths | Self::Decay | Self::Precision => false,
+        }
     }
 }
 

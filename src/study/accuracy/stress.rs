@@ -75,7 +75,9 @@ fn row(
     let fixed = match varied {
         Varied::Nodes => [depths, decay],
         Varied::Depths => [n, decay],
-        _ => [n, depths],
+        Varied::Decay | Varied::Step | Varied::Tolerance | Varied::Samples | Varied::Precision => {
+            [n, depths]
+        }
     };
     AccuracyRow {
         part,

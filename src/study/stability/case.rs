@@ -172,7 +172,11 @@ impl CaseSet {
             match Lever::of(name) {
                 Lever::Jump(knob) => jumps.push((knob, pushed(*range, t))),
                 Lever::Key => texts.push(format!("{name}={:e}", pushed(*range, t))),
-                _ => {}
+                Lever::MoesM
+                | Lever::MoesL
+                | Lever::WaveNodes
+                | Lever::WaveAmplitude
+                | Lever::Ellipticity => {}
             }
         }
         let foreseen = match case.turned {
