@@ -79,7 +79,14 @@ impl Maps {
         let listed = MAPS.into_iter().filter(|(_, subject)| match subject {
             Subject::Roughness1 => ranges.rough[0],
             Subject::Roughness2 => ranges.rough[1],
-            _ => true,
+            Subject::Pressure
+            | Subject::Film
+            | Subject::Interferogram
+            | Subject::Contact
+            | Subject::Traction
+            | Subject::RoughnessOfBoth
+            | Subject::EffectiveStress
+            | Subject::ShearStress => true,
         });
         let shown = listed.map(|(entity, subject)| {
             let look = Look::of(subject, ranges);

@@ -12,7 +12,7 @@ use crate::physics::rainflow::{Cycle, HistoryEnds, Rainflow};
 
 /// What a cycle's damage is taken from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DamageBasis {
+pub(super) enum DamageBasis {
     /// Ranges of the signed orthogonal shear.
     Ranges,
     /// Peaks of the effective stress.

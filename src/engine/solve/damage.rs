@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! ξ = x − U t         place on the body, taken modulo the block's length (a wavelength, or the whole track)
-//! D(ξ, z) = mean over crossings of Σ_cycles count · (s/p_h)^c      Miner, s: range or peak of the cycle
+//! D(ξ, z) = mean over crossings of Σ_cycles count · (s/p_h)^c      Miner, s: peak of effective stress of the cycle
 //! ```
 //! Every material point of the line y = 0 that ends a whole crossing adds the damage of its own rainflow
 //! spectrum to the column of its place. A pit starts where D is greatest. Given relative to the greatest of

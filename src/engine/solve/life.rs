@@ -309,27 +309,22 @@ impl SweptRows {
     }
 }
 
-/// Factors of one body's life: `shares` against the reference `ln_reference`, with cycles by `profile` at the
-/// `depths`.
+/// Factors of one body's life: `shares` against the reference `ln_reference`, with cycles by `profile`.
 pub fn factors(
     law: LifeLaw,
     shares: &Shares,
     body: BodyId,
     ln_reference: f64,
     profile: CycleProfile,
-    depths: &[f64],
 ) -> LifeFactors {
     let full = shares.of(Loading::Full(body));
     let ln_full = shares.ln(Loading::Full(body));
     let n = match profile {
         CycleProfile::Global(n) => n,
-        CycleProfile::Depth { .. } | CycleProfile::Counted(_) => {
+        CycleProfile::Counted(_) => {
             let e = law.weibull_slope;
-            let weighted = full
-                .iter()
-                .zip(depths)
-                .enumerate()
-                .map(|(k, (ln, z))| (1.0, ln + e * profile.at(k, *z).ln()));
+            let weighted = full.iter().enumerate();
+            let weighted = weighted.map(|(k, ln)| (1.0, ln + e * profile.at(k).ln()));
             ((ln_sum(weighted) - ln_full) / e).exp()
         }
     };
@@ -373,7 +368,7 @@ mod tests {
         let mean = meter.mean().expect("sampled");
         assert_relative_eq!(mean.ln(FULL).exp(), 6.0, max_relative = 1e-12);
         let profile = CycleProfile::Global(4.0);
-        let f = factors(law, mean, BodyId::One, 0.0, profile, &[0.1, 0.2]);
+        let f = factors(law, mean, BodyId::One, 0.0, profile);
         assert_relative_eq!(f.peak, 3.0_f64.powf(-0.9), max_relative = 1e-12);
         assert_relative_eq!(f.traction, 2.0_f64.powf(-0.9), max_relative = 1e-12);
         assert_eq!(f.cycle, 0.25);
@@ -446,16 +441,12 @@ mod tests {
         shares
             .of_mut(FULL)
             .copy_from_slice(&[0.2_f64.ln(), 0.8_f64.ln()]);
-        let cycle = |profile| factors(law, &shares, BodyId::One, 0.0, profile, &[0.05, 0.9]).cycle;
+        let cycle = |profile| factors(law, &shares, BodyId::One, 0.0, profile).cycle;
         // n = 9 in a fifth of the integral: J_n/J = 0.2 · 9^e + 0.8.
         let expected = (0.2 * 9.0_f64.powf(law.weibull_slope) + 0.8).powf(-0.9);
-        let depth = CycleProfile::Depth {
-            n: 9.0,
-            wavelength: 0.2,
-        };
-        assert_relative_eq!(cycle(depth), expected, max_relative = 1e-12);
-        assert_relative_eq!(cycle(CycleProfile::Counted(&[9.0, 1.0])), expected);
-        assert!(cycle(CycleProfile::Global(9.0)) < cycle(depth));
+        let counted = CycleProfile::Counted(&[9.0, 1.0]);
+        assert_relative_eq!(cycle(counted), expected, max_relative = 1e-12);
+        assert!(cycle(CycleProfile::Global(9.0)) < cycle(counted));
     }
 
     #[test]

@@ -44,8 +44,9 @@ use serde::{Deserialize, Serialize};
 
 pub use self::spec::TrackerSpec;
 pub use super::axis::Line;
+pub use super::cycle_count::CycleCount;
+use super::cycle_count::DamageBasis;
 use super::cycle_count::{Crossing, CrossingHistory};
-pub use super::cycle_count::{CycleCount, DamageBasis};
 use super::damage::DamageMap;
 use crate::physics::turning::{PassedMaximum, Peaks};
 
@@ -159,7 +160,7 @@ impl MaterialTracker {
             oldest: 0,
             shown: 0,
             distance: 0.0,
-            map: spec.map.map(|(block, _)| DamageMap::new(block)),
+            map: spec.map.map(DamageMap::new),
         };
         tracker.restart(0.0);
         tracker
@@ -275,14 +276,8 @@ impl MaterialTracker {
                 history.start(exponent);
             }
             point.peaks.start();
-            if let (Some(map), Some((_, basis)), Crossing::Whole) =
-                (&mut self.map, self.spec.map, crossing)
-            {
-                let histories = match basis {
-                    DamageBasis::Ranges => &point.shear,
-                    DamageBasis::Peaks => &point.effective,
-                };
-                let damage = histories.iter().filter_map(|h| Some(h.last?.damage));
+            if let (Some(map), Crossing::Whole) = (&mut self.map, crossing) {
+                let damage = point.effective.iter().filter_map(|h| Some(h.last?.damage));
                 map.add(point.place, damage);
             }
             point.place = point.x - self.distance;

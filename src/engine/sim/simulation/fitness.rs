@@ -107,9 +107,6 @@ impl Simulation {
             state.motion.is_sound() && state.pace.is_sound(),
             "its motion does not fit the scene",
         )?;
-        if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {
-            demand(own.same_waves(saved), "its life belongs to other waves")?;
-        }
         let smooth = state.smooth.as_ref();
         demand(
             smooth.is_none_or(|smooth| {

@@ -48,7 +48,7 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
     let numbers = numbers!(
         i_ref i_mean cycle_factor stress_factor peak_factor traction_factor load_factor
         life_relative life_relative_low life_relative_high;
-        life_system life_global life_damage life_snapshot life_swept
+        life_system life_global life_damage
     );
     Summary {
         survival_ratio: stage.map(LifeStage::survival_ratio),
