@@ -57,7 +57,6 @@ impl Simulation {
             work,
             stats,
         };
-        this.make_room();
         let measured = this.see_again();
         this.publish(&Attempted::default(), &measured);
         Ok(this)

@@ -22,6 +22,7 @@ use super::totals::Totals;
 use super::work::Work;
 use super::yielded::Yielded;
 use super::{Knob, MeshErrors, Metrics};
+use crate::saved::saved;
 use crate::solve::march;
 
 /// Where the run is.
@@ -77,6 +78,15 @@ pub struct State {
     pub(super) start_up_steps: (u64, u64),
 }
 
+saved! {
+    State {
+        parts: motion, yielded, counting, life, totals, orbit, pace;
+        free: nodes, contact, drive, targets, watched, smooth, phase, metrics, coarser, mesh_errors, distance,
+            next_volume, step, time_s, start_up_steps;
+    }
+    holds |_, saved| saved.distance >= 0.0 && saved.time_s >= 0.0
+}
+
 impl State {
     /// Before the first step: a Hertz contact of smooth bodies in pure rolling, on the first grid.
     pub(super) fn new(plan: &SimPlan, work: &mut Work) -> Self {
@@ -117,7 +127,7 @@ impl State {
                 left: plan.smooth_steps(nodes, decided.has_flow()),
             },
             metrics: Metrics::default(),
-            totals: Totals::default(),
+            totals: Totals::new(plan.most_steps()),
             coarser: None,
             mesh_errors: None,
             orbit: Orbit::new(fine.len(), decided.passage_a),
@@ -133,16 +143,5 @@ impl State {
     /// Time steps since the start-up.
     pub fn passage_steps(&self) -> u64 {
         self.step
-    }
-
-    /// Makes the room again that a copy or a file does not keep: a warm step allocates nothing.
-    pub(super) fn make_room(&mut self, plan: &SimPlan) {
-        self.totals.make_room(plan.most_steps());
-        if let Some(counting) = &mut self.counting {
-            counting.make_room();
-        }
-        if let Some(life) = &mut self.life {
-            life.make_room();
-        }
     }
 }

@@ -5,10 +5,11 @@
 //! are finite already: the file's format has no others.
 
 use super::Simulation;
+use crate::saved::{Saved as _, path};
 use crate::sim::smooth::LoadAndSpeed;
 use crate::sim::state::Phase;
-use crate::sim::stress_stage::StressStage;
 use crate::sim::{Knob, SimError, State, Stats};
+use crate::solve::march::ContactState;
 
 /// Steps that no run makes.
 const MOST_STEPS: u64 = 1 << 52;
@@ -19,6 +20,10 @@ fn refuse(what: &str) -> SimError {
     SimError::State(what.to_owned())
 }
 
+fn not_ours(field: &str) -> SimError {
+    SimError::State(format!("`{field}` in it is not of this scene"))
+}
+
 fn demand(holds: bool, what: &str) -> Result<(), SimError> {
     if holds { Ok(()) } else { Err(refuse(what)) }
 }
@@ -26,51 +31,17 @@ fn demand(holds: bool, what: &str) -> Result<(), SimError> {
 impl Simulation {
     /// Whether the state is one of this scene's contact: its fields, its stages.
     pub(super) fn check(&self, state: &State) -> Result<(), SimError> {
-        demand(
-            self.plan.climb().any(|n| n == state.nodes),
-            "its grid is not this scene's",
-        )?;
-        let grid = |nodes| self.plan.grid(nodes);
-        let unlike = self.work.solver.is_unlike();
-        demand(
-            state.contact.fits(grid(state.nodes).len(), unlike),
-            "its fields do not fill the grid",
-        )?;
-        demand(state.contact.is_sound(), "its pressures are below zero")?;
-        if let Some(smooth) = &state.smooth {
-            let known = self.plan.climb().any(|n| n == smooth.nodes);
-            demand(
-                known && smooth.fits(grid(smooth.nodes).len(), unlike),
-                "its smooth contact does not fill a grid",
-            )?;
+        let smooth = state.smooth.as_ref();
+        let contacts = smooth.map(|smooth| (smooth.nodes, &smooth.contact));
+        for (nodes, contact) in [(state.nodes, &state.contact)].into_iter().chain(contacts) {
+            let on_a_grid = self.plan.climb().any(|n| n == nodes);
+            demand(on_a_grid, "its grid is not this scene's")?;
+            let len = self.plan.grid(nodes).len();
+            ContactState::empty(len, self.work.solver.is_unlike())
+                .check(contact)
+                .map_err(|field| not_ours(&path("contact", &field)))?;
         }
-        demand(
-            state.orbit.fits(self.plan.finest().len()),
-            "its repeating period is damaged",
-        )?;
-        demand(
-            state.counting.is_some() == self.state.counting.is_some()
-                && state.life.is_some() == self.state.life.is_some(),
-            "it was saved with other settings for stress and life",
-        )?;
-        let depths = self
-            .work
-            .stress
-            .as_ref()
-            .map_or(0, StressStage::depth_count);
-        let yielded_fits = match (&self.state.yielded, &state.yielded) {
-            (None, None) => true,
-            (Some(own), Some(saved)) => own.fits(saved),
-            _ => false,
-        };
-        demand(yielded_fits, "its yielded surfaces belong to other bodies")?;
-        if let (Some(own), Some(saved)) = (&self.state.counting, &state.counting) {
-            demand(own.fits(saved, depths), "its cycle counts are damaged")?;
-        }
-        if let (Some(own), Some(saved)) = (&self.state.life, &state.life) {
-            demand(own.fits(saved), "its life was computed in another way")?;
-        }
-        Ok(())
+        self.state.check(state).map_err(|field| not_ours(&field))
     }
 
     /// Whether a run can have counted so much.
@@ -98,14 +69,8 @@ impl Simulation {
         demand(phase_fits, "its start-up is not this scene's")?;
         let steps = [state.step, state.start_up_steps.0, state.start_up_steps.1];
         demand(
-            steps.into_iter().all(|n| n <= MOST_STEPS)
-                && state.distance >= 0.0
-                && state.time_s >= 0.0,
-            "its steps or times are not valid",
-        )?;
-        demand(
-            state.motion.is_sound() && state.pace.is_sound(),
-            "its motion does not fit the scene",
+            steps.into_iter().all(|n| n <= MOST_STEPS),
+            "no run makes so many steps",
         )?;
         let smooth = state.smooth.as_ref();
         demand(

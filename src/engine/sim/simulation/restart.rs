@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::Simulation;
+use crate::saved::Saved as _;
 use crate::sim::measure::Measured;
 use crate::sim::state::Phase;
 use crate::sim::stepping::place_surfaces;
@@ -20,12 +21,11 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimError::State`] when the state does not fit the scene; the simulation is as it was.
-    pub fn restore(&mut self, state: State) -> Result<(), SimError> {
-        self.check(&state)?;
-        self.check_course(&state)?;
-        self.state = state;
+    pub fn restore(&mut self, state: &State) -> Result<(), SimError> {
+        self.check(state)?;
+        self.check_course(state)?;
+        self.state.restore(state);
         self.work.solve_on(&self.plan, self.state.nodes);
-        self.make_room();
         self.see_again();
         Ok(())
     }
@@ -47,17 +47,8 @@ impl Simulation {
     pub fn renew_work(&mut self) -> Result<(), SimError> {
         let pool = Arc::clone(&self.work.pool);
         self.work = Work::new(&self.plan, self.state.nodes, pool)?;
-        self.make_room();
         self.see_again();
         Ok(())
-    }
-
-    /// Makes the room again that a copy, a file or a new workspace does not keep: a warm step allocates nothing.
-    pub(super) fn make_room(&mut self) {
-        self.state.make_room(&self.plan);
-        if !matches!(self.state.phase, Phase::Smooth { .. }) {
-            self.work.solver.yield_at(self.plan.hardness);
-        }
     }
 
     /// Takes over what a neighbour leaves to [`Simulation::follow`]: its contact and its references.
@@ -91,6 +82,9 @@ impl Simulation {
             solver, roughness, ..
         } = &mut self.work;
         let state = &self.state;
+        if !matches!(state.phase, Phase::Smooth { .. }) {
+            solver.yield_at(self.plan.hardness);
+        }
         let places = (&state.drive, &state.motion);
         place_surfaces(
             solver,
