@@ -21,7 +21,7 @@ use super::smooth::Smooth;
 use super::totals::Totals;
 use super::work::Work;
 use super::yielded::Yielded;
-use super::{Knob, MeshErrors, Metrics};
+use super::{Knob, MeshErrors, Metrics, Stage};
 use crate::saved::saved;
 use crate::solve::march;
 
@@ -36,6 +36,17 @@ pub(super) enum Phase {
     Develop { left: u64 },
     /// The passage.
     Passage,
+}
+
+impl Phase {
+    /// Whether the slice belongs to the present step: the smooth contact's is taken once, and while a contact
+    /// settles in the wake of a neighbour nobody looks.
+    pub(super) fn has_stress(self) -> bool {
+        match self {
+            Self::Smooth { .. } | Self::Settle { .. } => false,
+            Self::Develop { .. } | Self::Passage => true,
+        }
+    }
 }
 
 /// State of a simulation; opaque, made by [`super::Simulation::save`]. `serde(rename)` here and in what it holds: the names
@@ -143,5 +154,31 @@ impl State {
     /// Time steps since the start-up.
     pub fn passage_steps(&self) -> u64 {
         self.step
+    }
+
+    /// Part of the run that the last step belongs to.
+    pub(super) fn stage(&self) -> Stage {
+        if self.phase == Phase::Passage && self.step > 0 {
+            Stage::Passage
+        } else {
+            Stage::StartUp
+        }
+    }
+
+    /// How much of the start-up is done, 0 to 1.
+    pub(super) fn start_up_progress(&self) -> f64 {
+        let (done, all) = self.start_up_steps;
+        match self.stage() {
+            Stage::Passage => 1.0,
+            Stage::StartUp => (done as f64 / all.max(1) as f64).min(1.0),
+        }
+    }
+
+    /// Simulated time since the start-up, s.
+    pub(super) fn time_of_passage_s(&self) -> f64 {
+        match self.phase {
+            Phase::Passage => self.time_s,
+            Phase::Smooth { .. } | Phase::Settle { .. } | Phase::Develop { .. } => 0.0,
+        }
     }
 }
