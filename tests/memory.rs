@@ -93,7 +93,7 @@ fn a_warm_step_allocates_nothing() {
     // A restored simulation has its room again.
     let mut again = warm(1, &[]);
     let state = again.save();
-    again.restore(state).unwrap();
+    again.restore(&state).unwrap();
     let n = calls(&mut again, steps, |_, _| {});
     println!("restored: {n} calls");
     assert_eq!(n, 0);

@@ -113,7 +113,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     std::fs::remove_file(cases.join("0000003.json")).unwrap();
     std::fs::write(
         place.join("chains").join("0000000-0000002.state"),
-        "asperity state 3 0\n{}",
+        "asperity state 4 0\n{}",
     )
     .unwrap();
     assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 4);
