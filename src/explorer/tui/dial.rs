@@ -106,10 +106,7 @@ impl Dial {
 
     /// Unit of its values.
     pub fn unit(&self, units: Units) -> Unit {
-        let kind = match self.knob {
-            Knob::ForceNPerM => ContactKind::Line,
-            _ => ContactKind::Point,
-        };
+        let kind = self.knob.load_of().unwrap_or_default();
         units.unit(self.knob.quantity().dimension, kind)
     }
 
@@ -158,7 +155,7 @@ fn dial(knob: Knob, home: f64, load: (ContactKind, f64)) -> Dial {
     let ([min, max], typical) = knob.reach(home, load);
     Dial {
         knob,
-        label: line.label,
+        label: knob.name(),
         steps: line.steps,
         far: line.big_step,
         min,

@@ -21,7 +21,7 @@ use crate::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use crate::tui::{Control, Explorer, Health, RunStatus, Setup, Shown, Wiring, view};
 use asperity_engine::math::number::sig;
 use asperity_engine::scene::{Knob, Scene};
-use asperity_session::run::{Cooperative, Ending, LoopTurn, NearEnd, Request, Watcher};
+use asperity_session::run::{Cooperative, Ending, LoopTurn, Request, RunHandle, Watcher};
 use asperity_session::sweep::{Background, Ground, SweepWorker};
 
 /// Maximum number of pixels of a picture: each is a colour computed anew.
@@ -65,14 +65,14 @@ impl WebPage {
         let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
         let run = Rc::new(RefCell::new(run));
         let beside = PageSweep::default();
-        let mut wiring = wiring(&run.borrow().session, setup, &beside, &files);
+        let mut wiring = wiring(&run.borrow().session.handle, setup, &beside, &files);
         wiring.lesson = link.lesson;
         let keys = Rc::new(RefCell::new(link.keys));
         let (place, sweep, kept) = (Rc::clone(&run), Rc::clone(&beside), Rc::clone(&files));
         let left = Rc::clone(&keys);
         wiring.rebuild = Some(Box::new(move |scene, name| {
             let (next, setup) = start(scene, name, nodes, Ending::OnStop)?;
-            let wiring = self::wiring(&next.session, setup, &sweep, &kept);
+            let wiring = self::wiring(&next.session.handle, setup, &sweep, &kept);
             place.replace(next);
             left.borrow_mut().clear();
             Ok(wiring)
@@ -263,26 +263,29 @@ fn start(
     Ok((PageRun { session, rows }, setup))
 }
 
-fn wiring(session: &NearEnd, setup: Setup, beside: &PageSweep, files: &Files) -> Wiring {
-    let status = session.status_reader();
-    let (ground, scene) = (session.settled_reader(), Arc::clone(&setup.scene));
+fn wiring(handle: &RunHandle, setup: Setup, beside: &PageSweep, files: &Files) -> Wiring {
+    let [status, settled, ground] = [(); 3].map(|()| handle.clone());
+    let scene = Arc::clone(&setup.scene);
     let place = Rc::clone(beside);
     let (saves, writes) = (Rc::clone(files), Rc::clone(files));
     let name = setup.name.replace('/', "-");
     let file = format!("{name}.toml");
     Wiring {
         setup,
-        frames: session.latest(),
-        commands: session.commands(),
+        frames: handle.latest(),
+        commands: handle.commands(),
         status: Box::new(move || RunStatus {
-            health: status().failure.map_or(Health::Running, Health::Failed),
+            health: status
+                .status()
+                .failure
+                .map_or(Health::Running, Health::Failed),
             recorder: None,
         }),
-        settled: Box::new(session.settled_reader()),
+        settled: Box::new(move || settled.settled()),
         start_sweep: Some(Box::new(move |order| {
             let ground = Ground {
                 scene: Arc::clone(&scene),
-                state: ground()?.state.clone()?,
+                state: ground.settled()?.state.clone()?,
             };
             let (sweep, worker) = Background::cooperative(ground, order);
             place.replace(worker);

@@ -79,7 +79,7 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
     if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
         let means = match app.setup.scene.life.as_ref().map(|life| life.cycles) {
             Some(CycleBasis::Damage) => ": its cycles never end",
-            Some(_) => ": its life is not counted",
+            Some(CycleBasis::Global | CycleBasis::Peaks) => ": its life is not counted",
             None => "",
         };
         words.push((format!("body {body} stands{means}"), Role::Warn));

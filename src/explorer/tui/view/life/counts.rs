@@ -54,7 +54,7 @@ pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffe
     };
     let (word, other) = match asked.cycles {
         CycleBasis::Damage => ("paper's count", life.detail.life_global),
-        _ => ("by damage", life.detail.life_damage),
+        CycleBasis::Global | CycleBasis::Peaks => ("by damage", life.detail.life_damage),
     };
     let word = app.theme.span(format!("{word} "), Role::Dim);
     let line = Line::from(vec![word, known(app, other, 2, Role::Text)]);
