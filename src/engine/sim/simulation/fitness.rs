@@ -140,7 +140,7 @@ impl Simulation {
         match knob {
             Knob::SlideRoll => knob.takes(value),
             Knob::ForceN | Knob::ForceNPerM => {
-                let most = self.plan.decided.most_force_n() * (1.0 + 1e-9);
+                let most = self.plan.decided.maximum_force_n() * (1.0 + 1e-9);
                 value > 0.0 && (knob != self.plan.scaling.load_knob() || value <= most)
             }
             Knob::Amplitude1M => value >= 0.0 && (value == 0.0 || self.work.roughness.is_rough(0)),
