@@ -77,6 +77,7 @@ pub mod math;
 pub mod observe;
 pub mod physics;
 pub mod plan;
+mod saved;
 pub mod scene;
 pub mod sim;
 pub mod solve;

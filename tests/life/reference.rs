@@ -290,7 +290,7 @@ fn going_on_from_a_state_in_the_middle_is_the_same_bit_for_bit() {
     let text = serde_json::to_vec(&sim.save()).unwrap();
     let mut again = simulation(&own);
     again
-        .restore(serde_json::from_slice(&text).unwrap())
+        .restore(&serde_json::from_slice(&text).unwrap())
         .unwrap();
     again.count_from(*sim.stats()).unwrap();
     let (mut one, mut two) = (Frame::default(), Frame::default());

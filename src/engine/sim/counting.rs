@@ -8,6 +8,7 @@ use crate::math::grid::Grid;
 use crate::physics::cycles::{BodyId, Kinematics};
 use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
+use crate::saved::saved;
 use crate::scene::CycleBasis;
 use crate::solve::damage::{BlockSpec, DamageMap, Pit};
 use crate::solve::material::{Line, MaterialTracker, Sample, TrackerSpec};
@@ -37,6 +38,15 @@ pub(super) struct Counting {
     by_damage: Option<DamageCount>,
 }
 
+saved! {
+    Counting {
+        same: exponent;
+        parts: trackers, profiles, by_damage;
+        free: shown_depth, shown_body, shown, reference, reference_size;
+    }
+    holds |own, saved| saved.shown_depth < own.profiles[0].shear.len().max(1)
+}
+
 /// Cycles of a body by depth.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 struct Profile {
@@ -46,6 +56,10 @@ struct Profile {
     shear: Vec<f64>,
     /// Cycles of effective stress, each by its peak, in cycles of the maximum.
     by_peaks: Vec<f64>,
+}
+
+saved! {
+    Profile { parts: shear, by_peaks; free: is_known; }
 }
 
 /// What is counted.
@@ -114,27 +128,6 @@ impl Counting {
     /// Takes over the unit of damage of counts of the same contact.
     pub(super) fn take_reference(&mut self, other: &Self) {
         (self.reference, self.reference_size) = (other.reference, other.reference_size);
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub(super) fn make_room(&mut self) {
-        for tracker in &mut self.trackers {
-            tracker.make_room();
-        }
-    }
-
-    /// Whether counts that were saved are of the same make, with so many depths, and nothing in them points astray.
-    pub(super) fn fits(&self, saved: &Self, depths: usize) -> bool {
-        let whole =
-            |profile: &Profile| profile.shear.len() == depths && profile.by_peaks.len() == depths;
-        let mut trackers = self.trackers.iter().zip(&saved.trackers);
-        saved.shown_depth < depths.max(1)
-            && saved.profiles.iter().all(whole)
-            && trackers.all(|(own, saved)| own.fits(saved))
-            && match (&self.by_damage, &saved.by_damage) {
-                (Some(own), Some(saved)) => own.fits(saved),
-                (own, saved) => own.is_none() && saved.is_none(),
-            }
     }
 
     /// Forgets all counts; the bodies have moved by `travelled` (in a).

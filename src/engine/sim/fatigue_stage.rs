@@ -21,6 +21,7 @@ use crate::math::ln_sum::ln_sum;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
+use crate::saved::saved;
 use crate::scene::{ContactKind, CycleBasis, Life, Scene, Surface};
 use crate::solve::life::{SweptRows, Window};
 use crate::solve::marks::Marks;
@@ -74,6 +75,14 @@ pub(super) struct LifeStage {
     settling: Settling,
     /// How far ln of the damage of both bodies moved, where cycles count by it.
     damage: Marks,
+}
+
+saved! {
+    LifeStage {
+        same: law, asked, laws, depths, is_smooth, calibration, sides;
+        parts: variants, sweep, damage;
+        free: reference_size, reference_at, reference_cycles, settling;
+    }
 }
 
 impl LifeStage {
@@ -169,32 +178,6 @@ impl LifeStage {
     pub(super) fn count_text(&self) -> String {
         let basis = self.asked.cycles;
         format!("{}, in {}", basis.name(), basis.unit())
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub(super) fn make_room(&mut self) {
-        for variant in &mut self.variants {
-            variant.make_room();
-        }
-        self.damage.make_room();
-    }
-
-    /// Whether a stage that was saved is of the same make as this one.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        let rows = self.sweep.of(Loading::ALL[0]).len();
-        self.law == saved.law
-            && self.calibration == saved.calibration
-            && self.asked == saved.asked
-            && self.laws == saved.laws
-            && self.depths == saved.depths
-            && saved.sweep.is_sound(rows)
-            && saved.damage.is_sound()
-            && self.variants.len() == saved.variants.len()
-            && self
-                .variants
-                .iter()
-                .zip(&saved.variants)
-                .all(|(a, b)| a.fits(b))
     }
 
     /// Takes the mean over `window` (in a) from now on.

@@ -8,6 +8,7 @@ use crate::math::ln_sum::ln_list;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::physics::life_models::LifeEquation;
+use crate::saved::saved;
 use crate::scene::{CycleBasis, Life, LifeModel, Spread};
 use crate::solve::critical::shares_of_slice;
 use crate::solve::life::{LifeMeter, Shares, SweptRows, Window};
@@ -52,6 +53,13 @@ pub(super) struct Variant {
     base: Vec<f64>,
     /// Half range of shear, or risk, by depth of each body in the last sample, p_h (models of one depth).
     by_depth: [Vec<f32>; 2],
+}
+
+saved! {
+    Variant {
+        same: model, law;
+        parts: meter, swept, material, reference, base, by_depth;
+    }
 }
 
 /// What every variant is computed with.
@@ -114,26 +122,9 @@ impl Variant {
         self.base[2 * body.index() + integral as usize]
     }
 
-    /// Makes the room again that a copy or a file does not keep.
-    pub(super) fn make_room(&mut self) {
-        self.meter.make_room();
-    }
-
     /// Takes the mean over `window` (in a) from now on.
     pub(super) fn set_window(&mut self, window: Window) {
         self.meter.set_window(window);
-    }
-
-    /// Whether a variant that was saved is of the same make as this one.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        let depths = self.by_depth[0].len();
-        self.model == saved.model
-            && self.law == saved.law
-            && self.meter.fits(&saved.meter)
-            && saved.swept.is_sound(depths)
-            && saved.material.is_sound(depths)
-            && [&saved.reference, &saved.base].map(Vec::len) == [4; 2]
-            && saved.by_depth.iter().all(|list| list.len() == depths)
     }
 
     /// Forgets all samples.

@@ -12,6 +12,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::saved::saved;
+
 /// Shape of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BlockSpec {
@@ -33,6 +35,10 @@ pub struct DamageMap {
     sums: Vec<f64>,
     /// Crossings of each column.
     crossings: Vec<u32>,
+}
+
+saved! {
+    DamageMap { same: spec; parts: sums, crossings; }
 }
 
 /// Where a pit starts.
@@ -63,13 +69,6 @@ impl DamageMap {
     /// Shape.
     pub fn spec(&self) -> &BlockSpec {
         &self.spec
-    }
-
-    /// Whether a map that was saved is of the same make as this one.
-    pub fn fits(&self, saved: &Self) -> bool {
-        self.spec == saved.spec
-            && self.crossings.len() == saved.crossings.len()
-            && self.sums.len() == saved.sums.len()
     }
 
     /// Forgets all.
