@@ -11,7 +11,7 @@ struct First {
     kind: ContactKind,
     p_hertz_pa: f64,
     metrics: Metrics,
-    /// Maximum magnitude, SI: traction, roughness of both bodies, effective stress and shear of the slice.
+    /// Greatest of either sign, SI: traction, roughness of both bodies, effective stress and shear of the slice.
     traction_pa: f64,
     roughness_m: [f64; 2],
     effective_pa: f64,
@@ -25,16 +25,15 @@ impl First {
             kind: frame.kind,
             p_hertz_pa: frame.p_hertz_pa,
             metrics: frame.metrics.clone(),
-            traction_pa: maximum_magnitude(&frame.traction_pa),
-            roughness_m: [&frame.roughness_1_m, &frame.roughness_2_m]
-                .map(|field| maximum_magnitude(field)),
-            effective_pa: slice.map_or(0.0, |slice| maximum_magnitude(&slice.effective_pa)),
-            shear_pa: slice.map_or(0.0, |slice| maximum_magnitude(&slice.tau_xz_pa)),
+            traction_pa: greatest(&frame.traction_pa),
+            roughness_m: [&frame.roughness_1_m, &frame.roughness_2_m].map(|field| greatest(field)),
+            effective_pa: slice.map_or(0.0, |slice| greatest(&slice.effective_pa)),
+            shear_pa: slice.map_or(0.0, |slice| greatest(&slice.tau_xz_pa)),
         }
     }
 }
 
-/// Knobs that ranges follow, each the largest that was seen or is on its way.
+/// Knobs that ranges follow, each the greatest that was seen or is on its way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TurnedKnobs {
     load: f64,
@@ -114,7 +113,7 @@ impl Scope {
     }
 }
 
-/// The largest that a run's own script, and what was turned by hand, can bring of what its pictures scale with, and what
+/// The greatest that a run's own script, and what was turned by hand, can bring of what its pictures scale with, and what
 /// bounds its friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToCome {
@@ -127,7 +126,7 @@ pub struct ToCome {
     /// Pressure of crests that are pressed flat, Pa. Where a film separates them and they grow no more, at most twice
     /// the ripple of the first frame: those of both bodies may meet there or not.
     crest_pa: f64,
-    /// Maximum traction over pressure: limiting shear of the oil or boundary friction; 0: not known.
+    /// Greatest traction over pressure: limiting shear of the oil or boundary friction; 0: not known.
     friction: f64,
     /// Which bodies are rough, or may be made so.
     rough: [bool; 2],
@@ -149,21 +148,21 @@ impl ToCome {
     /// From the scene's script, where the scene is known, the first frame and what was turned since.
     fn of(scene: Option<&Scene>, first: &First, turned: TurnedKnobs) -> Self {
         let m = &first.metrics;
-        let largest = |knobs: &[Knob], now: f64| {
+        let greatest = |knobs: &[Knob], now: f64| {
             let set = scene.into_iter().flat_map(|scene| &scene.events);
             let set = set.flat_map(|event| &event.set);
             let set = set.filter(|(key, _)| knobs.iter().any(|knob| knob.key() == key.as_str()));
             set.fold(now.abs(), |top, (_, value)| top.max(value.abs()))
         };
-        let ratio = |largest: f64, now: f64| (largest / now.abs()).max(1.0);
-        let load = largest(&[Knob::ForceN, Knob::ForceNPerM], turned.load);
+        let ratio = |greatest: f64, now: f64| (greatest / now.abs()).max(1.0);
+        let load = greatest(&[Knob::ForceN, Knob::ForceNPerM], turned.load);
         let load_ratio = if m.load_n > 0.0 {
             ratio(load, m.load_n)
         } else {
             1.0
         };
-        let size = first.kind.hertz_shape().size_ratio(load_ratio);
-        let speed = largest(&[Knob::EntrainmentMS], turned.speed_m_s);
+        let size = first.kind.size_ratio(load_ratio);
+        let speed = greatest(&[Knob::EntrainmentMS], turned.speed_m_s);
         let speed_ratio = if m.entrainment_m_s == 0.0 {
             1.0
         } else {
@@ -171,8 +170,8 @@ impl ToCome {
         };
         let now_m = [m.amplitude_1_m, m.amplitude_2_m];
         let amplitude_m = [
-            largest(&[Knob::Amplitude1M], turned.amplitude_m[0]),
-            largest(&[Knob::Amplitude2M], turned.amplitude_m[1]),
+            greatest(&[Knob::Amplitude1M], turned.amplitude_m[0]),
+            greatest(&[Knob::Amplitude2M], turned.amplitude_m[1]),
         ];
         let grows = amplitude_m
             .iter()
@@ -256,8 +255,8 @@ impl Ranges {
     fn of(first: &First, to_come: &ToCome) -> Self {
         let metrics = &first.metrics;
         let round = |value: f64, unit: Unit| nice_ceiling(unit.of(value)) / unit.per_si;
-        let maximum_pa = (1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa);
-        let pressure_pa = round((to_come.size * maximum_pa).max(to_come.crest_pa), GPA);
+        let greatest_pa = (1.1 * metrics.p_max_pa).max(1.3 * first.p_hertz_pa);
+        let pressure_pa = round((to_come.size * greatest_pa).max(to_come.crest_pa), GPA);
         // The film range starts from what the middle of the contact is like in the mean (the film at the
         // origin goes up and down with every crest); the bath around the contact is ten to a hundred times
         // thicker.
@@ -296,6 +295,6 @@ impl Ranges {
     }
 }
 
-fn maximum_magnitude(field: &[f32]) -> f64 {
+fn greatest(field: &[f32]) -> f64 {
     field.iter().fold(0.0_f32, |top, v| top.max(v.abs())).into()
 }
