@@ -31,7 +31,7 @@ pub mod wiring;
 
 pub use explorer::{Control, Explorer};
 #[cfg(not(target_arch = "wasm32"))]
-pub use terminal::{TerminalLine, explore};
+pub use terminal::explore;
 pub use wiring::{
     Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, Shown, TuiError, Wiring,
     WriteShown,

@@ -1,43 +1,43 @@
 //! The terminal itself: entered, left, and left again whatever happens. The only place that names crossterm.
 
 mod canvas;
-mod line;
-mod pace;
 mod show;
-mod typist;
 
 use std::cell::Cell;
-use std::io::{self, Write, stdout};
+use std::io::{self, BufWriter, Stdout, Write, stdout};
 use std::panic;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossterm::cursor::Show;
 use crossterm::event::{
     self, DisableMouseCapture, EnableMouseCapture, KeyCode, KeyEvent, KeyEventKind, KeyModifiers,
     MouseButton, MouseEvent, MouseEventKind,
 };
-use crossterm::execute;
 use crossterm::terminal::{
-    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode,
-    enable_raw_mode, size,
+    BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
+    LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
 };
-use ratatui::Terminal;
-use ratatui::layout::Size;
+use crossterm::{execute, queue};
+use ratatui::backend::CrosstermBackend;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::{Terminal, TerminalOptions, Viewport};
 
+use crate::tui::app::App;
 use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct, ScreenEvent};
-pub use line::TerminalLine;
-use pace::LinePace;
+use crate::tui::view;
 pub use show::explore;
 
 /// The terminal while the explorer has it; dropped, it is as it was.
 pub(super) struct Screen {
-    /// What is drawn on.
-    pub(super) terminal: Terminal<TerminalLine<io::Stdout>>,
+    terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
+    /// What it shows: nothing is written where nothing has changed.
+    shown: Buffer,
 }
 
 impl Screen {
@@ -46,16 +46,45 @@ impl Screen {
     /// # Errors
     /// When it cannot be switched.
     pub(super) fn enter() -> io::Result<Self> {
-        // Asked before the terminal is taken: what is asked for lines is not for screens.
-        let pace = LinePace::of(pace::baud(), Instant::now());
         take()?;
-        match on_line(pace) {
-            Ok(terminal) => Ok(Self { terminal }),
-            Err(error) => {
-                give_back();
-                Err(error)
-            }
+        let (terminal, shown) = blank().inspect_err(|_| give_back())?;
+        Ok(Self { terminal, shown })
+    }
+
+    /// The cells of the terminal as large as it is now.
+    ///
+    /// # Errors
+    /// When it does not say.
+    pub(super) fn area() -> io::Result<Rect> {
+        Ok(Rect::from((Position::ORIGIN, Size::from(size()?))))
+    }
+
+    /// Draws the screen and says whether anything of it has changed.
+    ///
+    /// # Errors
+    /// When the terminal cannot be written to.
+    pub(super) fn draw(&mut self, app: &App) -> io::Result<bool> {
+        if Self::area()? != self.shown.area {
+            self.clear()?;
         }
+        // By the time it was cleared it may have yet another size.
+        let area = self.shown.area;
+        let mut next = Buffer::empty(area);
+        view::render(app, area, &mut next);
+        if next == self.shown {
+            return Ok(false);
+        }
+        queue!(self.terminal.backend_mut(), BeginSynchronizedUpdate)?;
+        self.terminal
+            .draw(|frame| frame.buffer_mut().clone_from(&next))?;
+        execute!(self.terminal.backend_mut(), EndSynchronizedUpdate)?;
+        self.shown = next;
+        Ok(true)
+    }
+
+    /// What it shows.
+    pub(super) fn shown(&self) -> &Buffer {
+        &self.shown
     }
 
     /// Hands the terminal to the shell and stops this process and its group until `fg`.
@@ -77,16 +106,24 @@ impl Screen {
     /// # Errors
     /// When it fails.
     pub(super) fn clear(&mut self) -> io::Result<()> {
-        // Ratatui's own `clear` would ask where the cursor is, and not every line answers.
         execute!(stdout(), Clear(ClearType::All))?;
-        self.terminal = on_line(self.terminal.backend().pace().clone())?;
+        (self.terminal, self.shown) = blank()?;
         Ok(())
     }
 }
 
-fn on_line(pace: LinePace) -> io::Result<Terminal<TerminalLine<io::Stdout>>> {
-    let size = Size::from(size()?);
-    Terminal::new(TerminalLine::at_pace(stdout(), size, pace))
+/// A terminal of which nothing is shown yet. Its size is fixed: when ratatui follows a new size it asks where the cursor is,
+/// and not every terminal answers.
+fn blank() -> io::Result<(Terminal<CrosstermBackend<BufWriter<Stdout>>>, Buffer)> {
+    /// Bytes of a large screen in true colour.
+    const ONE_SCREEN: usize = 1 << 18;
+    let area = Screen::area()?;
+    let out = BufWriter::with_capacity(ONE_SCREEN, stdout());
+    let options = TerminalOptions {
+        viewport: Viewport::Fixed(area),
+    };
+    let terminal = Terminal::with_options(CrosstermBackend::new(out), options)?;
+    Ok((terminal, Buffer::empty(area)))
 }
 
 impl Drop for Screen {

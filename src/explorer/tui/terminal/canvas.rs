@@ -11,24 +11,30 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use crate::tui::app::App;
-use crate::tui::pixels::{Pixels, kitty, sixel};
+use crate::tui::pixels::{Bitmap, Pixels, kitty, sixel};
 use crate::tui::view;
 
 /// Least time between two pictures: they are many bytes.
 const PICTURE_TIME: Duration = Duration::from_millis(50);
 
-/// What of the terminal holds a picture.
+/// The picture that the terminal shows under its letters.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
-    drawn: Option<(Pixels, Rect)>,
+    drawn: Option<(Pixels, Bitmap)>,
     last: Option<Instant>,
+    /// Letters were written since, perhaps over it.
+    is_stale: bool,
 }
 
 impl Canvas {
     /// Whether all cells must be written anew: a picture that goes, or moves, leaves its pixels behind.
     pub(super) fn must_clear(&mut self, app: &App, screen: Rect) -> bool {
         let wanted = view::picture_area(app, screen).map(|area| (app.pixels(), area));
-        let moved = self.drawn.is_some() && self.drawn != wanted;
+        let drawn = self
+            .drawn
+            .as_ref()
+            .map(|(pixels, bitmap)| (*pixels, bitmap.area));
+        let moved = drawn.is_some() && drawn != wanted;
         if moved {
             self.forget();
         }
@@ -45,29 +51,39 @@ impl Canvas {
     }
 
     /// Draws the picture of a screen that has just been drawn, and the letters that lie on it again.
-    pub(super) fn show(&mut self, app: &App, screen: &Buffer) -> io::Result<()> {
+    pub(super) fn show(&mut self, app: &App, screen: &Buffer, has_changed: bool) -> io::Result<()> {
+        self.is_stale |= has_changed;
         if self.last.is_some_and(|last| last.elapsed() < PICTURE_TIME) {
             return Ok(());
         }
         let Some(picture) = view::picture(app, screen.area, cell_size()?) else {
             return Ok(());
         };
-        let area = picture.area;
+        let next = (app.pixels(), picture);
+        if !self.is_stale && self.drawn.as_ref() == Some(&next) {
+            return Ok(());
+        }
+        let (pixels, picture) = &next;
         let mut out = stdout().lock();
-        queue!(out, BeginSynchronizedUpdate, MoveTo(area.x, area.y))?;
-        match app.pixels() {
-            Pixels::Sixel => out.write_all(&sixel::encode(&picture))?,
-            Pixels::Kitty => out.write_all(&kitty::encode(&picture))?,
+        queue!(
+            out,
+            BeginSynchronizedUpdate,
+            MoveTo(picture.area.x, picture.area.y)
+        )?;
+        match pixels {
+            Pixels::Sixel => out.write_all(&sixel::encode(picture))?,
+            Pixels::Kitty => out.write_all(&kitty::encode(picture))?,
             Pixels::Blocks | Pixels::Page => {}
         }
-        let letters = area.positions().filter_map(|at| {
+        let letters = picture.area.positions().filter_map(|at| {
             let cell = &screen[at];
             (cell.symbol() != " ").then_some((at.x, at.y, cell))
         });
         CrosstermBackend::new(&mut out).draw(letters)?;
         execute!(out, EndSynchronizedUpdate)?;
-        self.drawn = Some((app.pixels(), area));
+        self.drawn = Some(next);
         self.last = Some(Instant::now());
+        self.is_stale = false;
         Ok(())
     }
 }
