@@ -2,8 +2,8 @@
 
 mod table;
 
-use crate::tui::app::PanelKind;
 use crate::tui::event::{Chord, KeyName, Modifiers};
+use crate::tui::kinds::PanelKind;
 use asperity_engine::scene::Knob;
 
 pub use table::{KEYS, MOUSE};

@@ -10,8 +10,8 @@ mod tour;
 
 use std::sync::{Arc, LazyLock};
 
-use crate::tui::app::{MapKind, PanelKind, PointQuantity};
 use crate::tui::dial::{Dial, DialState};
+use crate::tui::kinds::{MapKind, PanelKind, PointQuantity};
 use asperity_engine::scene::{Override, Scene, SceneError};
 use asperity_engine::sim::Knob;
 pub use figure::{Claim, ComparedWith, LessonFigure, LessonMeasure, LessonQuestion};

@@ -16,6 +16,7 @@ pub mod dial;
 pub mod estimate;
 pub mod event;
 mod explorer;
+pub mod kinds;
 mod kymograph;
 pub mod lessons;
 pub mod pixels;

@@ -8,8 +8,8 @@ use serde::Deserialize;
 
 use super::figure::{Claim, ComparedWith, LessonFigure, LessonMeasure, LessonQuestion};
 use super::{Beat, KnobSetting, Lesson, Staging, reached};
-use crate::tui::app::{MapKind, PanelKind, PointQuantity};
 use crate::tui::dial::{Dial, dials};
+use crate::tui::kinds::{MapKind, PanelKind, PointQuantity};
 use asperity_engine::files::read_up_to;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Knob, SceneError, presets};

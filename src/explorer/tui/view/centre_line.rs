@@ -43,7 +43,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
 fn heading(app: &App, areas: &Areas) -> Line<'static> {
     /// Columns of the whole.
     const WHOLE: u16 = 37;
-    let theme = app.theme;
+    let theme = app.view.theme;
     let name = match areas.centre_line.width {
         ..WHOLE => "y = 0",
         _ => "centre line",
@@ -62,7 +62,7 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
 fn x_range(app: &App, frame: &Frame) -> [f64; 2] {
     let end = (frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m) / frame.a_m;
     let start = frame.x_min_m / frame.a_m;
-    match app.zoom {
+    match app.view.zoom {
         Zoom::Contact => [start.max(-1.6), end.min(1.4)],
         Zoom::Domain => [start, end],
     }
@@ -75,9 +75,9 @@ fn curves(
     x: [f64; 2],
     buffer: &mut Buffer,
 ) -> Option<PixelPlot> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
-    let hertz = frame.p_hertz_pa / app.reached.pressure_pa.max(1.0);
+    let hertz = frame.p_hertz_pa / app.run.axis_ends.pressure_pa.max(1.0);
     let mut chart = CurvePanel::of(app, plot, x, [0.0, 1.0]);
     let fine = usize::from(plot.width) * 2;
     chart.scatter(
@@ -87,9 +87,9 @@ fn curves(
         }),
         pen(Role::Hertz, '.'),
     );
-    let film = row(frame, &frame.film_m, app.reached.film_m);
+    let film = row(frame, &frame.film_m, app.run.axis_ends.film_m);
     chart.line(film, pen(Role::Film, 'h'));
-    let pressure = row(frame, &frame.pressure_pa, app.reached.pressure_pa);
+    let pressure = row(frame, &frame.pressure_pa, app.run.axis_ends.pressure_pa);
     chart.line(pressure, pen(Role::Pressure, 'p'));
     if let Some(point) = &frame.material_point {
         chart.upright(point.x_m / frame.a_m, pen(Role::Dim, ':'));
@@ -117,8 +117,8 @@ fn row<'a>(
 }
 
 fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
-    let theme = app.theme;
-    let (pressure, film) = (app.units.pressure(), app.units.film());
+    let theme = app.view.theme;
+    let (pressure, film) = (app.view.units.pressure(), app.view.units.film());
     let left = Rect {
         width: AXIS - 1,
         ..inner
@@ -130,14 +130,14 @@ fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
     };
     let foot = plot.height - 1;
     for (row, part) in ticks(plot.height) {
-        let p = tick(pressure.of(app.reached.pressure_pa * part));
+        let p = tick(pressure.of(app.run.axis_ends.pressure_pa * part));
         put_right(
             left,
             row,
             &Line::styled(p, theme.style(Role::Pressure)),
             buffer,
         );
-        let h = tick(film.of(app.reached.film_m * part));
+        let h = tick(film.of(app.run.axis_ends.film_m * part));
         put(
             right,
             row,

@@ -77,7 +77,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> (Option<Rect
 }
 
 fn pen(app: &App, role: Role, letter: char) -> Pen {
-    Pen::new(app.theme, role, letter)
+    Pen::new(app.view.theme, role, letter)
 }
 
 fn draw(
@@ -86,7 +86,7 @@ fn draw(
     area: Rect,
     buffer: &mut Buffer,
 ) -> (Rect, Option<PixelPlot>) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     heading(app, figure, area, buffer);
     let plot = Rect {
         x: area.x + AXIS,
@@ -134,13 +134,14 @@ fn spot(
         plot.y + cells(1.0 - up, plot.height),
     );
     if let Some(cell) = buffer.cell_mut(at) {
-        cell.set_symbol(symbol).set_style(app.theme.style(role));
+        cell.set_symbol(symbol)
+            .set_style(app.view.theme.style(role));
     }
 }
 
 /// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.
 fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let legend = |words: [&'static str; 2]| {
         let mut spans = vec![
             Span::styled("y ", theme.style(Role::Key)),
@@ -162,7 +163,9 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
         legend(["form. ", "sim. "])
     };
     put(area, 0, &heading, buffer);
-    let Some((done, all)) = app.sweep else { return };
+    let Some((done, all)) = app.lives.sweep else {
+        return;
+    };
     let text = format!("{}{done}/{all}", theme.pick("↻ ", "@ "));
     let line = Line::styled(text, theme.style(Role::Warn));
     let has_room = (heading.width() + line.width()) as u16 <= area.width;
@@ -170,8 +173,8 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
 }
 
 fn axes(app: &App, figure: &CurveFigure, area: Rect, plot: Rect, buffer: &mut Buffer) {
-    let dim = app.theme.style(Role::Dim);
-    let word = |text: &str| Line::styled(ascii_text(app.theme, text), dim);
+    let dim = app.view.theme.style(Role::Dim);
+    let word = |text: &str| Line::styled(ascii_text(app.view.theme, text), dim);
     let left = Rect {
         y: plot.y,
         width: AXIS - 1,

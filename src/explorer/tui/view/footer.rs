@@ -34,7 +34,7 @@ impl FooterKey {
 pub(super) fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
     let mut hints = hints(app);
     let taken: usize = hints.iter().map(FooterKey::width).sum();
-    if !app.setup.left_out.is_empty() && app.typing.is_none() {
+    if !app.run.setup.left_out.is_empty() && app.choice.typing.is_none() {
         let free = usize::from(room.width).saturating_sub(taken);
         hints.push(FooterKey::new("i", &left_out(app, free), Action::Plan));
     }
@@ -71,9 +71,12 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 
 /// What the plan leaves out: all of it where it fits, else how much.
 fn left_out(app: &App, room: usize) -> String {
-    let left_out = &app.setup.left_out;
+    let left_out = &app.run.setup.left_out;
     let stages: Vec<&str> = left_out.iter().map(|left| left.stage).collect();
-    let all = ascii_text(app.theme, &format!("not computed: {}", stages.join(", ")));
+    let all = ascii_text(
+        app.view.theme,
+        &format!("not computed: {}", stages.join(", ")),
+    );
     if all.chars().count() + 4 <= room {
         all
     } else {
@@ -84,14 +87,14 @@ fn left_out(app: &App, room: usize) -> String {
 /// What can be done now: by what is open, asked, typed or large, and then by the panel that the keys speak of.
 fn hints(app: &App) -> Vec<FooterKey> {
     let key = FooterKey::new;
-    let enter = app.theme.pick("⏎", "Enter");
+    let enter = app.view.theme.pick("⏎", "Enter");
     if app.is_typing() {
         return vec![
             key(enter, "set", Action::Enter),
             key("Esc", "leave it", Action::Close),
         ];
     }
-    match app.overlay {
+    match app.view.overlay {
         Overlay::Lessons => {
             return vec![
                 key(enter, "begin", Action::Enter),
@@ -99,7 +102,11 @@ fn hints(app: &App) -> Vec<FooterKey> {
             ];
         }
         Overlay::Scene => {
-            let is_point = app.draft.as_ref().is_some_and(|d| d.form == Form::Point);
+            let is_point = app
+                .choice
+                .draft
+                .as_ref()
+                .is_some_and(|d| d.form == Form::Point);
             let (own, other) = (key("e", "scene", Action::Scene), Action::OperatingPoint);
             let other = key("E", "operating point", other);
             return vec![
@@ -116,25 +123,25 @@ fn hints(app: &App) -> Vec<FooterKey> {
         key("?", "keys", Action::Help),
         key("q", "quit", Action::Quit),
     ];
-    if app.tour.is_some() {
+    if app.lesson.tour.is_some() {
         hints.push(key("n", "go on", Action::NextBeat));
         hints.push(key("N", "back", Action::PreviousBeat));
         hints.push(key("T", "end lesson", Action::EndTour));
     }
-    if app.enlarged.is_some() {
+    if app.view.enlarged.is_some() {
         hints.push(key("Esc", "all panels", Action::Close));
     }
-    let pause = match (&app.replay, app.pace) {
+    let pause = match (&app.replay.playing, app.run.pace) {
         (Some(_), _) => key("o", "live", Action::Replay),
         (None, RunPace::Paused) => key("space", "go on", Action::TogglePause),
         (None, RunPace::Running) => key("space", "pause", Action::TogglePause),
     };
-    let pin = if app.pinned.is_some() {
+    let pin = if app.view.pinned.is_some() {
         "release"
     } else {
         "freeze"
     };
-    let own = match app.focus {
+    let own = match app.view.focus {
         PanelKind::Knobs => key("=", "type", Action::Type),
         PanelKind::Map => key("m", "map", Action::NextMap),
         PanelKind::CentreLine => key("z", "zoom", Action::Zoom),
@@ -142,7 +149,7 @@ fn hints(app: &App) -> Vec<FooterKey> {
         PanelKind::Point => key("p", "trace", Action::PointQuantity),
     };
     hints.extend([pause, key("b", pin, Action::Pin), own]);
-    if app.tour.is_none() {
+    if app.lesson.tour.is_none() {
         hints.push(key("t", "lessons", Action::Lessons));
         hints.push(key("e", "scene", Action::Scene));
     }
@@ -153,9 +160,9 @@ fn hints(app: &App) -> Vec<FooterKey> {
 }
 
 pub(super) fn recorder(app: &App) -> Line<'static> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let dim = theme.style(Role::Dim);
-    let Some(recorder) = &app.status.recorder else {
+    let Some(recorder) = &app.run.status.recorder else {
         return Line::styled("not recording ", dim);
     };
     let (word, role) = match recorder.activity {

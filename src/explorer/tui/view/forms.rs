@@ -18,8 +18,10 @@ const BELOW: u16 = 5;
 
 /// The form that is open.
 pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let Some(draft) = &app.draft else { return };
+    let theme = app.view.theme;
+    let Some(draft) = &app.choice.draft else {
+        return;
+    };
     let rows = draft.form.rows();
     let title = match draft.form {
         Form::Scene => "change the scene (e closes, E operating point)",
@@ -38,7 +40,10 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
         height: inner.height.saturating_sub(seen as u16 + 1),
         ..inner
     };
-    let typed = draft.typed.as_ref().and_then(|_| draft.allowed(app.units));
+    let typed = draft
+        .typed
+        .as_ref()
+        .and_then(|_| draft.allowed(app.view.units));
     let (words, role) = match (typed, &draft.verdict) {
         (Some(allowed), _) => (allowed, Role::Text),
         (None, Ok(words)) => (words.clone(), Role::Good),
@@ -65,14 +70,14 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
 
 /// Name and value of a row.
 fn line_of(app: &App, draft: &Draft, row: usize) -> Line<'static> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let choice = draft.form.rows()[row];
     let chosen = row == draft.row;
     let role = if chosen { Role::Chosen } else { Role::Text };
     let value = match &draft.typed {
         Some(typed) if chosen => format!("= {typed}_"),
         _ => {
-            let value = ascii_text(theme, &choice.shown(draft, app.units));
+            let value = ascii_text(theme, &choice.shown(draft, app.view.units));
             if chosen {
                 format!("{} {value} {}", theme.pick("◂", "<"), theme.pick("▸", ">"))
             } else {

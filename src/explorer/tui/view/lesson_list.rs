@@ -11,12 +11,12 @@ use crate::tui::view::{ascii_text, put};
 
 /// The lessons: one of them begins.
 pub(super) fn lessons(app: &App, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let rows = app.lessons.len() as u16;
+    let theme = app.view.theme;
+    let rows = app.lesson.all.len() as u16;
     let size = (66, rows + 4);
     let inner = boxed(app, within, size, "lessons (t closes)", Role::Key, buffer);
-    for (place, lesson) in app.lessons.iter().enumerate() {
-        let chosen = place == app.lesson;
+    for (place, lesson) in app.lesson.all.iter().enumerate() {
+        let chosen = place == app.lesson.chosen;
         let mark = if chosen { theme.pick("▸", ">") } else { " " };
         let role = if chosen { Role::Chosen } else { Role::Text };
         let asked = lesson.beats.iter().filter(|beat| beat.question.is_some());

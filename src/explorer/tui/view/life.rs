@@ -33,7 +33,7 @@ pub(super) fn render(
     areas: &Areas,
     buffer: &mut Buffer,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let inner = panel(
         app,
         areas,
@@ -54,7 +54,7 @@ pub(super) fn render(
         area: inner,
         next: 0,
     };
-    if app.setup.scene.life.is_none() {
+    if app.run.setup.scene.life.is_none() {
         return without_life(app, &mut rows, buffer);
     }
     let roomy = inner.height >= 20;
@@ -72,11 +72,11 @@ pub(super) fn render(
     }
     mechanisms::mechanisms(app, &mut rows, buffer);
     if roomy {
-        mechanisms::scale(app.theme, rows.take(1), buffer);
+        mechanisms::scale(app.view.theme, rows.take(1), buffer);
     }
     counts::counts(app, &mut rows, buffer);
     counts::other_count(app, &mut rows, buffer);
-    if app.pinned.is_some() {
+    if app.view.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }
     curve::render(app, rows.rest(), buffer)
@@ -88,7 +88,7 @@ fn without_life(
     rows: &mut RowAllotment,
     buffer: &mut Buffer,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
-    let dim = app.theme.style(Role::Dim);
+    let dim = app.view.theme.style(Role::Dim);
     let words = ["no life in this scene", "(no [life] table)"];
     for text in words {
         put(rows.take(1), 0, &Line::styled(text, dim), buffer);

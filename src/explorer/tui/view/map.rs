@@ -31,19 +31,19 @@ use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 const BAR: u16 = 8;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let (theme, title) = (app.theme, heading(app, areas));
+    let (theme, title) = (app.view.theme, heading(app, areas));
     let inner = panel(app, areas, PanelKind::Map, title, buffer);
     let Some(frame) = app.frame() else {
         waiting(app, inner, buffer);
         return None;
     };
-    if app.map == MapKind::Profile {
+    if app.view.map == MapKind::Profile {
         return profile::side_view(app, frame, inner, buffer);
     }
     let (picture, bar) = split(areas, inner);
     let look = look(app);
     let window = window(app, frame, picture);
-    let image = image_area(app.map, &window, picture);
+    let image = image_area(app.view.map, &window, picture);
     if image.is_empty() {
         return None;
     }
@@ -51,7 +51,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
     match picture_of(app, frame, &window, pixels) {
         // Its room stays blank: the terminal's own pixels come there.
         Some(_) if app.is_in_pixels() => {}
-        Some(raster) => paint(theme, &raster, &look, &window, app.map, image, buffer),
+        Some(raster) => paint(theme, &raster, &look, &window, app.view.map, image, buffer),
         None => put(
             image,
             image.height / 2,
@@ -63,7 +63,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
         ),
     }
     if !app.is_in_pixels() {
-        let marks = [(point_at(app, frame), "◆"), (app.probe, "╋")];
+        let marks = [(point_at(app, frame), "◆"), (app.view.probe, "╋")];
         for (at, symbol) in marks {
             if let Some(at) = at {
                 place(app, &window, image, at, symbol, buffer);
@@ -71,7 +71,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
         }
     }
     axes::draw(app, frame, &window, (image, inner), buffer);
-    color_bar(theme, &look, app.map, bar, buffer);
+    color_bar(theme, &look, app.view.map, bar, buffer);
     motion(app, frame, areas, inner, buffer);
     probe(app, frame, (picture, image), buffer);
     None
@@ -80,20 +80,20 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
 /// The cells that the map fills.
 pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
     let frame = app.frame()?;
-    if app.map == MapKind::Profile {
+    if app.view.map == MapKind::Profile {
         let (area, _) = profile::rooms(inside(areas, areas.map));
         return Some(area).filter(|area| !area.is_empty());
     }
     let (picture, _) = split(areas, inside(areas, areas.map));
     let window = window(app, frame, picture);
-    Some(image_area(app.map, &window, picture)).filter(|image| !image.is_empty())
+    Some(image_area(app.view.map, &window, picture)).filter(|image| !image.is_empty())
 }
 
 /// The map in pixels, so many for a cell.
 pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitmap> {
     let frame = app.frame()?;
     let area = room(app, areas)?;
-    if app.map == MapKind::Profile {
+    if app.view.map == MapKind::Profile {
         return profile::in_pixels(app, frame, area, cell);
     }
     let (picture, _) = split(areas, inside(areas, areas.map));
@@ -104,7 +104,7 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitma
     let raster = picture_of(app, frame, &window, (width, height))?;
     let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
     let rgba = places
-        .flat_map(|place| Pixel::of(&look, &raster, &window, app.map, place).rgba(&look))
+        .flat_map(|place| Pixel::of(&look, &raster, &window, app.view.map, place).rgba(&look))
         .collect();
     let mut picture = Bitmap {
         area,
@@ -114,7 +114,7 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitma
     };
     let marks = [
         (point_at(app, frame), MapMark::Diamond),
-        (app.probe, MapMark::Cross),
+        (app.view.probe, MapMark::Cross),
     ];
     for (at, mark) in marks {
         if let Some(at) = at {
@@ -131,9 +131,9 @@ fn picture_of(
     window: &MapWindow,
     pixels: (usize, usize),
 ) -> Option<Raster> {
-    let subject = app.map.subject();
+    let subject = app.view.map.subject();
     let picture = Picture::of(frame, subject, &app.ranges())?;
-    if !app.map.is_over_time() {
+    if !app.view.map.is_over_time() {
         return rasterize(&picture, window, pixels);
     }
     let span = app.waves()?;
@@ -145,7 +145,7 @@ fn picture_of(
 /// A press on the picture reads it there.
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let frame = app.frame()?;
-    if app.map == MapKind::Profile {
+    if app.view.map == MapKind::Profile {
         let profile = profile::of(app, frame)?;
         let (area, _) = profile::rooms(inside(areas, areas.map));
         let across = at.x >= area.x && at.x < area.right() && areas.map.contains(at);
@@ -155,7 +155,7 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
     }
     let (picture, _) = split(areas, inside(areas, areas.map));
     let window = window(app, frame, picture);
-    let image = image_area(app.map, &window, picture);
+    let image = image_area(app.view.map, &window, picture);
     image.contains(at).then(|| {
         let part = |place: u16, start: u16, length: u16| {
             (f64::from(place - start) + 0.5) / f64::from(length.max(1))
@@ -168,8 +168,8 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 }
 
 fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let text = match app.setup.scene.lubricant {
+    let theme = app.view.theme;
+    let text = match app.run.setup.scene.lubricant {
         Some(_) => "starting: dry Hertz, then film",
         None => "starting: dry Hertz",
     };
@@ -209,8 +209,8 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
     let (columns, pixels) = (f64::from(picture.width), 2.0 * f64::from(picture.height));
     let x_end = frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m;
     let domain = [frame.x_min_m / frame.a_m, x_end / frame.a_m];
-    if app.map.is_over_time() {
-        let x = match app.zoom {
+    if app.view.map.is_over_time() {
+        let x = match app.view.zoom {
             Zoom::Contact => [domain[0].max(-1.6), domain[1].min(1.4)],
             Zoom::Domain => domain,
         };
@@ -219,8 +219,8 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
             y: [-SHOWN, 0.0],
         };
     }
-    if app.map == MapKind::Stress {
-        let x = match app.zoom {
+    if app.view.map == MapKind::Stress {
+        let x = match app.view.zoom {
             Zoom::Contact => [domain[0].max(-1.8), domain[1].min(1.8)],
             Zoom::Domain => domain,
         };
@@ -229,26 +229,26 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
             .as_ref()
             .and_then(|slice| slice.depths_m.last())
             .map_or(1.0, |depth| depth / frame.a_m);
-        let depth = match app.zoom {
+        let depth = match app.view.zoom {
             Zoom::Contact => deepest.min(1.2),
             Zoom::Domain => deepest,
         };
         return MapWindow { x, y: [0.0, depth] };
     }
     let half = (-frame.y_min_m / frame.b_m).abs().max(0.1);
-    let least = match app.zoom {
+    let least = match app.view.zoom {
         Zoom::Contact => half.min(1.15),
         Zoom::Domain => half,
     };
     // As many half-widths per pixel as it takes to show the ellipse; then as much as fits.
-    let wanted_x = match app.zoom {
+    let wanted_x = match app.view.zoom {
         Zoom::Contact => (domain[1] - domain[0]).min(2.6),
         Zoom::Domain => domain[1] - domain[0],
     };
     let scale = (2.0 * least / pixels.max(1.0)).max(wanted_x / columns.max(1.0));
     let across = (0.5 * scale * pixels).min(half);
     let along = scale * columns;
-    let x = match app.zoom {
+    let x = match app.view.zoom {
         // The contact stays in the middle of the panel.
         Zoom::Contact => [domain[0].max(-0.5 * along), domain[1].min(0.5 * along)],
         Zoom::Domain => domain,
@@ -282,7 +282,7 @@ fn image_area(map: MapKind, window: &MapWindow, picture: Rect) -> Rect {
 /// Where the material point is: on the centre line, at its depth, or now.
 fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
     let point = app.point_now()?;
-    let y = match app.map {
+    let y = match app.view.map {
         MapKind::Stress => point.depth_m / frame.a_m,
         // Now is the last row.
         MapKind::PressureWaves | MapKind::FilmWaves => -1e-9,
@@ -299,7 +299,7 @@ fn place(
     symbol: &'static str,
     buffer: &mut Buffer,
 ) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let part = |value: f64, range: [f64; 2]| (value - range[0]) / (range[1] - range[0]);
     let (along, down) = (part(x, window.x), part(y, window.y));
     if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
@@ -329,26 +329,26 @@ fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
 
 /// The values at the probe, on the last row of the picture.
 fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), buffer: &mut Buffer) {
-    let Some((x, y)) = app.probe else { return };
-    let theme = app.theme;
+    let Some((x, y)) = app.view.probe else { return };
+    let theme = app.view.theme;
     let pressure_and_film = |(pressure, film): (f32, f32)| {
-        let (p, h) = (app.units.pressure(), app.units.film());
+        let (p, h) = (app.view.units.pressure(), app.view.units.film());
         format!(
             "p {}  h {}",
             p.show(f64::from(pressure), 3),
             h.show(f64::from(film), 3)
         )
     };
-    let text = if app.map.is_over_time() {
+    let text = if app.view.map.is_over_time() {
         waves_at(app, frame, x, -y).map(|values| {
             let values = pressure_and_film(values);
             format!("x {x:.2} a  {:.2} a ago  {values}", -4.0 * y)
         })
-    } else if app.map == MapKind::Stress {
+    } else if app.view.map == MapKind::Stress {
         raster::stress_at(frame, x, y).map(|stress| {
             format!(
                 "x {x:.2} a  z {y:.2} a  σ {}",
-                app.units.pressure().show(f64::from(stress), 3)
+                app.view.units.pressure().show(f64::from(stress), 3)
             )
         })
     } else {

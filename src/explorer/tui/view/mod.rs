@@ -35,17 +35,17 @@ pub use areas::{Areas, Banner, LEAST, LEAST_NARROW, PanelSpacing};
 /// The panels of the screen as it is now.
 fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
     let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
-    let areas = areas.with_picture(app.focus);
+    let areas = areas.with_picture(app.view.focus);
     let areas = if app.why().is_some() {
         areas.with_a_line()
     } else {
         areas
     };
-    let areas = match app.enlarged {
+    let areas = match app.view.enlarged {
         Some(panel) => areas.enlarged(panel),
         None => areas,
     };
-    Some(match &app.ghost {
+    Some(match &app.view.frozen {
         Some(_) => areas.with_two_maps(),
         None => areas,
     })
@@ -60,7 +60,7 @@ pub fn draw(app: &App, frame: &mut Frame<'_>) {
 /// Draws the whole screen into a buffer; gives the curves that it leaves to a page, which draws them as lines.
 pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
     let plots = draw_panels(app, screen, buffer);
-    if let Some(page) = app.theme.page() {
+    if let Some(page) = app.view.theme.page() {
         on_page(page, screen, buffer);
     }
     plots
@@ -98,7 +98,12 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
             PanelKind::Point => plots.extend(point::render(app, &areas, buffer)),
         }
     }
-    if let Some(ghost) = app.ghost.as_ref().filter(|_| !areas.frozen.is_empty()) {
+    if let Some(ghost) = app
+        .view
+        .frozen
+        .as_ref()
+        .filter(|_| !areas.frozen.is_empty())
+    {
         let map = areas.frozen;
         map::render(ghost, &Areas { map, ..areas }, buffer);
     }
@@ -111,7 +116,7 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
         y: screen.y + 1,
         ..screen
     };
-    match (app.fault(), app.overlay) {
+    match (app.fault(), app.view.overlay) {
         (Some(reason), _) => overlay::fault(app, reason, body, buffer),
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
@@ -150,7 +155,7 @@ fn banner(caption: Option<&caption::Caption>, screen: Rect) -> Banner {
 pub fn pointed(app: &App, screen: Rect, pointer: Pointer) -> Option<Action> {
     let areas = areas_of(app, screen)?;
     let at = Position::new(pointer.column, pointer.row);
-    if app.overlay != Overlay::None {
+    if app.view.overlay != Overlay::None {
         let closes = matches!(pointer.act, PointerAct::Press | PointerAct::SecondPress);
         return closes.then_some(Action::Close);
     }
@@ -180,7 +185,7 @@ fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
         });
     }
     let place = knobs::under(app, areas, at)?;
-    Some(if place == app.chosen {
+    Some(if place == app.choice.chosen {
         Action::Turn(by)
     } else {
         Action::Choose(place)
@@ -193,18 +198,18 @@ fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
         screen.width, screen.height, LEAST.0, LEAST.1, LEAST_NARROW.0, LEAST_NARROW.1
     );
     Paragraph::new(text)
-        .style(app.theme.style(Role::Warn))
+        .style(app.view.theme.style(Role::Warn))
         .wrap(Wrap { trim: true })
         .render(screen, buffer);
 }
 
 /// Draws a panel's frame and gives the room inside; the frame of the one that the keys speak of stands out.
 fn panel(app: &App, areas: &Areas, kind: PanelKind, title: Line<'_>, buffer: &mut Buffer) -> Rect {
-    let (theme, area) = (app.theme, areas.of_panel(kind));
-    let (role, key) = match app.enlarged {
+    let (theme, area) = (app.view.theme, areas.of_panel(kind));
+    let (role, key) = match app.view.enlarged {
         Some(_) => (Role::Key, " Esc "),
-        None if app.is_frozen => (Role::Formula, ""),
-        None if app.focus == kind => (Role::Key, " ⏎ "),
+        None if app.view.is_frozen => (Role::Formula, ""),
+        None if app.view.focus == kind => (Role::Key, " ⏎ "),
         None => (Role::Border, ""),
     };
     let has_room = title.width() + key.chars().count() + 2 < usize::from(area.width);

@@ -21,7 +21,7 @@ pub(super) fn boxed(
     role: Role,
     buffer: &mut Buffer,
 ) -> Rect {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let (width, height) = (width.min(within.width), height.min(within.height));
     let area = Rect {
         x: within.x + (within.width - width) / 2,
@@ -65,7 +65,7 @@ pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
     let rows = (lines.len() as u16).div_ceil(columns).min(most);
     let hidden = (lines.len() as u16).saturating_sub(columns * rows);
     let title = if hidden > 0 {
-        app.theme.pick(
+        app.view.theme.pick(
             "keys (↑↓ for more, ? closes)",
             "keys (up, down for more, ? closes)",
         )
@@ -81,7 +81,7 @@ pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
         buffer,
     );
     let each = inner.width / columns;
-    let shown = lines.iter().skip(usize::from(app.scroll.min(hidden)));
+    let shown = lines.iter().skip(usize::from(app.view.scroll.min(hidden)));
     for (place, (_, line)) in shown.enumerate() {
         let (column, row) = (place as u16 / rows.max(1), place as u16 % rows.max(1));
         if column < columns {
@@ -103,7 +103,7 @@ enum HelpHeading {
 }
 
 fn help_lines(app: &App) -> Vec<(HelpHeading, Line<'static>)> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let heading = |name: &'static str| {
         let line = Line::styled(name, theme.style(Role::Title));
         (HelpHeading::Yes, line)
@@ -147,19 +147,19 @@ fn offered(app: &App, action: Action) -> bool {
 }
 
 fn ascii_keys(app: &App, keys: &str) -> String {
-    if !app.theme.is_ascii() {
+    if !app.view.theme.is_ascii() {
         return keys.to_owned();
     }
     let plain = keys
         .replace("↑↓", "up dn")
         .replace("⇧←→ ", "")
         .replace("←→", "lt rt");
-    ascii_text(app.theme, &plain)
+    ascii_text(app.view.theme, &plain)
 }
 
 /// What is computed, what is not, and why.
 pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let mut lines = Vec::new();
     let cautions = app.cautions();
     if !cautions.is_empty() {
@@ -171,12 +171,12 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
         );
         lines.push(Line::default());
     }
-    if !app.setup.left_out.is_empty() {
+    if !app.run.setup.left_out.is_empty() {
         lines.push(Line::styled(
             "Not modelled or not needed",
             theme.style(Role::Warn),
         ));
-        for left in &app.setup.left_out {
+        for left in &app.run.setup.left_out {
             lines.push(Line::from(vec![
                 Span::styled(
                     format!("  {}: ", ascii_text(theme, left.stage)),
@@ -188,7 +188,8 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
         lines.push(Line::default());
     }
     lines.extend(
-        app.setup
+        app.run
+            .setup
             .plan_text
             .lines()
             .map(|line| Line::raw(ascii_text(theme, line))),
@@ -210,7 +211,7 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
         "plan (i closes)"
     };
     let inner = boxed(app, within, (wide, tall), title, Role::Key, buffer);
-    let shown = rows.iter().skip(usize::from(app.scroll.min(hidden)));
+    let shown = rows.iter().skip(usize::from(app.view.scroll.min(hidden)));
     for (row, line) in (0..inner.height).zip(shown) {
         put(inner, row, line, buffer);
     }
@@ -257,7 +258,7 @@ fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
 
 /// Words that are too long for the last line, in a box at the foot of the screen.
 pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) -> Rect {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let wide = 100.min(screen.width);
     let text = text.lines().map(|line| ascii_text(theme, line));
     let columns = usize::from(wide.saturating_sub(4)).max(1);
@@ -300,7 +301,7 @@ fn wrapped(line: &str, columns: usize) -> Vec<String> {
 
 /// An engine that failed.
 pub(super) fn fault(app: &App, reason: &str, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let wide = 76.min(within.width);
     let rows = reason.chars().count() as u16 / wide.saturating_sub(6).max(1) + 1;
     let size = (wide, rows + 6);

@@ -16,11 +16,11 @@ use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_
 use asperity_engine::sim::{Frame, Stage};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let inner = panel(app, areas, PanelKind::Point, heading(app), buffer);
     let frame = app.frame()?;
     let Some(point) = app.point_now() else {
-        let text = match (frame.stage, &app.setup.scene.stress) {
+        let text = match (frame.stage, &app.run.setup.scene.stress) {
             (_, None) => "no stress is computed in this scene, so no material point is followed",
             (Stage::StartUp, _) => "followed once the passage begins",
             (Stage::Passage, _) => "no material point is followed",
@@ -116,8 +116,8 @@ pub(super) fn dragged(areas: &Areas, at: Position) -> Option<Action> {
 }
 
 fn heading(app: &App) -> Line<'static> {
-    let theme = app.theme;
-    let name = match app.quantity {
+    let theme = app.view.theme;
+    let name = match app.view.point_quantity {
         PointQuantity::Pressure => "material point: pressure on it",
         PointQuantity::Excess => "material point: pressure on it less Hertz's",
         PointQuantity::Shear => "material point: shear below it",
@@ -125,7 +125,7 @@ fn heading(app: &App) -> Line<'static> {
     };
     let mut line = title(theme, "p", name);
     if let Some(point) = app.point_now() {
-        let depth = app.units.length().show(point.depth_m, 2);
+        let depth = app.view.units.length().show(point.depth_m, 2);
         let note = format!("body {}, {depth} deep ", point.body);
         let note = ascii_text(theme, &note);
         line.push_span(Span::styled("P ", theme.style(Role::Key)));
@@ -135,15 +135,15 @@ fn heading(app: &App) -> Line<'static> {
 }
 
 fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let role = if point.body == 2 {
         Role::Body2
     } else {
         Role::Body1
     };
-    let pressure = app.units.pressure();
+    let pressure = app.view.units.pressure();
     let sample = point.sample;
-    let crossing = if app.replay.is_some() {
+    let crossing = if app.replay.playing.is_some() {
         "in this crossing"
     } else {
         "crossing before"
@@ -203,11 +203,11 @@ fn hertz_pa(x: f64, frame: &Frame) -> f64 {
 }
 
 fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let range = range(app, frame);
     let mut chart = CurvePanel::of(app, plot.area, plot.x, range);
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
-    let quantity = app.quantity;
+    let quantity = app.view.point_quantity;
     let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
         samples
             .iter()
@@ -233,15 +233,15 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) -> Opti
         });
         chart.line(frozen_points, pen(Role::Formula, ','));
     }
-    chart.line(points(app.trace.before()), pen(Role::Border, '.'));
+    chart.line(points(app.replay.trace.before()), pen(Role::Border, '.'));
     let role = match quantity {
         PointQuantity::Pressure | PointQuantity::Excess => Role::Pressure,
         PointQuantity::Shear => Role::Shear,
         PointQuantity::Effective => Role::Peaks,
     };
-    chart.line(points(app.trace.current()), pen(role, '*'));
+    chart.line(points(app.replay.trace.current()), pen(role, '*'));
     let curves = chart.render(theme.is_ascii(), buffer);
-    if let Some(last) = app.trace.current().last() {
+    if let Some(last) = app.replay.trace.current().last() {
         let row = row_of(plot.area, range, value(quantity, last, frame));
         mark(
             app,
@@ -258,9 +258,9 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) -> Opti
 
 /// The crossing that was frozen, and the frame beside it.
 fn ghost(app: &App) -> Option<(&[TraceSample], &Frame)> {
-    let ghost = app.ghost.as_ref()?;
+    let ghost = app.view.frozen.as_ref()?;
     let frame = ghost.frame()?;
-    let (before, current) = (ghost.trace.before(), ghost.trace.current());
+    let (before, current) = (ghost.replay.trace.before(), ghost.replay.trace.current());
     let whole = if before.is_empty() { current } else { before };
     Some((whole, frame))
 }
@@ -270,16 +270,21 @@ const X_RANGE: [f64; 2] = [-1.5, 1.5];
 
 /// The scale of the trace itself: this crossing and the one before, so that small teeth are seen.
 fn range(app: &App, frame: &Frame) -> [f64; 2] {
-    let samples = app.trace.before().iter().chain(app.trace.current());
-    let values = samples.map(|sample| value(app.quantity, sample, frame).abs());
+    let samples = app
+        .replay
+        .trace
+        .before()
+        .iter()
+        .chain(app.replay.trace.current());
+    let values = samples.map(|sample| value(app.view.point_quantity, sample, frame).abs());
     let frozen = ghost(app).into_iter().flat_map(|(samples, frame)| {
         let frozen = samples.iter();
-        frozen.map(|sample| value(app.quantity, sample, frame).abs())
+        frozen.map(|sample| value(app.view.point_quantity, sample, frame).abs())
     });
     let reached = nice_ceiling(values.chain(frozen).fold(0.0, f64::max));
     // Nothing yet, or next to nothing: a part of Hertz's pressure.
     let most = reached.max(0.02 * frame.p_hertz_pa).max(1.0);
-    match app.quantity {
+    match app.view.point_quantity {
         PointQuantity::Pressure => [0.0, most.max(frame.p_hertz_pa)],
         PointQuantity::Effective => [0.0, most],
         PointQuantity::Shear | PointQuantity::Excess => [-most, most],
@@ -290,7 +295,7 @@ fn range(app: &App, frame: &Frame) -> [f64; 2] {
 fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) {
     let (area, range) = (plot.area, range(app, frame));
     let mut free_from = 0;
-    for tick in app.trace.ticks() {
+    for tick in app.replay.trace.ticks() {
         let x = tick.x_m / frame.a_m;
         let Some(column) = column_of(plot, x) else {
             continue;
@@ -299,15 +304,16 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) 
         let number = tick.number.to_string();
         let width = number.len() as u16;
         let first = (column.saturating_sub((width - 1) / 2)).min(area.right() - width);
-        let Some(sample) = nearest(app.trace.current(), tick.x_m) else {
+        let Some(sample) = nearest(app.replay.trace.current(), tick.x_m) else {
             continue;
         };
         if first < free_from {
             continue;
         }
         // Above the curve, or on it where it touches the top.
-        let row = row_of(area, range, value(app.quantity, sample, frame)).saturating_sub(1);
-        let line = Line::styled(number, app.theme.style(Role::Cycles));
+        let row =
+            row_of(area, range, value(app.view.point_quantity, sample, frame)).saturating_sub(1);
+        let line = Line::styled(number, app.view.theme.style(Role::Cycles));
         buffer.set_line(first, area.y + row, &line, width);
         free_from = first + width + 1;
     }
@@ -346,14 +352,14 @@ fn mark(
     };
     let ascii = if symbol == "◆" { "X" } else { "|" };
     if let Some(cell) = buffer.cell_mut((column, plot.area.y + row)) {
-        cell.set_symbol(app.theme.pick(symbol, ascii))
-            .set_style(app.theme.style(role));
+        cell.set_symbol(app.view.theme.pick(symbol, ascii))
+            .set_style(app.view.theme.style(role));
     }
 }
 
 fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let pressure = app.units.pressure();
+    let theme = app.view.theme;
+    let pressure = app.view.units.pressure();
     let dim = theme.style(Role::Dim);
     let left = Rect {
         x: plot.x.saturating_sub(6),
@@ -372,8 +378,8 @@ fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, buffer: &mut Buffer)
     if plot.height >= 4 {
         put_right(left, 1, &Line::styled(pressure.name, dim), buffer);
     }
-    if app.quantity != PointQuantity::Pressure && plot.height >= 5 {
-        let depth = app.units.length().show(depth_m, 2);
+    if app.view.point_quantity != PointQuantity::Pressure && plot.height >= 5 {
+        let depth = app.view.units.length().show(depth_m, 2);
         let text = ascii_text(theme, &format!("at depth {depth}"));
         put_right(plot, 0, &Line::styled(text, dim), buffer);
     }

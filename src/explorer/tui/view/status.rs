@@ -22,12 +22,12 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let area = areas.status;
     let mut row = 0;
     if let Some(why) = app.why() {
-        let text = ascii_text(app.theme, &why.in_columns(usize::from(area.width) - 2));
+        let text = ascii_text(app.view.theme, &why.in_columns(usize::from(area.width) - 2));
         let role = match why.of {
             Leading::Simulated => Role::Strong,
             Leading::Scaled | Leading::Formula => Role::Formula,
         };
-        let line = Line::styled(format!(" {text}"), app.theme.style(role));
+        let line = Line::styled(format!(" {text}"), app.view.theme.style(role));
         put(area, row, &line, buffer);
         row += 1;
     }
@@ -53,7 +53,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 }
 
 fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let mut spans = vec![Span::raw(" ")];
     let mut used = 1;
     for (text, role) in words {
@@ -75,7 +75,7 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         return vec![
             (format!("start-up {share:.0} %"), Role::Warn),
             (
-                match app.setup.scene.lubricant {
+                match app.run.setup.scene.lubricant {
                     Some(_) => "smooth film on finer and finer grids, then roughness",
                     None => "smooth contact on finer and finer grids, then roughness",
                 }
@@ -89,7 +89,7 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         (format!("step {}", frame.step), Role::Text),
     ];
     if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
-        let means = match app.setup.scene.life.as_ref().map(|life| life.cycles) {
+        let means = match app.run.setup.scene.life.as_ref().map(|life| life.cycles) {
             Some(CycleBasis::Damage) => ": its cycles never end",
             Some(_) => ": its life is not counted",
             None => "",
@@ -108,13 +108,13 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         };
         words.push((what, Role::Good));
     }
-    if let Some(replay) = &app.replay {
+    if let Some(replay) = &app.replay.playing {
         let speed = format!("replayed at 1/{} of its speed", sig(1.0 / replay.rate(), 2));
         words.push((speed, Role::Text));
     }
-    if let Some((done, all)) = app.sweep {
+    if let Some((done, all)) = app.lives.sweep {
         words.push((
-            format!("sweeping {} {done}/{all}", swept(app.sweeping)),
+            format!("sweeping {} {done}/{all}", swept(app.lives.sweeping)),
             Role::Warn,
         ));
     }
@@ -133,7 +133,7 @@ fn quality(app: &App, frame: &Frame) -> StatusWords {
         .lambda_ratio
         .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
     let shown = |word: &str, quantity: &Quantity, digits: i32, role: Role| {
-        let value = app.units.show(quantity, frame, digits);
+        let value = app.view.units.show(quantity, frame, digits);
         (format!("{word} {value}"), role)
     };
     let mut words = vec![
@@ -167,7 +167,7 @@ fn not_converged(app: &App, trouble: Trouble) -> String {
         }
         WhyUnconverged::Film(part) => format!("{part:.1e} of the film not balanced"),
         WhyUnconverged::Overlap(overlap_m) => {
-            let overlap = app.units.film().show(overlap_m, 2);
+            let overlap = app.view.units.film().show(overlap_m, 2);
             // A load turned by hand keeps the domain of the run's start; started anew the scene has one of its own.
             format!("surfaces overlap by {overlap}; e, Enter: wider domain")
         }
@@ -202,7 +202,7 @@ fn regime(metrics: &Metrics) -> (&'static str, Role) {
 }
 
 fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let recorder = recorder(app);
     let room = Rect {
         width: area.width.saturating_sub(recorder.width() as u16 + 1),

@@ -14,7 +14,7 @@ const FINE: usize = 120;
 const MOVES: f64 = 1.9;
 
 pub(super) fn figure(app: &App) -> CurveFigure {
-    match app.curve {
+    match app.view.curve {
         CurveKind::Life => life(app),
         CurveKind::Friction => friction(app),
         CurveKind::Stribeck => stribeck(app),
@@ -23,7 +23,7 @@ pub(super) fn figure(app: &App) -> CurveFigure {
 
 /// What a press at a place of the present curve's axis asks for.
 pub(super) fn goes_to(app: &App, x: f64) -> Action {
-    match app.curve {
+    match app.view.curve {
         CurveKind::Life | CurveKind::Friction => Action::GoTo(Knob::SlideRoll, x),
         CurveKind::Stribeck => {
             let [least, _] = axis(app, Knob::EntrainmentMS).0;
@@ -33,7 +33,7 @@ pub(super) fn goes_to(app: &App, x: f64) -> Action {
 }
 
 fn dial(app: &App, knob: Knob) -> Option<&Dial> {
-    app.dials.iter().find(|dial| dial.knob == knob)
+    app.choice.dials.iter().find(|dial| dial.knob == knob)
 }
 
 /// Range and target of a knob.
@@ -138,7 +138,7 @@ fn stribeck(app: &App) -> CurveFigure {
     } else {
         String::new()
     };
-    let unit = app.units.speed();
+    let unit = app.view.units.speed();
     CurveFigure {
         name: "Stribeck",
         formula: Vec::new(),

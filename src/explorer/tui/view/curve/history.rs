@@ -15,8 +15,8 @@ use crate::tui::view::{ascii_text, put};
 const LEAST: f64 = 0.17;
 
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let theme = app.theme;
-    let (Some(first), Some(last)) = (app.history.front(), app.history.back()) else {
+    let theme = app.view.theme;
+    let (Some(first), Some(last)) = (app.lives.history.front(), app.lives.history.back()) else {
         return None;
     };
     let plot = Rect {
@@ -38,7 +38,7 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Pixel
     if span <= 0.0 || plot.is_empty() {
         return None;
     }
-    let samples = app.history.iter();
+    let samples = app.lives.history.iter();
     let points = samples.map(|sample| (sample.passages, sample.life_relative.log10()));
     let (low, high) = points
         .clone()

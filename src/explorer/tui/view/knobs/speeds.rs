@@ -15,10 +15,10 @@ use asperity_engine::sim::{Quantity, named};
 
 /// Where there is room: both bodies' speeds, the contact's size, and what the letters mean.
 pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let Some(frame) = app.frame() else { return };
     let metrics = &frame.metrics;
-    let speed = app.units.speed();
+    let speed = app.view.units.speed();
     let (u1, u2) = speed_ratios(metrics.slide_roll);
     let sliding = (u2 - u1).abs();
     let specific = |own: f64| {
@@ -29,7 +29,7 @@ pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
             theme.pick("∞", "inf").to_owned()
         }
     };
-    let shown = |quantity: &Quantity, digits: i32| app.units.show(quantity, frame, digits);
+    let shown = |quantity: &Quantity, digits: i32| app.view.units.show(quantity, frame, digits);
     let mean = metrics.entrainment_m_s;
     let lines = [
         ("U₁ body 1", speed.show(mean * u1, 3), Role::Body1),
@@ -97,9 +97,9 @@ const WORDS: u16 = 22;
 
 /// What only a new run changes (`e`); the rows used.
 fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
-    let theme = app.theme;
-    let scene = &app.setup.scene;
-    let shown = |choice: Choice| choice.of_scene(scene, app.units);
+    let theme = app.view.theme;
+    let scene = &app.run.setup.scene;
+    let shown = |choice: Choice| choice.of_scene(scene, app.view.units);
     let lines = [
         ("lay 1, W/a", lay(app, 0), Role::Body1),
         ("lay 2, W/a", lay(app, 1), Role::Body2),
@@ -122,10 +122,10 @@ fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
 
 /// `transverse 0.43`.
 fn lay(app: &App, body: usize) -> String {
-    let scene = &app.setup.scene;
-    let lay = Choice::Lay(body).of_scene(scene, app.units);
+    let scene = &app.run.setup.scene;
+    let lay = Choice::Lay(body).of_scene(scene, app.view.units);
     match Choice::wave_m(scene, body) {
-        Some(wave_m) => format!("{lay} {}", sig(wave_m / app.setup.half_width_m, 2)),
+        Some(wave_m) => format!("{lay} {}", sig(wave_m / app.run.setup.half_width_m, 2)),
         None => lay,
     }
 }

@@ -12,19 +12,19 @@ use asperity_engine::scene::CycleBasis;
 
 /// n by formula beside n counted, for both bodies.
 pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let metrics = app.frame().map(|frame| frame.metrics.clone());
     let metrics = metrics.unwrap_or_default();
     let bodies = [
         (
             "n₁",
-            app.estimate.n_body_1,
+            app.lives.estimate.n_body_1,
             metrics.n_counted_body_1,
             Role::Body1,
         ),
         (
             "n₂",
-            app.estimate.n_body_2,
+            app.lives.estimate.n_body_2,
             metrics.n_counted_body_2,
             Role::Body2,
         ),
@@ -49,14 +49,14 @@ pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
 
 /// The life by the count that is not the headline's: the paper's, or that by damage.
 pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let (Some(life), Some(asked)) = (app.life(), &app.setup.scene.life) else {
+    let (Some(life), Some(asked)) = (app.life(), &app.run.setup.scene.life) else {
         return;
     };
     let (word, other) = match asked.cycles {
         CycleBasis::Damage => ("paper's count", life.detail.life_global),
         _ => ("by damage", life.detail.life_damage),
     };
-    let theme = app.theme;
+    let theme = app.view.theme;
     let line = Line::from(vec![
         Span::styled(format!("{word} "), theme.style(Role::Dim)),
         Span::styled(
@@ -69,7 +69,7 @@ pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffe
 
 /// "3.4 times shorter than pinned".
 pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let row = rows.take(1);
     let Some(ratio) = app.against_pinned() else {
         return;
@@ -94,14 +94,16 @@ pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
         Span::styled(format!("{times}{word}{than}"), theme.style(role)),
     ]);
     put(row, 0, &line, buffer);
-    let Some(pinned) = &app.pinned else { return };
+    let Some(pinned) = &app.view.pinned else {
+        return;
+    };
     if rows.rest().height >= 20 {
         let text = format!(
             "  pinned: {} {} at S {}, p_h {}",
             pinned.leading.name(),
             sig(pinned.life_relative, 2),
             sig(pinned.slide_roll, 2),
-            app.units.pressure().show(pinned.p_hertz_pa, 3)
+            app.view.units.pressure().show(pinned.p_hertz_pa, 3)
         );
         put(
             rows.take(1),

@@ -16,14 +16,18 @@ use asperity_engine::scene::ContactKind;
 /// third ends at the life; the fourth is what the load costs beside it.
 pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let now = app.leading_factors();
-    let pinned = app.pinned.map_or(1.0, |pinned| pinned.load_factor);
+    let pinned = app.view.pinned.map_or(1.0, |pinned| pinned.load_factor);
     let factors = [
         ("cycles", now.and_then(|now| now.cycle), Role::Cycles),
         ("peaks", now.map(|now| now.peak), Role::Peaks),
         ("traction", now.map(|now| now.traction), Role::Traction),
         ("load", now.map(|now| now.load / pinned), Role::Strong),
     ];
-    let ghost = app.ghost.as_ref().and_then(|ghost| ghost.leading_factors());
+    let ghost = app
+        .view
+        .frozen
+        .as_ref()
+        .and_then(|ghost| ghost.leading_factors());
     let frozen = |n: usize| {
         let of = ghost?;
         let row = [of.cycle, Some(of.peak), Some(of.traction), Some(of.load)];
@@ -35,9 +39,9 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
         let row = rows.take(1);
         let to = from * factor.unwrap_or(1.0);
         waterfall_value(app, row, (name, factor, role), buffer);
-        waterfall_bar(app.theme, row, [from, to], role, buffer);
+        waterfall_bar(app.view.theme, row, [from, to], role, buffer);
         if let Some(end) = frozen(n) {
-            waterfall_mark(app.theme, row, end, buffer);
+            waterfall_mark(app.view.theme, row, end, buffer);
         }
         from = to;
     }
@@ -49,13 +53,13 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
 
 /// What the load's factor is against.
 fn against(app: &App, row: Rect, buffer: &mut Buffer) {
-    let unit = match app.setup.scene.kind() {
-        ContactKind::Point => app.units.force(),
-        ContactKind::Line => app.units.force_per_length(),
+    let unit = match app.run.setup.scene.kind() {
+        ContactKind::Point => app.view.units.force(),
+        ContactKind::Line => app.view.units.force_per_length(),
     };
-    let (whose, load) = match app.pinned {
+    let (whose, load) = match app.view.pinned {
         Some(pinned) => ("pinned", pinned.load_n),
-        None => ("the scene's", app.setup.load_n),
+        None => ("the scene's", app.run.setup.load_n),
     };
     // A load that is cut is another load.
     let load = unit.show(load, 3);
@@ -68,7 +72,10 @@ fn against(app: &App, row: Rect, buffer: &mut Buffer) {
     let Some(words) = forms.iter().find(fits) else {
         return;
     };
-    let line = Line::styled(ascii_text(app.theme, words), app.theme.style(Role::Dim));
+    let line = Line::styled(
+        ascii_text(app.view.theme, words),
+        app.view.theme.style(Role::Dim),
+    );
     put(row, 0, &line, buffer);
 }
 
@@ -81,7 +88,7 @@ fn waterfall_value(
     (name, factor, role): (&'static str, Option<f64>, Role),
     buffer: &mut Buffer,
 ) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     put(row, 0, &Line::styled(name, theme.style(role)), buffer);
     let value = ascii_text(theme, &format!("×{}", sig_or_dash(factor, 2)));
     let style = theme.style(Role::Strong);

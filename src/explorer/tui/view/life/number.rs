@@ -12,7 +12,7 @@ use crate::tui::view::{Areas, PanelSpacing, ascii_text, digits, put};
 
 /// What the number is, for the panel's title: where there is no room beside the figure, against what.
 pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
-    let times = app.theme.pick("× smooth rolling", "x smooth rolling");
+    let times = app.view.theme.pick("× smooth rolling", "x smooth rolling");
     match areas.life.width {
         _ if areas.density == PanelSpacing::Full => "relative life",
         24.. => "against smooth rolling",
@@ -22,7 +22,7 @@ pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
 
 /// The number itself.
 pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let role = match app.leading() {
         Leading::Simulated => Role::Strong,
         Leading::Scaled | Leading::Formula => Role::Formula,
@@ -30,7 +30,7 @@ pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let text = short(app.leading_life());
     let area = rows.take(digits::ROWS);
     if app.leading_life().is_none() {
-        let why = if app.estimate.formula.cycle.is_none() {
+        let why = if app.lives.estimate.formula.cycle.is_none() {
             "a body stands: no life"
         } else {
             "no estimate"
@@ -49,8 +49,8 @@ pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
 
 /// Which model and effective stress, and how far other choices would move the number.
 pub(super) fn model(app: &App, row: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let scene = &app.setup.scene;
+    let theme = app.view.theme;
+    let scene = &app.run.setup.scene;
     let (Some(life), Some(stress)) = (&scene.life, &scene.stress) else {
         return;
     };
@@ -98,7 +98,7 @@ fn source(app: &App) -> (&'static str, Role) {
 
 /// Beside the large figure: where the number comes from.
 fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let used = if theme.is_ascii() {
         used / 2 + 8
     } else {
@@ -123,7 +123,7 @@ fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
 
 /// The number's source, where it does not stand beside it; its band, and the other numbers as far as there is room.
 fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     if app.leading_life().is_none() {
         return Line::default();
     }
@@ -138,7 +138,7 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
             spans.push(Span::styled(text, theme.style(role)));
         }
     };
-    let formula = sig_or_dash(app.estimate.formula.life(), 2);
+    let formula = sig_or_dash(app.lives.estimate.formula.life(), 2);
     match (app.leading(), app.life()) {
         (Leading::Simulated, Some(life)) => {
             let (low, high) = (life.life_relative_low, life.life_relative_high);

@@ -25,7 +25,7 @@ fn column(value: f64, width: u16) -> u16 {
 
 /// The logarithmic scale with band, number, formula and pin.
 pub(super) fn scale(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let bar = rows.take(1);
     let width = bar.width;
     let mut mark = |value: f64, symbol: &'static str, style: Style| {
@@ -59,10 +59,10 @@ pub(super) fn scale(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
         }
         mark(life.life_relative, theme.pick("●", "O"), style);
     }
-    if let Some(estimate) = app.estimate.formula.life() {
+    if let Some(estimate) = app.lives.estimate.formula.life() {
         mark(estimate, theme.pick("◇", "f"), theme.style(Role::Formula));
     }
-    if let Some(pinned) = &app.pinned {
+    if let Some(pinned) = &app.view.pinned {
         mark(
             pinned.life_relative,
             theme.pick("▼", "P"),

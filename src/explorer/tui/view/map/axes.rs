@@ -49,13 +49,16 @@ pub(super) fn draw(
 }
 
 fn number(app: &App, cells: Rect, row: u16, text: &str, buffer: &mut Buffer) {
-    let line = Line::styled(ascii_text(app.theme, text), app.theme.style(Role::Dim));
+    let line = Line::styled(
+        ascii_text(app.view.theme, text),
+        app.view.theme.style(Role::Dim),
+    );
     put_right(cells, row - cells.y, &line, buffer);
 }
 
 /// x/a below the map.
 fn along(app: &App, window: &MapWindow, image: Rect, row: u16, buffer: &mut Buffer) {
-    let style = app.theme.style(Role::Dim);
+    let style = app.view.theme.style(Role::Dim);
     let mut free_from = image.x;
     for x in ticks(
         window.x[0],
@@ -113,10 +116,10 @@ struct Down {
 }
 
 fn down(app: &App, frame: &Frame) -> Down {
-    match app.map {
+    match app.view.map {
         MapKind::Stress => Down {
-            name: app.units.length().name,
-            per_window: app.units.length().of(frame.a_m),
+            name: app.view.units.length().name,
+            per_window: app.view.units.length().of(frame.a_m),
         },
         // The window counts passages of 4a.
         MapKind::PressureWaves | MapKind::FilmWaves => Down {

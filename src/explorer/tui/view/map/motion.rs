@@ -55,11 +55,11 @@ fn strip(
     row: Rect,
     buffer: &mut Buffer,
 ) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let style = theme.style(role);
     let body = if row.width >= 30 { "body " } else { "" };
     let label = Line::styled(format!("{body}{name} "), style);
-    let unit = app.units.speed();
+    let unit = app.view.units.speed();
     let value = if row.width >= 30 {
         format!(" {}", unit.show(speed_m_s, 3))
     } else {

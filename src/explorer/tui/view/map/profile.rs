@@ -20,12 +20,12 @@ const ROWS_WITH_TRACE: u16 = 14;
 /// The profile that the explorer shows of a frame.
 pub(super) fn of<'a>(app: &App, frame: &'a Frame) -> Option<SurfaceProfile<'a>> {
     let domain = SurfaceProfile::domain(frame);
-    let x = match app.zoom {
+    let x = match app.view.zoom {
         Zoom::Contact => [domain[0].max(-1.5), domain[1].min(1.4)],
         Zoom::Domain => domain,
     };
     let amplitude_m = frame.metrics.amplitude_1_m.max(frame.metrics.amplitude_2_m);
-    let scale = ProfileScale::of(&app.setup.scene, app.reached.film_m, amplitude_m);
+    let scale = ProfileScale::of(&app.run.setup.scene, app.run.axis_ends.film_m, amplitude_m);
     SurfaceProfile::new(frame, scale, x, &app.ranges())
 }
 
@@ -95,7 +95,7 @@ fn draw(
     (area, inner): (Rect, Rect),
     buffer: &mut Buffer,
 ) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let rows = usize::from(area.height) * if theme.paints() { 2 } else { 1 };
     let columns = if app.is_in_pixels() {
         Vec::new()
@@ -148,9 +148,9 @@ fn point_part(app: &App, (profile, frame): (&SurfaceProfile, &Frame)) -> Option<
 
 /// Heights at the left, x/a and what is what below.
 fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let dim = theme.style(Role::Dim);
-    let unit = app.units.film();
+    let unit = app.view.units.film();
     let left = Rect {
         x: inner.x,
         width: area.x - inner.x - 1,

@@ -80,7 +80,7 @@ impl MapKind {
         )
     }
 
-    pub(super) fn shifted(self, by: usize) -> Self {
+    pub(crate) fn shifted(self, by: usize) -> Self {
         let place = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
         Self::ALL[(place + by) % Self::ALL.len()]
     }
@@ -133,7 +133,7 @@ impl PanelKind {
         }
     }
 
-    pub(super) fn next(self, by: usize) -> Self {
+    pub(crate) fn next(self, by: usize) -> Self {
         let place = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
         Self::ALL[(place + by) % Self::ALL.len()]
     }
@@ -167,7 +167,7 @@ impl PointQuantity {
         }
     }
 
-    pub(super) fn next(self) -> Self {
+    pub(crate) fn next(self) -> Self {
         match self {
             Self::Pressure => Self::Excess,
             Self::Excess => Self::Shear,
@@ -190,7 +190,7 @@ pub enum CurveKind {
 }
 
 impl CurveKind {
-    pub(super) fn next(self) -> Self {
+    pub(crate) fn next(self) -> Self {
         match self {
             Self::Life => Self::Friction,
             Self::Friction => Self::Stribeck,
