@@ -7,6 +7,7 @@
 mod ramp;
 
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
 
 use asperity_picture::Ramp;
 use ramp::{map_index, nearest_index};
@@ -233,6 +234,25 @@ impl Theme {
         style
     }
 
+    /// Text in the characters that the terminal shows.
+    pub fn text(self, text: &str) -> String {
+        if self.is_ascii() {
+            ascii(text)
+        } else {
+            text.to_owned()
+        }
+    }
+
+    /// Text as a thing of that role.
+    pub fn span(self, text: impl AsRef<str>, role: Role) -> Span<'static> {
+        Span::styled(self.text(text.as_ref()), self.style(role))
+    }
+
+    /// The same as a line of its own.
+    pub fn line(self, text: impl AsRef<str>, role: Role) -> Line<'static> {
+        Line::from(self.span(text, role))
+    }
+
     /// A colour of a map, `t` from 0 to 1.
     pub fn map_color(self, ramp: Ramp, t: f32) -> Color {
         if self.capabilities.depth == ColorDepth::Indexed {
@@ -278,6 +298,37 @@ impl Theme {
             }
         }
     }
+}
+
+/// What only Unicode terminals show, in letters.
+fn ascii(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            'λ' => plain.push_str("lambda"),
+            'ζ' => plain.push_str("zeta"),
+            'µ' | 'μ' => plain.push('u'),
+            'σ' => plain.push_str("sigma"),
+            'τ' => plain.push_str("tau"),
+            '₁' => plain.push('1'),
+            '₂' => plain.push('2'),
+            '×' => plain.push('x'),
+            '→' => plain.push_str("->"),
+            '–' | '−' => plain.push('-'),
+            '≈' => plain.push('~'),
+            '≥' => plain.push_str(">="),
+            '≤' => plain.push_str("<="),
+            '±' => plain.push_str("+-"),
+            '·' => plain.push('.'),
+            '…' => plain.push_str("..."),
+            '⏎' => plain.push_str("CR"),
+            '◂' => plain.push('<'),
+            '▸' => plain.push('>'),
+            other if other.is_ascii() => plain.push(other),
+            _ => plain.push('?'),
+        }
+    }
+    plain
 }
 
 /// Of the light contrast.

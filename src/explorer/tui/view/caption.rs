@@ -1,15 +1,13 @@
 //! Under the top line: what a lesson, or the scene's script, says now.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::app::App;
 use crate::tui::lessons::{Beat, Claim, FoundAnswer, LessonQuestion, TourPhase, TourState};
 use crate::tui::theme::Role;
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::sheet::{Sheet, below, with_columns};
 
 /// Words to show.
 pub(super) struct Caption {
@@ -159,48 +157,27 @@ fn scripted(app: &App) -> Option<&str> {
         .map(|event| event.caption.as_str())
 }
 
-pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, caption: &Caption, area: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     for row in 0..area.height {
-        put(
-            area,
-            row,
-            &Line::styled(theme.pick("▌", "|"), theme.style(Role::Key)),
-            buffer,
-        );
+        sheet.text(area, row, theme.pick("▌", "|"), Role::Key);
     }
-    let text = Rect {
-        x: area.x + 2,
-        width: area.width.saturating_sub(4),
-        ..area
-    };
-    let hint = Line::styled(caption.hint, theme.style(Role::Dim));
-    let title = Span::styled(ascii_text(theme, &caption.title), theme.style(Role::Key));
-    let beside = Rect {
-        width: text.width.saturating_sub(hint.width() as u16),
-        ..text
-    };
-    let figures = Span::styled(
-        ascii_text(theme, &caption.figures),
-        theme.style(Role::Strong),
-    );
-    put(beside, 0, &Line::from(vec![title, figures]), buffer);
-    put_right(text, 0, &hint, buffer);
-    let below = Rect {
-        y: text.y + 1,
-        height: text.height.saturating_sub(1),
-        ..text
-    };
+    let text = with_columns(area, area.x + 2, area.width.saturating_sub(4));
+    let hint = theme.line(caption.hint, Role::Dim);
+    let title = theme.span(&caption.title, Role::Key);
+    let beside = with_columns(text, text.x, text.width.saturating_sub(hint.width() as u16));
+    let figures = theme.span(&caption.figures, Role::Strong);
+    sheet.line(beside, 0, &Line::from(vec![title, figures]));
+    sheet.line_right(text, 0, &hint);
+    let below = below(text, 1);
     let mut spans = Vec::new();
     for (text, role) in &caption.words {
         let style = match role {
             Role::Text => Style::default(),
             other => theme.style(*other),
         };
-        spans.push(Span::styled(ascii_text(theme, text), style));
+        spans.push(Span::styled(theme.text(text), style));
         spans.push(Span::raw(" "));
     }
-    Paragraph::new(Line::from(spans))
-        .wrap(Wrap { trim: true })
-        .render(below, buffer);
+    sheet.paragraph(below, Line::from(spans));
 }

@@ -1,28 +1,28 @@
 //! Centre, below: the figure that every text on lubrication has: pressure and film along the
 //! centre line, with the Hertz pressure behind them.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::app::{App, PanelKind, Zoom};
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
+use crate::tui::view::areas::Areas;
 use crate::tui::view::chart::{CurvePanel, Pen};
-use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
+use crate::tui::view::sheet::{Sheet, panel, title, with_columns, with_rows};
 use asperity_engine::sim::Frame;
 
 /// Columns of the numbers on either side.
 const AXIS: u16 = 5;
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
+pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
     let inner = panel(
         app,
         areas,
         PanelKind::CentreLine,
         heading(app, areas),
-        buffer,
+        sheet,
     );
     let frame = app.frame()?;
     if inner.height < 3 || inner.width < 2 * AXIS + 8 {
@@ -35,8 +35,8 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
         ..inner
     };
     let x = x_range(app, frame);
-    let curves = curves(app, frame, plot, x, buffer);
-    axes(app, inner, plot, x, buffer);
+    let curves = curves(app, frame, plot, x, sheet);
+    axes(app, inner, plot, x, sheet);
     curves
 }
 
@@ -50,7 +50,7 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
     };
     let mut line = title(theme, "", name);
     let entry = |mark: &'static str, text: &'static str, role: Role| {
-        Span::styled(format!("{mark}{text} "), theme.style(role))
+        theme.span(format!("{mark}{text} "), role)
     };
     line.push_span(entry(theme.pick("━", "p "), "pressure", Role::Pressure));
     let film = if theme.is_mono() { "╌" } else { "━" };
@@ -73,7 +73,7 @@ fn curves(
     frame: &Frame,
     plot: Rect,
     x: [f64; 2],
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) -> Option<PixelPlot> {
     let theme = app.view.theme;
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
@@ -94,7 +94,7 @@ fn curves(
     if let Some(point) = &frame.material_point {
         chart.upright(point.x_m / frame.a_m, pen(Role::Dim, ':'));
     }
-    chart.render(theme.is_ascii(), buffer)
+    chart.render(sheet)
 }
 
 /// The middle row of a field: x/a and the value over the range's end.
@@ -116,43 +116,22 @@ fn row<'a>(
     })
 }
 
-fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
+fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let (pressure, film) = (app.view.units.pressure(), app.view.units.film());
-    let left = Rect {
-        width: AXIS - 1,
-        ..inner
-    };
-    let right = Rect {
-        x: plot.right() + 1,
-        width: AXIS - 1,
-        ..inner
-    };
+    let left = with_columns(inner, inner.x, AXIS - 1);
+    let right = with_columns(inner, plot.right() + 1, AXIS - 1);
     let foot = plot.height - 1;
     for (row, part) in ticks(plot.height) {
         let p = tick(pressure.of(app.run.axis_ends.pressure_pa * part));
-        put_right(
-            left,
-            row,
-            &Line::styled(p, theme.style(Role::Pressure)),
-            buffer,
-        );
+        sheet.text_right(left, row, p, Role::Pressure);
         let h = tick(film.of(app.run.axis_ends.film_m * part));
-        put(
-            right,
-            row,
-            &Line::styled(h, theme.style(Role::Film)),
-            buffer,
-        );
+        sheet.text(right, row, h, Role::Film);
     }
-    let name = |text: &str, role| Line::styled(ascii_text(theme, text), theme.style(role));
-    put_right(left, foot + 1, &name(pressure.name, Role::Pressure), buffer);
-    put(right, foot + 1, &name(film.name, Role::Film), buffer);
-    let along = Rect {
-        y: plot.bottom(),
-        height: 1,
-        ..plot
-    };
+    let name = |text: &str, role| theme.line(text, role);
+    sheet.line_right(left, foot + 1, &name(pressure.name, Role::Pressure));
+    sheet.line(right, foot + 1, &name(film.name, Role::Film));
+    let along = with_rows(plot, plot.bottom(), 1);
     for mark in [-2.0, -1.0, 0.0, 1.0] {
         let part = (mark - x[0]) / (x[1] - x[0]);
         if !(0.0..=1.0).contains(&part) {
@@ -167,12 +146,8 @@ fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
         let column = column
             .saturating_sub(text.len() as u16 / 2)
             .min(plot.width.saturating_sub(text.len() as u16));
-        let at = Rect {
-            x: along.x + column,
-            width: text.len() as u16,
-            ..along
-        };
-        put(at, 0, &Line::styled(text, theme.style(Role::Dim)), buffer);
+        let at = with_columns(along, along.x + column, text.len() as u16);
+        sheet.text(at, 0, text, Role::Dim);
     }
 }
 

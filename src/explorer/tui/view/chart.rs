@@ -4,13 +4,13 @@
 //! without colours, and one character for all curves of a layer. With a shape for the dashes a `Canvas` would save 40 lines
 //! of 180.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use crate::tui::app::App;
 use crate::tui::pixels::{PixelCurve, PixelPlot};
 use crate::tui::theme::{Role, Theme};
+use crate::tui::view::sheet::Sheet;
 
 /// Bit of a dot in a Braille cell, `[row][column]`.
 const BITS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
@@ -162,25 +162,21 @@ impl CurvePanel {
     }
 
     /// Draws it, or gives it to the page; cells that no curve touched stay as they are.
-    pub(super) fn render(&mut self, ascii: bool, buffer: &mut Buffer) -> Option<PixelPlot> {
+    pub(super) fn render(&mut self, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
         if let Some(curves) = self.curves.take() {
             let area = self.area;
             return Some(PixelPlot { area, curves });
         }
+        let ascii = sheet.theme.is_ascii();
         for (place, cell) in self.cells.iter().enumerate() {
             if cell.dots == 0 {
                 continue;
             }
             let x = self.area.x + (place % usize::from(self.area.width)) as u16;
             let y = self.area.y + (place / usize::from(self.area.width)) as u16;
-            let letter = if ascii {
-                cell.letter
-            } else {
-                char::from_u32(0x2800 + u32::from(cell.dots)).unwrap_or('*')
-            };
-            if let Some(target) = buffer.cell_mut((x, y)) {
-                target.set_char(letter).set_style(cell.style);
-            }
+            let dots = char::from_u32(0x2800 + u32::from(cell.dots)).filter(|_| !ascii);
+            let symbol = dots.unwrap_or(cell.letter);
+            sheet.cell(x, y, symbol.encode_utf8(&mut [0; 4]), cell.style);
         }
         None
     }
@@ -244,10 +240,24 @@ impl CurvePanel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::theme::{Capabilities, ColorDepth, Glyphs};
+    use ratatui::buffer::Buffer;
 
     fn drawn(chart: &mut CurvePanel, ascii: bool) -> Vec<String> {
         let mut buffer = Buffer::empty(chart.area);
-        chart.render(ascii, &mut buffer);
+        let glyphs = if ascii {
+            Glyphs::Ascii
+        } else {
+            Glyphs::Unicode
+        };
+        let theme = Theme::new(Capabilities {
+            depth: ColorDepth::Mono,
+            glyphs,
+        });
+        chart.render(&mut Sheet {
+            theme,
+            buffer: &mut buffer,
+        });
         (0..chart.area.height)
             .map(|y| {
                 (0..chart.area.width)

@@ -3,16 +3,15 @@
 mod along;
 mod history;
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::App;
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::view::chart::{CurvePanel, Pen};
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::sheet::{Sheet, with_columns, with_rows};
 
 /// Rows from which a curve can be read, with its heading and its axis.
 const CURVE_ROWS: u16 = 7;
@@ -52,24 +51,24 @@ pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {
 }
 
 /// Draws what there is room for; says where the curve's plot is, and what it leaves to a page.
-pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> (Option<Rect>, Vec<PixelPlot>) {
-    let below = |rows: u16, from: u16| Rect {
-        y: area.y + from,
-        height: rows,
-        ..area
-    };
+pub(super) fn render(
+    app: &App,
+    area: Rect,
+    sheet: &mut Sheet<'_>,
+) -> (Option<Rect>, Vec<PixelPlot>) {
+    let below = |rows: u16, from: u16| with_rows(area, area.y + from, rows);
     let figure = || along::figure(app);
     if area.height >= CURVE_ROWS + 5 {
         let rows = (area.height / 3).clamp(4, 8);
         let curve = area.height - rows - 1;
-        let history = history::render(app, below(rows, 1 + curve), buffer);
-        let (plot, curve) = draw(app, &figure(), below(curve, 1), buffer);
+        let history = history::render(app, below(rows, 1 + curve), sheet);
+        let (plot, curve) = draw(app, &figure(), below(curve, 1), sheet);
         (Some(plot), history.into_iter().chain(curve).collect())
     } else if area.height > CURVE_ROWS {
-        let (plot, curve) = draw(app, &figure(), below(area.height - 1, 1), buffer);
+        let (plot, curve) = draw(app, &figure(), below(area.height - 1, 1), sheet);
         (Some(plot), curve.into_iter().collect())
     } else if area.height >= 2 {
-        let history = history::render(app, area, buffer);
+        let history = history::render(app, area, sheet);
         (None, history.into_iter().collect())
     } else {
         (None, Vec::new())
@@ -84,10 +83,10 @@ fn draw(
     app: &App,
     figure: &CurveFigure,
     area: Rect,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) -> (Rect, Option<PixelPlot>) {
     let theme = app.view.theme;
-    heading(app, figure, area, buffer);
+    heading(app, figure, area, sheet);
     let plot = Rect {
         x: area.x + AXIS,
         y: area.y + 1,
@@ -101,16 +100,16 @@ fn draw(
         let ends = band.into_iter().flatten().map(|y| (x, y));
         chart.line(ends, pen(app, Role::Good, '|'));
     }
-    let curves = chart.render(theme.is_ascii(), buffer);
+    let curves = chart.render(sheet);
     let simulated = theme.pick("•", "o");
     for &(x, y, _) in &figure.points {
-        spot(app, figure, plot, (x, y), (simulated, Role::Good), buffer);
+        spot(app, figure, plot, (x, y), (simulated, Role::Good), sheet);
     }
     if let Some(now) = figure.now {
         let here = (theme.pick("◉", "O"), Role::Strong);
-        spot(app, figure, plot, (figure.knob, now), here, buffer);
+        spot(app, figure, plot, (figure.knob, now), here, sheet);
     }
-    axes(app, figure, area, plot, buffer);
+    axes(app, figure, area, plot, sheet);
     (plot, curves)
 }
 
@@ -121,7 +120,7 @@ fn spot(
     plot: Rect,
     (x, y): (f64, f64),
     (symbol, role): (&'static str, Role),
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
     let (along, up) = (part(x, figure.x), part(y, figure.y));
@@ -133,25 +132,25 @@ fn spot(
         plot.x + cells(along, plot.width),
         plot.y + cells(1.0 - up, plot.height),
     );
-    if let Some(cell) = buffer.cell_mut(at) {
+    if let Some(cell) = sheet.buffer.cell_mut(at) {
         cell.set_symbol(symbol)
             .set_style(app.view.theme.style(role));
     }
 }
 
 /// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.
-fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
+fn heading(app: &App, figure: &CurveFigure, area: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let legend = |words: [&'static str; 2]| {
         let mut spans = vec![
-            Span::styled("y ", theme.style(Role::Key)),
-            Span::styled(format!("{} ", figure.name), theme.style(Role::Title)),
+            theme.span("y ", Role::Key),
+            theme.span(format!("{} ", figure.name), Role::Title),
         ];
         let marks = [("┄ ", ". ", Role::Formula), ("• ", "o ", Role::Good)];
         for ((mark, plain, role), word) in marks.into_iter().zip(words) {
             if role != Role::Formula || !figure.formula.is_empty() {
-                spans.push(Span::styled(theme.pick(mark, plain), theme.style(role)));
-                spans.push(Span::styled(word, theme.style(Role::Dim)));
+                spans.push(theme.span(theme.pick(mark, plain), role));
+                spans.push(theme.span(word, Role::Dim));
             }
         }
         Line::from(spans)
@@ -162,45 +161,37 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
     } else {
         legend(["form. ", "sim. "])
     };
-    put(area, 0, &heading, buffer);
+    sheet.line(area, 0, &heading);
     let Some((done, all)) = app.lives.sweep else {
         return;
     };
     let text = format!("{}{done}/{all}", theme.pick("↻ ", "@ "));
-    let line = Line::styled(text, theme.style(Role::Warn));
+    let line = theme.line(text, Role::Warn);
     let has_room = (heading.width() + line.width()) as u16 <= area.width;
-    put_right(area, u16::from(!has_room), &line, buffer);
+    sheet.line_right(area, u16::from(!has_room), &line);
 }
 
-fn axes(app: &App, figure: &CurveFigure, area: Rect, plot: Rect, buffer: &mut Buffer) {
+fn axes(app: &App, figure: &CurveFigure, area: Rect, plot: Rect, sheet: &mut Sheet<'_>) {
     let dim = app.view.theme.style(Role::Dim);
-    let word = |text: &str| Line::styled(ascii_text(app.view.theme, text), dim);
+    let word = |text: &str| Line::styled(app.view.theme.text(text), dim);
     let left = Rect {
         y: plot.y,
         width: AXIS - 1,
         height: plot.height,
         ..area
     };
-    put_right(left, 0, &word(&figure.y_ends[1]), buffer);
+    sheet.line_right(left, 0, &word(&figure.y_ends[1]));
     let last = plot.height.saturating_sub(1);
-    put_right(left, last, &word(&figure.y_ends[0]), buffer);
-    let foot = Rect {
-        y: plot.bottom(),
-        height: 1,
-        ..plot
-    };
+    sheet.line_right(left, last, &word(&figure.y_ends[0]));
+    let foot = with_rows(plot, plot.bottom(), 1);
     let [from, middle, to] = figure.foot.each_ref().map(|text| word(text));
-    put(foot, 0, &from, buffer);
-    put_right(foot, 0, &to, buffer);
+    sheet.line(foot, 0, &from);
+    sheet.line_right(foot, 0, &to);
     let width = middle.width() as u16;
     let taken = (from.width() + to.width() + 2) as u16 + width;
     if taken <= foot.width {
         let start = (foot.width / 2).saturating_sub(width / 2);
-        let centred = Rect {
-            x: foot.x + start.max(from.width() as u16 + 1),
-            width,
-            ..foot
-        };
-        put(centred, 0, &middle, buffer);
+        let centred = with_columns(foot, foot.x + start.max(from.width() as u16 + 1), width);
+        sheet.line(centred, 0, &middle);
     }
 }

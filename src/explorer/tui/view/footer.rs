@@ -8,7 +8,7 @@ use crate::tui::app::{App, ErrandKind, Overlay, PanelKind, RunPace};
 use crate::tui::choice::Form;
 use crate::tui::theme::Role;
 use crate::tui::units::bytes;
-use crate::tui::view::{Areas, ascii_text};
+use crate::tui::view::areas::Areas;
 use crate::tui::wiring::RecorderActivity;
 
 /// A key of the last line: what it is called, and what it asks for.
@@ -73,10 +73,10 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 fn left_out(app: &App, room: usize) -> String {
     let left_out = &app.run.setup.left_out;
     let stages: Vec<&str> = left_out.iter().map(|left| left.stage).collect();
-    let all = ascii_text(
-        app.view.theme,
-        &format!("not computed: {}", stages.join(", ")),
-    );
+    let all = app
+        .view
+        .theme
+        .text(&format!("not computed: {}", stages.join(", ")));
     if all.chars().count() + 4 <= room {
         all
     } else {
@@ -175,7 +175,7 @@ pub(super) fn recorder(app: &App) -> Line<'static> {
         skipped => format!("{skipped} skipped "),
     };
     Line::from(vec![
-        Span::styled(word, theme.style(role)),
+        theme.span(word, role),
         Span::styled(
             format!(
                 "{} {} frames {skipped}",

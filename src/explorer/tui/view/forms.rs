@@ -1,15 +1,13 @@
 //! The forms of another scene: what only a new run can change, and what its plan says.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Widget, Wrap};
+use ratatui::text::Line;
 
 use crate::tui::app::App;
 use crate::tui::choice::{Draft, Form};
 use crate::tui::theme::Role;
 use crate::tui::view::overlay::boxed;
-use crate::tui::view::{ascii_text, put};
+use crate::tui::view::sheet::{Sheet, with_rows};
 
 /// Columns of the box.
 const WIDE: u16 = 66;
@@ -17,7 +15,7 @@ const WIDE: u16 = 66;
 const BELOW: u16 = 5;
 
 /// The form that is open.
-pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
+pub(super) fn scene(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let Some(draft) = &app.choice.draft else {
         return;
@@ -28,18 +26,18 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
         Form::Point => "operating point (E closes, e scene)",
     };
     let size = (WIDE, rows.len() as u16 + BELOW + 1);
-    let inner = boxed(app, within, size, title, Role::Key, buffer);
+    let inner = boxed(app, within, size, title, Role::Key, sheet);
     // Where not all rows fit, the chosen one is among those that are seen.
     let seen = usize::from(inner.height.saturating_sub(BELOW - 1)).clamp(1, rows.len());
     let first = (draft.row + 1).saturating_sub(seen);
     for (place, row) in (first..rows.len()).take(seen).enumerate() {
-        put(inner, place as u16, &line_of(app, draft, row), buffer);
+        sheet.line(inner, place as u16, &line_of(app, draft, row));
     }
-    let below = Rect {
-        y: inner.y + seen as u16 + 1,
-        height: inner.height.saturating_sub(seen as u16 + 1),
-        ..inner
-    };
+    let below = with_rows(
+        inner,
+        inner.y + seen as u16 + 1,
+        inner.height.saturating_sub(seen as u16 + 1),
+    );
     let typed = draft
         .typed
         .as_ref()
@@ -59,13 +57,8 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
             "up, down: choose; left, right: change; =: type; 1-9: typical",
         ),
     };
-    let text = vec![
-        Line::styled(ascii_text(theme, &words), theme.style(role)),
-        Line::styled(keys, theme.style(Role::Dim)),
-    ];
-    Paragraph::new(text)
-        .wrap(Wrap { trim: true })
-        .render(below, buffer);
+    let text = vec![theme.line(&words, role), theme.line(keys, Role::Dim)];
+    sheet.paragraph(below, text);
 }
 
 /// Name and value of a row.
@@ -77,7 +70,7 @@ fn line_of(app: &App, draft: &Draft, row: usize) -> Line<'static> {
     let value = match &draft.typed {
         Some(typed) if chosen => format!("= {typed}_"),
         _ => {
-            let value = ascii_text(theme, &choice.shown(draft, app.view.units));
+            let value = theme.text(&choice.shown(draft, app.view.units));
             if chosen {
                 format!("{} {value} {}", theme.pick("◂", "<"), theme.pick("▸", ">"))
             } else {
@@ -86,7 +79,7 @@ fn line_of(app: &App, draft: &Draft, row: usize) -> Line<'static> {
         }
     };
     Line::from(vec![
-        Span::styled(format!("{:<22}", choice.name()), theme.style(role)),
-        Span::styled(value, theme.style(Role::Strong)),
+        theme.span(format!("{:<22}", choice.name()), role),
+        theme.span(value, Role::Strong),
     ])
 }

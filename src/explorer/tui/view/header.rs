@@ -1,43 +1,31 @@
 //! The top line: what runs, and the numbers that must be readable without help.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::app::{App, RunPace};
 use crate::tui::dial::Dial;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::sheet::{Sheet, with_columns};
 use crate::tui::wiring::Health;
 use asperity_engine::physics::estimate::speed_ratios;
 use asperity_engine::sim::{LubricationRegime, Stage, named};
 
-pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, area: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let numbers = numbers(app, area.width);
-    put_right(area, 0, &numbers, buffer);
+    sheet.line_right(area, 0, &numbers);
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
     let (mark, word, role) = state(app);
     let mut left = Line::from(vec![
-        Span::styled(" asperity ", theme.style(Role::Title)),
-        Span::styled(format!("{mark}{word} "), theme.style(role)),
+        theme.span(" asperity ", Role::Title),
+        theme.span(format!("{mark}{word} "), role),
     ]);
-    let title = ascii_text(theme, &title(app));
+    let title = theme.text(&title(app));
     let title = whole_words(&title, usize::from(room).saturating_sub(left.width() + 1));
-    left.push_span(Span::styled(
-        ascii_text(theme, &title),
-        theme.style(Role::Dim),
-    ));
-    put(
-        Rect {
-            width: room,
-            ..area
-        },
-        0,
-        &left,
-        buffer,
-    );
+    left.push_span(theme.span(&title, Role::Dim));
+    sheet.line(with_columns(area, area.x, room), 0, &left);
 }
 
 /// The scene's title, which may hold numbers; where knobs are no longer what they were, by a key, the scene's script or in what
@@ -135,14 +123,8 @@ fn numbers(app: &App, columns: u16) -> Line<'static> {
     }
     let mut spans = Vec::new();
     for (name, value, role) in pairs {
-        spans.push(Span::styled(
-            format!("{} ", ascii_text(theme, name)),
-            theme.style(Role::Dim),
-        ));
-        spans.push(Span::styled(
-            format!("{}  ", ascii_text(theme, &value)),
-            theme.style(role),
-        ));
+        spans.push(theme.span(format!("{} ", theme.text(name)), Role::Dim));
+        spans.push(theme.span(format!("{}  ", theme.text(&value)), role));
     }
     Line::from(spans)
 }

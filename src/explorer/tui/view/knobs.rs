@@ -2,7 +2,6 @@
 
 mod speeds;
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 
@@ -11,37 +10,34 @@ use crate::tui::app::{App, PanelKind};
 use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::sheet::{Sheet, inside, panel, title, with_columns, with_rows};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::Knob;
 pub(super) use speeds::{SPECIFIC, SYMBOLS};
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let heading = title(theme, theme.pick("↑↓←→", "hjkl"), "knobs");
-    let inner = panel(app, areas, PanelKind::Knobs, heading, buffer);
+    let inner = panel(app, areas, PanelKind::Knobs, heading, sheet);
     for (place, dial) in app.choice.dials.iter().enumerate() {
         let slot = slot(areas, place);
         if slot.is_empty() {
             break;
         }
-        name_and_value(app, place, dial, slot, buffer);
-        slider(app, place, dial, track(slot), buffer);
+        name_and_value(app, place, dial, slot, sheet);
+        slider(app, place, dial, track(slot), sheet);
         if slot.height >= 3 {
-            range(app, dial, slot, buffer);
+            range(app, dial, slot, sheet);
         }
         if slot.height >= 4 && slot.width + 4 >= WIDE {
-            typical(app, dial, slot, buffer);
+            typical(app, dial, slot, sheet);
         }
     }
     let used = app.choice.dials.len() as u16 * rows_each(areas);
     if inner.height > used + 3 {
-        let rest = Rect {
-            y: inner.y + used + 1,
-            height: inner.height - used - 1,
-            ..inner
-        };
-        speeds::speeds(app, rest, buffer);
+        let rest = with_rows(inner, inner.y + used + 1, inner.height - used - 1);
+        speeds::speeds(app, rest, sheet);
     }
 }
 
@@ -78,7 +74,7 @@ fn fraction(track: Rect, column: u16) -> f64 {
 const WIDE: u16 = 60;
 
 /// `3 0.10 micropitting_rig`: the digits, where they go, and what that is typical of.
-fn typical(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
+fn typical(app: &App, dial: &Dial, slot: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let unit = dial.unit(app.view.units);
     let mut spans = vec![Span::raw(" ")];
@@ -94,10 +90,10 @@ fn typical(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
         if used > usize::from(slot.width) {
             break;
         }
-        spans.push(Span::styled((n + 1).to_string(), theme.style(Role::Key)));
-        spans.push(Span::styled(words, theme.style(Role::Dim)));
+        spans.push(theme.span((n + 1).to_string(), Role::Key));
+        spans.push(theme.span(words, Role::Dim));
     }
-    put(slot, 3, &Line::from(spans), buffer);
+    sheet.line(slot, 3, &Line::from(spans));
 }
 
 fn rows_each(areas: &Areas) -> u16 {
@@ -115,29 +111,20 @@ fn slot(areas: &Areas, place: usize) -> Rect {
         PanelSpacing::Full => 1,
     };
     let frame = inside(areas, areas.knobs);
-    let inner = Rect {
-        x: frame.x + margin,
-        width: frame.width.saturating_sub(2 * margin),
-        ..frame
-    };
+    let inner = with_columns(
+        frame,
+        frame.x + margin,
+        frame.width.saturating_sub(2 * margin),
+    );
     let rows = rows_each(areas);
-    Rect {
-        y: inner.y + place as u16 * rows,
-        height: rows,
-        ..inner
-    }
-    .intersection(inner)
+    with_rows(inner, inner.y + place as u16 * rows, rows).intersection(inner)
 }
 
 fn track(slot: Rect) -> Rect {
-    Rect {
-        y: slot.y + 1,
-        height: slot.height.saturating_sub(1).min(1),
-        ..slot
-    }
+    with_rows(slot, slot.y + 1, slot.height.saturating_sub(1).min(1))
 }
 
-fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
+fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let value = value_line(app, dial);
     let chosen = place == app.choice.chosen;
@@ -147,26 +134,18 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
     let whole = dial.label.chars().count() < usize::from(room);
     let label = if whole { dial.label } else { dial.name() };
     let name = Line::from(vec![
-        Span::styled(mark, theme.style(Role::Chosen)),
-        Span::styled(ascii_text(theme, label), theme.style(role)),
+        theme.span(mark, Role::Chosen),
+        theme.span(label, role),
     ]);
-    put(
-        Rect {
-            width: room,
-            ..slot
-        },
-        0,
-        &name,
-        buffer,
-    );
-    put_right(slot, 0, &value, buffer);
+    sheet.line(with_columns(slot, slot.x, room), 0, &name);
+    sheet.line_right(slot, 0, &value);
 }
 
 /// `0.30 → 0.50` on the way, `0.50` there.
 fn value_line(app: &App, dial: &Dial) -> Line<'static> {
     let theme = app.view.theme;
     if let DialState::Dead(reason) = dial.life {
-        return Line::styled(reason, theme.style(Role::Dim));
+        return theme.line(reason, Role::Dim);
     }
     let unit = dial.unit(app.view.units);
     let digits = if dial.knob == Knob::SlideRoll { 2 } else { 3 };
@@ -174,17 +153,11 @@ fn value_line(app: &App, dial: &Dial) -> Line<'static> {
     let mut spans = Vec::new();
     if dial.is_moving() {
         let now = figure(dial, unit.of(dial.now), digits);
-        spans.push(Span::styled(
-            format!("{now}{}", theme.pick("→", ">")),
-            theme.style(Role::Warn),
-        ));
+        spans.push(theme.span(format!("{now}{}", theme.pick("→", ">")), Role::Warn));
     }
-    spans.push(Span::styled(target, theme.style(Role::Strong)));
+    spans.push(theme.span(target, Role::Strong));
     if !unit.name.is_empty() {
-        spans.push(Span::styled(
-            format!(" {}", ascii_text(theme, unit.name)),
-            theme.style(Role::Dim),
-        ));
+        spans.push(theme.span(format!(" {}", theme.text(unit.name)), Role::Dim));
     }
     Line::from(spans)
 }
@@ -197,7 +170,7 @@ fn figure(dial: &Dial, value: f64, digits: i32) -> String {
     }
 }
 
-fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer) {
+fn slider(app: &App, place: usize, dial: &Dial, track: Rect, sheet: &mut Sheet<'_>) {
     if track.is_empty() {
         return;
     }
@@ -220,7 +193,7 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer
         } else {
             (theme.pick("─", "-"), Role::Border)
         };
-        paint(track, offset, symbol, theme.style(role), buffer);
+        paint(track, offset, symbol, theme.style(role), sheet);
     }
     if dead {
         return;
@@ -231,24 +204,18 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer
             root,
             theme.pick("┼", "+"),
             theme.style(Role::Border),
-            buffer,
+            sheet,
         );
     }
     if now != target {
-        paint(
-            track,
-            now,
-            theme.pick("◆", "|"),
-            theme.style(filled),
-            buffer,
-        );
+        paint(track, now, theme.pick("◆", "|"), theme.style(filled), sheet);
     }
     paint(
         track,
         target,
         theme.pick("●", "O"),
         theme.style(Role::Strong),
-        buffer,
+        sheet,
     );
 }
 
@@ -257,16 +224,13 @@ fn paint(
     offset: u16,
     symbol: &str,
     style: ratatui::style::Style,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
-    if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
-        cell.set_symbol(symbol).set_style(style);
-    }
+    sheet.cell(track.x + offset, track.y, symbol, style);
 }
 
 /// Range of the slider; for the load the Hertz pressure, as that is what one thinks in.
-fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
-    let theme = app.view.theme;
+fn range(app: &App, dial: &Dial, slot: Rect, sheet: &mut Sheet<'_>) {
     let unit = dial.unit(app.view.units);
     if dial.life != DialState::Live {
         return;
@@ -282,19 +246,12 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
             ""
         };
         let text = format!("body {body} stands{more}");
-        put(
-            slot,
-            2,
-            &Line::styled(text, theme.style(Role::Warn)),
-            buffer,
-        );
+        sheet.text(slot, 2, text, Role::Warn);
         return;
     }
     if !is_load || slot.width >= 24 {
-        let ends = Line::styled(tick(unit.of(dial.min)), theme.style(Role::Dim));
-        put(slot, 2, &ends, buffer);
-        let end = Line::styled(tick(unit.of(dial.max)), theme.style(Role::Dim));
-        put_right(slot, 2, &end, buffer);
+        sheet.text(slot, 2, tick(unit.of(dial.min)), Role::Dim);
+        sheet.text_right(slot, 2, tick(unit.of(dial.max)), Role::Dim);
     }
     if is_load {
         let text = format!(
@@ -305,17 +262,12 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
                 .show(app.lives.estimate.p_hertz_pa, 3)
         );
         let width = text.len() as u16;
-        let middle = Rect {
-            x: slot.x + slot.width.saturating_sub(width) / 2,
-            width: width.min(slot.width),
-            ..slot
-        };
-        put(
-            middle,
-            2,
-            &Line::styled(text, theme.style(Role::Pressure)),
-            buffer,
+        let middle = with_columns(
+            slot,
+            slot.x + slot.width.saturating_sub(width) / 2,
+            width.min(slot.width),
         );
+        sheet.text(middle, 2, text, Role::Pressure);
     }
 }
 

@@ -1,20 +1,19 @@
 //! The list of lessons over the screen.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::view::overlay::boxed;
-use crate::tui::view::{ascii_text, put};
+use crate::tui::view::sheet::Sheet;
 
 /// The lessons: one of them begins.
-pub(super) fn lessons(app: &App, within: Rect, buffer: &mut Buffer) {
+pub(super) fn lessons(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let rows = app.lesson.all.len() as u16;
     let size = (66, rows + 4);
-    let inner = boxed(app, within, size, "lessons (t closes)", Role::Key, buffer);
+    let inner = boxed(app, within, size, "lessons (t closes)", Role::Key, sheet);
     for (place, lesson) in app.lesson.all.iter().enumerate() {
         let chosen = place == app.lesson.chosen;
         let mark = if chosen { theme.pick("▸", ">") } else { " " };
@@ -26,21 +25,16 @@ pub(super) fn lessons(app: &App, within: Rect, buffer: &mut Buffer) {
             " ".to_owned()
         };
         let line = Line::from(vec![
-            Span::styled(mark, theme.style(Role::Chosen)),
-            Span::styled(format!("{number} "), theme.style(Role::Key)),
-            Span::styled(ascii_text(theme, &lesson.title), theme.style(role)),
-            Span::styled(format!("  {} asked", asked.count()), theme.style(Role::Dim)),
+            theme.span(mark, Role::Chosen),
+            theme.span(format!("{number} "), Role::Key),
+            theme.span(&lesson.title, role),
+            theme.span(format!("  {} asked", asked.count()), Role::Dim),
         ]);
-        put(inner, place as u16, &line, buffer);
+        sheet.line(inner, place as u16, &line);
     }
     let keys = theme.pick(
         "↑↓ choose  Enter or a digit begins  T ends the lesson",
         "up, down: choose; Enter or a digit begins; T ends the lesson",
     );
-    put(
-        inner,
-        inner.height.saturating_sub(1),
-        &Line::styled(keys, theme.style(Role::Dim)),
-        buffer,
-    );
+    sheet.text(inner, inner.height.saturating_sub(1), keys, Role::Dim);
 }

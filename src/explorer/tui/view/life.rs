@@ -15,7 +15,9 @@ use crate::tui::action::Action;
 use crate::tui::app::{App, Leading, PanelKind};
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
-use crate::tui::view::{Areas, PanelSpacing, curve, panel, put, title};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::curve;
+use crate::tui::view::sheet::{Sheet, panel, title, with_columns, with_rows};
 
 /// A press on the curve against S goes there.
 pub(super) fn pressed(app: &App, areas: &Areas, screen: Rect, at: Position) -> Option<Action> {
@@ -23,7 +25,11 @@ pub(super) fn pressed(app: &App, areas: &Areas, screen: Rect, at: Position) -> O
         return None;
     }
     // Where the curve is depends on all that stands above it: as it is drawn.
-    let (plot, _) = render(app, areas, &mut Buffer::empty(screen));
+    let mut sheet = Sheet {
+        theme: app.view.theme,
+        buffer: &mut Buffer::empty(screen),
+    };
+    let (plot, _) = render(app, areas, &mut sheet);
     curve::pressed(app, plot?, at)
 }
 
@@ -31,7 +37,7 @@ pub(super) fn pressed(app: &App, areas: &Areas, screen: Rect, at: Position) -> O
 pub(super) fn render(
     app: &App,
     areas: &Areas,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
     let theme = app.view.theme;
     let inner = panel(
@@ -39,14 +45,10 @@ pub(super) fn render(
         areas,
         PanelKind::Life,
         title(theme, "", number::name(app, areas)),
-        buffer,
+        sheet,
     );
     let inner = if areas.density == PanelSpacing::Full {
-        Rect {
-            x: inner.x + 1,
-            width: inner.width.saturating_sub(2),
-            ..inner
-        }
+        with_columns(inner, inner.x + 1, inner.width.saturating_sub(2))
     } else {
         inner
     };
@@ -55,48 +57,48 @@ pub(super) fn render(
         next: 0,
     };
     if app.run.setup.scene.life.is_none() {
-        return without_life(app, &mut rows, buffer);
+        return without_life(app, &mut rows, sheet);
     }
     let roomy = inner.height >= 20;
     if roomy {
         rows.skip();
     }
-    number::figure(app, &mut rows, buffer);
-    validity::line(app, rows.take(1), buffer);
+    number::figure(app, &mut rows, sheet);
+    validity::line(app, rows.take(1), sheet);
     // Where rows are few the factors and counts say more than a scale.
     if inner.height >= 13 {
-        scale::scale(app, &mut rows, buffer);
+        scale::scale(app, &mut rows, sheet);
     }
     if roomy {
-        number::model(app, rows.take(1), buffer);
+        number::model(app, rows.take(1), sheet);
     }
-    mechanisms::mechanisms(app, &mut rows, buffer);
+    mechanisms::mechanisms(app, &mut rows, sheet);
     if roomy {
-        mechanisms::scale(app.view.theme, rows.take(1), buffer);
+        mechanisms::scale(app.view.theme, rows.take(1), sheet);
     }
-    counts::counts(app, &mut rows, buffer);
-    counts::other_count(app, &mut rows, buffer);
+    counts::counts(app, &mut rows, sheet);
+    counts::other_count(app, &mut rows, sheet);
     if app.view.pinned.is_some() {
-        counts::comparison(app, &mut rows, buffer);
+        counts::comparison(app, &mut rows, sheet);
     }
-    curve::render(app, rows.rest(), buffer)
+    curve::render(app, rows.rest(), sheet)
 }
 
 /// A scene that asks for no life: it is not waited for.
 fn without_life(
     app: &App,
     rows: &mut RowAllotment,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
     let dim = app.view.theme.style(Role::Dim);
     let words = ["no life in this scene", "(no [life] table)"];
     for text in words {
-        put(rows.take(1), 0, &Line::styled(text, dim), buffer);
+        sheet.line(rows.take(1), 0, &Line::styled(text, dim));
     }
-    validity::line(app, rows.take(1), buffer);
+    validity::line(app, rows.take(1), sheet);
     rows.skip();
-    counts::counts(app, rows, buffer);
-    curve::render(app, rows.rest(), buffer)
+    counts::counts(app, rows, sheet);
+    curve::render(app, rows.rest(), sheet)
 }
 
 /// Rows handed out from above.
@@ -121,11 +123,7 @@ impl RowAllotment {
 
     fn rest(&self) -> Rect {
         let used = self.next.min(self.area.height);
-        Rect {
-            y: self.area.y + used,
-            height: self.area.height - used,
-            ..self.area
-        }
+        with_rows(self.area, self.area.y + used, self.area.height - used)
     }
 }
 

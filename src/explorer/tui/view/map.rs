@@ -10,16 +10,15 @@ mod paint;
 mod profile;
 mod raster;
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::{Role, Theme};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::sheet::{Sheet, inside, panel, with_columns, with_rows};
 use asperity_engine::sim::Frame;
 use asperity_picture::{Picture, Subject};
 use heading::heading;
@@ -30,15 +29,15 @@ use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 /// Columns of the colour bar with its numbers.
 const BAR: u16 = 8;
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
+pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
     let (theme, title) = (app.view.theme, heading(app, areas));
-    let inner = panel(app, areas, PanelKind::Map, title, buffer);
+    let inner = panel(app, areas, PanelKind::Map, title, sheet);
     let Some(frame) = app.frame() else {
-        waiting(app, inner, buffer);
+        waiting(app, inner, sheet);
         return None;
     };
     if app.view.map == MapKind::Profile {
-        return profile::side_view(app, frame, inner, buffer);
+        return profile::side_view(app, frame, inner, sheet);
     }
     let (picture, bar) = split(areas, inner);
     let look = look(app);
@@ -51,29 +50,26 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
     match picture_of(app, frame, &window, pixels) {
         // Its room stays blank: the terminal's own pixels come there.
         Some(_) if app.is_in_pixels() => {}
-        Some(raster) => paint(theme, &raster, &look, &window, app.view.map, image, buffer),
-        None => put(
+        Some(raster) => paint(theme, &raster, &look, &window, app.view.map, image, sheet),
+        None => sheet.text(
             image,
             image.height / 2,
-            &Line::styled(
-                "no stress is computed in this scene",
-                theme.style(Role::Dim),
-            ),
-            buffer,
+            "no stress is computed in this scene",
+            Role::Dim,
         ),
     }
     if !app.is_in_pixels() {
         let marks = [(point_at(app, frame), "◆"), (app.view.probe, "╋")];
         for (at, symbol) in marks {
             if let Some(at) = at {
-                place(app, &window, image, at, symbol, buffer);
+                place(app, &window, image, at, symbol, sheet);
             }
         }
     }
-    axes::draw(app, frame, &window, (image, inner), buffer);
-    color_bar(theme, &look, app.view.map, bar, buffer);
-    motion(app, frame, areas, inner, buffer);
-    probe(app, frame, (picture, image), buffer);
+    axes::draw(app, frame, &window, (image, inner), sheet);
+    color_bar(theme, &look, app.view.map, bar, sheet);
+    motion(app, frame, areas, inner, sheet);
+    probe(app, frame, (picture, image), sheet);
     None
 }
 
@@ -167,18 +163,12 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
     })
 }
 
-fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.view.theme;
+fn waiting(app: &App, area: Rect, sheet: &mut Sheet<'_>) {
     let text = match app.run.setup.scene.lubricant {
         Some(_) => "starting: dry Hertz, then film",
         None => "starting: dry Hertz",
     };
-    put(
-        area,
-        area.height / 2,
-        &Line::styled(text, theme.style(Role::Dim)),
-        buffer,
-    );
+    sheet.text(area, area.height / 2, text, Role::Dim);
 }
 
 /// Room for the picture and for the colour bar; the motion takes the last row (full: and the first), the axes the
@@ -192,11 +182,7 @@ fn split(areas: &Areas, inner: Rect) -> (Rect, Rect) {
         height: inner.height.saturating_sub(1 + above + below),
         width: inner.width.saturating_sub(BAR + left),
     };
-    let bar = Rect {
-        x: picture.right(),
-        width: inner.width - picture.width,
-        ..picture
-    };
+    let bar = with_columns(picture, picture.right(), inner.width - picture.width);
     (picture, bar)
 }
 
@@ -297,7 +283,7 @@ fn place(
     image: Rect,
     (x, y): (f64, f64),
     symbol: &'static str,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let theme = app.view.theme;
     let part = |value: f64, range: [f64; 2]| (value - range[0]) / (range[1] - range[0]);
@@ -309,7 +295,7 @@ fn place(
         image.x + (along * f64::from(image.width)) as u16,
         image.y + (down * f64::from(image.height)) as u16,
     );
-    if let Some(cell) = buffer.cell_mut(at) {
+    if let Some(cell) = sheet.buffer.cell_mut(at) {
         cell.set_symbol(theme.pick(symbol, "X"));
         if theme.paints() {
             cell.set_fg(theme.rgb([255, 255, 255]));
@@ -328,7 +314,7 @@ fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
 }
 
 /// The values at the probe, on the last row of the picture.
-fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), buffer: &mut Buffer) {
+fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), sheet: &mut Sheet<'_>) {
     let Some((x, y)) = app.view.probe else { return };
     let theme = app.view.theme;
     let pressure_and_film = |(pressure, film): (f32, f32)| {
@@ -356,15 +342,8 @@ fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), buffer: &mut 
             .map(|values| format!("x {x:.2} a  y {y:.2} b  {}", pressure_and_film(values)))
     };
     if let Some(text) = text {
-        let line = Line::styled(
-            format!(" {} ", ascii_text(theme, &text)),
-            theme.style(Role::Strong),
-        );
-        let row = Rect {
-            y: image.bottom() - 1,
-            height: 1,
-            ..picture
-        };
-        put(row, 0, &line, buffer);
+        let line = theme.line(format!(" {} ", theme.text(&text)), Role::Strong);
+        let row = with_rows(picture, image.bottom() - 1, 1);
+        sheet.line(row, 0, &line);
     }
 }

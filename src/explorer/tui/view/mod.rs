@@ -15,21 +15,21 @@ mod life;
 mod map;
 mod overlay;
 mod point;
+mod sheet;
 mod status;
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Margin, Position, Rect};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Style};
-use ratatui::symbols;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, Overlay, PanelKind};
 use crate::tui::event::{Pointer, PointerAct};
 use crate::tui::pixels::{Bitmap, PixelPlot};
-use crate::tui::theme::{Role, Theme};
+use crate::tui::theme::Role;
+use sheet::{Sheet, with_rows};
+
 pub use areas::{Areas, Banner, LEAST, LEAST_NARROW, PanelSpacing};
 
 /// The panels of the screen as it is now.
@@ -59,8 +59,9 @@ pub fn draw(app: &App, frame: &mut Frame<'_>) {
 
 /// Draws the whole screen into a buffer; gives the curves that it leaves to a page, which draws them as lines.
 pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
-    let plots = draw_panels(app, screen, buffer);
-    if let Some(page) = app.view.theme.page() {
+    let theme = app.view.theme;
+    let plots = draw_panels(app, screen, &mut Sheet { theme, buffer });
+    if let Some(page) = theme.page() {
         on_page(page, screen, buffer);
     }
     plots
@@ -79,52 +80,46 @@ fn on_page(page: Style, screen: Rect, buffer: &mut Buffer) {
     }
 }
 
-fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
+fn draw_panels(app: &App, screen: Rect, sheet: &mut Sheet<'_>) -> Vec<PixelPlot> {
     let Some(areas) = areas_of(app, screen) else {
-        too_small(app, screen, buffer);
+        too_small(screen, sheet);
         return Vec::new();
     };
     let mut plots = Vec::new();
-    header::render(app, areas.header, buffer);
+    header::render(app, areas.header, sheet);
     for panel in PanelKind::ALL {
         if areas.of_panel(panel).is_empty() {
             continue;
         }
         match panel {
-            PanelKind::Knobs => knobs::render(app, &areas, buffer),
-            PanelKind::Map => plots.extend(map::render(app, &areas, buffer)),
-            PanelKind::CentreLine => plots.extend(centre_line::render(app, &areas, buffer)),
-            PanelKind::Life => plots.extend(life::render(app, &areas, buffer).1),
-            PanelKind::Point => plots.extend(point::render(app, &areas, buffer)),
+            PanelKind::Knobs => knobs::render(app, &areas, sheet),
+            PanelKind::Map => plots.extend(map::render(app, &areas, sheet)),
+            PanelKind::CentreLine => plots.extend(centre_line::render(app, &areas, sheet)),
+            PanelKind::Life => plots.extend(life::render(app, &areas, sheet).1),
+            PanelKind::Point => plots.extend(point::render(app, &areas, sheet)),
         }
     }
-    if let Some(ghost) = app
-        .view
-        .frozen
-        .as_ref()
-        .filter(|_| !areas.frozen.is_empty())
+    if let Some(frozen) = &app.view.frozen
+        && !areas.frozen.is_empty()
     {
         let map = areas.frozen;
-        map::render(ghost, &Areas { map, ..areas }, buffer);
+        map::render(frozen, &Areas { map, ..areas }, sheet);
     }
-    status::render(app, &areas, buffer);
+    status::render(app, &areas, sheet);
     if let Some(caption) = caption::of(app) {
-        caption::render(app, &caption, areas.caption, buffer);
+        caption::render(app, &caption, areas.caption, sheet);
     }
-    let body = Rect {
-        height: screen.height - areas.status.height - 1,
-        y: screen.y + 1,
-        ..screen
-    };
+    let height = screen.height - areas.status.height - 1;
+    let body = with_rows(screen, screen.y + 1, height);
     match (app.fault(), app.view.overlay) {
-        (Some(reason), _) => overlay::fault(app, reason, body, buffer),
-        (None, Overlay::Help) => overlay::help(app, body, buffer),
-        (None, Overlay::Plan) => overlay::plan(app, body, buffer),
-        (None, Overlay::Scene) => forms::scene(app, body, buffer),
-        (None, Overlay::Lessons) => lesson_list::lessons(app, body, buffer),
+        (Some(reason), _) => overlay::fault(app, reason, body, sheet),
+        (None, Overlay::Help) => overlay::help(app, body, sheet),
+        (None, Overlay::Plan) => overlay::plan(app, body, sheet),
+        (None, Overlay::Scene) => forms::scene(app, body, sheet),
+        (None, Overlay::Lessons) => lesson_list::lessons(app, body, sheet),
         (None, Overlay::None) => {}
     }
-    if let Some(over) = status::message(app, &areas, screen, buffer) {
+    if let Some(over) = status::message(app, &areas, screen, sheet) {
         plots.retain(|plot| !plot.area.intersects(over));
     }
     plots
@@ -192,130 +187,13 @@ fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
     })
 }
 
-fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
+fn too_small(screen: Rect, sheet: &mut Sheet<'_>) {
     let text = format!(
         "{} x {} is too small: {} x {} shows the explorer, {} x {} a part of it. q quits.",
         screen.width, screen.height, LEAST.0, LEAST.1, LEAST_NARROW.0, LEAST_NARROW.1
     );
-    Paragraph::new(text)
-        .style(app.view.theme.style(Role::Warn))
-        .wrap(Wrap { trim: true })
-        .render(screen, buffer);
-}
-
-/// Draws a panel's frame and gives the room inside; the frame of the one that the keys speak of stands out.
-fn panel(app: &App, areas: &Areas, kind: PanelKind, title: Line<'_>, buffer: &mut Buffer) -> Rect {
-    let (theme, area) = (app.view.theme, areas.of_panel(kind));
-    let (role, key) = match app.view.enlarged {
-        Some(_) => (Role::Key, " Esc "),
-        None if app.view.is_frozen => (Role::Formula, ""),
-        None if app.view.focus == kind => (Role::Key, " ⏎ "),
-        None => (Role::Border, ""),
-    };
-    let has_room = title.width() + key.chars().count() + 2 < usize::from(area.width);
-    let borders = match areas.density {
-        PanelSpacing::Compact => Borders::TOP,
-        PanelSpacing::Full => Borders::ALL,
-    };
-    let mut block = Block::new()
-        .borders(borders)
-        .border_style(theme.style(role))
-        .title_top(title);
-    block = if theme.is_ascii() {
-        block.border_set(ASCII_BORDER)
-    } else {
-        block.border_type(BorderType::Rounded)
-    };
-    if has_room && !key.is_empty() {
-        let key = Line::styled(ascii_text(theme, key), theme.style(Role::Key));
-        block = block.title_top(key.right_aligned());
-    }
-    block.render(area, buffer);
-    inside(areas, area)
-}
-
-/// The room inside a panel's frame.
-fn inside(areas: &Areas, area: Rect) -> Rect {
-    match areas.density {
-        PanelSpacing::Compact => Rect {
-            y: area.y + 1,
-            height: area.height.saturating_sub(1),
-            ..area
-        },
-        PanelSpacing::Full => area.inner(Margin::new(1, 1)),
-    }
-}
-
-const ASCII_BORDER: symbols::border::Set<'static> = symbols::border::Set {
-    top_left: "+",
-    top_right: "+",
-    bottom_left: "+",
-    bottom_right: "+",
-    vertical_left: "|",
-    vertical_right: "|",
-    horizontal_top: "-",
-    horizontal_bottom: "-",
-};
-
-/// A panel's title: its name, with the key that changes it in the key's colour.
-fn title<'a>(theme: Theme, key: &'a str, name: &'a str) -> Line<'a> {
-    let mut spans = vec![Span::raw(" ")];
-    if !key.is_empty() {
-        spans.push(Span::styled(key, theme.style(Role::Key)));
-        spans.push(Span::raw(" "));
-    }
-    spans.push(Span::styled(name, theme.style(Role::Title)));
-    spans.push(Span::raw(" "));
-    Line::from(spans)
-}
-
-/// Writes a line at a row of an area, if the row is there.
-fn put(area: Rect, row: u16, line: &Line<'_>, buffer: &mut Buffer) {
-    if row < area.height {
-        buffer.set_line(area.x, area.y + row, line, area.width);
-    }
-}
-
-/// Writes text against the right edge of a row.
-fn put_right(area: Rect, row: u16, line: &Line<'_>, buffer: &mut Buffer) {
-    let width = (line.width() as u16).min(area.width);
-    if row < area.height {
-        buffer.set_line(area.right() - width, area.y + row, line, width);
-    }
-}
-
-/// What only Unicode terminals show, in letters for those that do not.
-fn ascii_text(theme: Theme, text: &str) -> String {
-    if !theme.is_ascii() {
-        return text.to_owned();
-    }
-    let mut plain = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            'λ' => plain.push_str("lambda"),
-            'ζ' => plain.push_str("zeta"),
-            'µ' | 'μ' => plain.push('u'),
-            'σ' => plain.push_str("sigma"),
-            'τ' => plain.push_str("tau"),
-            '₁' => plain.push('1'),
-            '₂' => plain.push('2'),
-            '×' => plain.push('x'),
-            '→' => plain.push_str("->"),
-            '–' | '−' => plain.push('-'),
-            '≈' => plain.push('~'),
-            '≥' => plain.push_str(">="),
-            '≤' => plain.push_str("<="),
-            '±' => plain.push_str("+-"),
-            '·' => plain.push('.'),
-            '…' => plain.push_str("..."),
-            '⏎' => plain.push_str("CR"),
-            '◂' => plain.push('<'),
-            '▸' => plain.push('>'),
-            other if other.is_ascii() => plain.push(other),
-            _ => plain.push('?'),
-        }
-    }
-    plain
+    let line = sheet.theme.line(text, Role::Warn);
+    sheet.paragraph(screen, line);
 }
 
 #[cfg(test)]

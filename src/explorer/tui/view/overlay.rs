@@ -1,16 +1,15 @@
 //! What lies over the screen: keys, plan, a fault.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::{Margin, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, BorderType, Borders, Clear, Paragraph, Widget, Wrap};
+use ratatui::widgets::{Block, BorderType, Borders, Clear, Widget};
 
 use crate::tui::action::{Action, Group, KEYS, MOUSE};
 use crate::tui::app::{App, ErrandKind};
 use crate::tui::theme::Role;
 use crate::tui::view::knobs::{SPECIFIC, SYMBOLS};
-use crate::tui::view::{ASCII_BORDER, ascii_text, put};
+use crate::tui::view::sheet::{ASCII_BORDER, Sheet, with_columns, with_rows};
 
 /// Draws a box of a wanted size in the middle and gives the room inside.
 pub(super) fn boxed(
@@ -19,7 +18,7 @@ pub(super) fn boxed(
     (width, height): (u16, u16),
     title: &str,
     role: Role,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) -> Rect {
     let theme = app.view.theme;
     let (width, height) = (width.min(within.width), height.min(within.height));
@@ -29,7 +28,7 @@ pub(super) fn boxed(
         width,
         height,
     };
-    Clear.render(area, buffer);
+    Clear.render(area, sheet.buffer);
     // As wide as the screen it needs no sides, which would be a third of what a slow line has to carry of it, and no foot
     // where nothing is below.
     let borders = match (area.width == within.width, area.height == within.height) {
@@ -42,20 +41,20 @@ pub(super) fn boxed(
         .border_style(theme.style(role))
         .title_top(match title {
             "" => Line::default(),
-            title => Line::styled(format!(" {title} "), theme.style(Role::Title)),
+            title => theme.line(format!(" {title} "), Role::Title),
         });
     let block = if theme.is_ascii() {
         block.border_set(ASCII_BORDER)
     } else {
         block.border_type(BorderType::Rounded)
     };
-    block.render(area, buffer);
+    block.render(area, sheet.buffer);
     area.inner(Margin::new(2, 1))
 }
 
 /// The key table in two columns where they fit; headings go where rows are short, and where even
 /// so not all fit, the arrows move it.
-pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
+pub(super) fn help(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
     let columns = (within.width / 37).clamp(1, 2);
     let most = within.height.saturating_sub(2);
     let mut lines = help_lines(app);
@@ -78,19 +77,15 @@ pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
         (columns * 40 + 4, rows + 2),
         title,
         Role::Key,
-        buffer,
+        sheet,
     );
     let each = inner.width / columns;
     let shown = lines.iter().skip(usize::from(app.view.scroll.min(hidden)));
     for (place, (_, line)) in shown.enumerate() {
         let (column, row) = (place as u16 / rows.max(1), place as u16 % rows.max(1));
         if column < columns {
-            let cell = Rect {
-                x: inner.x + column * each,
-                width: each.saturating_sub(1),
-                ..inner
-            };
-            put(cell, row, line, buffer);
+            let cell = with_columns(inner, inner.x + column * each, each.saturating_sub(1));
+            sheet.line(cell, row, line);
         }
     }
 }
@@ -105,13 +100,13 @@ enum HelpHeading {
 fn help_lines(app: &App) -> Vec<(HelpHeading, Line<'static>)> {
     let theme = app.view.theme;
     let heading = |name: &'static str| {
-        let line = Line::styled(name, theme.style(Role::Title));
+        let line = theme.line(name, Role::Title);
         (HelpHeading::Yes, line)
     };
     let row = |keys: &str, help: &str, role: Role| {
         let line = Line::from(vec![
-            Span::styled(format!("{:>7} ", ascii_keys(app, keys)), theme.style(role)),
-            Span::raw(ascii_text(theme, help)),
+            theme.span(format!("{:>7} ", ascii_keys(app, keys)), role),
+            Span::raw(theme.text(help)),
         ]);
         (HelpHeading::No, line)
     };
@@ -154,35 +149,29 @@ fn ascii_keys(app: &App, keys: &str) -> String {
         .replace("↑↓", "up dn")
         .replace("⇧←→ ", "")
         .replace("←→", "lt rt");
-    ascii_text(app.view.theme, &plain)
+    app.view.theme.text(&plain)
 }
 
 /// What is computed, what is not, and why.
-pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
+pub(super) fn plan(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let mut lines = Vec::new();
     let cautions = app.cautions();
     if !cautions.is_empty() {
-        lines.push(Line::styled("Cautions", theme.style(Role::Warn)));
+        lines.push(theme.line("Cautions", Role::Warn));
         lines.extend(
             cautions
                 .iter()
-                .map(|caution| Line::raw(format!("  {}", ascii_text(theme, &caution.text)))),
+                .map(|caution| Line::raw(format!("  {}", theme.text(&caution.text)))),
         );
         lines.push(Line::default());
     }
     if !app.run.setup.left_out.is_empty() {
-        lines.push(Line::styled(
-            "Not modelled or not needed",
-            theme.style(Role::Warn),
-        ));
+        lines.push(theme.line("Not modelled or not needed", Role::Warn));
         for left in &app.run.setup.left_out {
             lines.push(Line::from(vec![
-                Span::styled(
-                    format!("  {}: ", ascii_text(theme, left.stage)),
-                    theme.style(Role::Strong),
-                ),
-                Span::raw(ascii_text(theme, &left.why)),
+                theme.span(format!("  {}: ", theme.text(left.stage)), Role::Strong),
+                Span::raw(theme.text(&left.why)),
             ]));
         }
         lines.push(Line::default());
@@ -192,7 +181,7 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
             .setup
             .plan_text
             .lines()
-            .map(|line| Line::raw(ascii_text(theme, line))),
+            .map(|line| Line::raw(theme.text(line))),
     );
     let wide = PLAN_WIDE.min(within.width);
     let columns = usize::from(wide.saturating_sub(4)).max(1);
@@ -210,10 +199,10 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
     } else {
         "plan (i closes)"
     };
-    let inner = boxed(app, within, (wide, tall), title, Role::Key, buffer);
+    let inner = boxed(app, within, (wide, tall), title, Role::Key, sheet);
     let shown = rows.iter().skip(usize::from(app.view.scroll.min(hidden)));
     for (row, line) in (0..inner.height).zip(shown) {
-        put(inner, row, line, buffer);
+        sheet.line(inner, row, line);
     }
 }
 
@@ -257,26 +246,17 @@ fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
 }
 
 /// Words that are too long for the last line, in a box at the foot of the screen.
-pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) -> Rect {
+pub(super) fn message(app: &App, text: &str, screen: Rect, sheet: &mut Sheet<'_>) -> Rect {
     let theme = app.view.theme;
     let wide = 100.min(screen.width);
-    let text = text.lines().map(|line| ascii_text(theme, line));
+    let text = text.lines().map(|line| theme.text(line));
     let columns = usize::from(wide.saturating_sub(4)).max(1);
     let lines: Vec<String> = text.flat_map(|line| wrapped(&line, columns)).collect();
     let tall = (lines.len() as u16 + 2).min(screen.height);
-    let foot = Rect {
-        y: screen.bottom() - tall,
-        height: tall,
-        ..screen
-    };
-    let inner = boxed(app, foot, (wide, tall), "", Role::Warn, buffer);
+    let foot = with_rows(screen, screen.bottom() - tall, tall);
+    let inner = boxed(app, foot, (wide, tall), "", Role::Warn, sheet);
     for (row, line) in (0..).zip(lines) {
-        put(
-            inner,
-            row,
-            &Line::styled(line, theme.style(Role::Warn)),
-            buffer,
-        );
+        sheet.text(inner, row, line, Role::Warn);
     }
     foot
 }
@@ -300,24 +280,22 @@ fn wrapped(line: &str, columns: usize) -> Vec<String> {
 }
 
 /// An engine that failed.
-pub(super) fn fault(app: &App, reason: &str, within: Rect, buffer: &mut Buffer) {
+pub(super) fn fault(app: &App, reason: &str, within: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let wide = 76.min(within.width);
     let rows = reason.chars().count() as u16 / wide.saturating_sub(6).max(1) + 1;
     let size = (wide, rows + 6);
-    let inner = boxed(app, within, size, "the run failed", Role::Bad, buffer);
+    let inner = boxed(app, within, size, "the run failed", Role::Bad, sheet);
     let text = vec![
-        Line::styled(reason.to_owned(), theme.style(Role::Bad)),
+        theme.line(reason.to_owned(), Role::Bad),
         Line::default(),
         Line::raw("What was recorded until then is kept. The last frame stays on the screen."),
         Line::from(vec![
-            Span::styled("Esc", theme.style(Role::Key)),
+            theme.span("Esc", Role::Key),
             Span::raw(" looks at it, "),
-            Span::styled("q", theme.style(Role::Key)),
+            theme.span("q", Role::Key),
             Span::raw(" quits"),
         ]),
     ];
-    Paragraph::new(text)
-        .wrap(Wrap { trim: true })
-        .render(inner, buffer);
+    sheet.paragraph(inner, text);
 }

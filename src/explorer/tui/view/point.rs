@@ -1,9 +1,8 @@
 //! Bottom: the stress history of one material point while it crosses the contact, each peak counted as it
 //! passes. At S = 0 one cycle, at S = 0.5 a comb.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, PanelKind, PointNow, PointQuantity};
@@ -11,13 +10,13 @@ use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
 use crate::tui::units::{nice_ceiling, sig_or_dash, tick};
+use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::chart::{CurvePanel, Pen};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
+use crate::tui::view::sheet::{Sheet, inside, panel, title, with_columns};
 use asperity_engine::sim::{Frame, Stage};
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let theme = app.view.theme;
-    let inner = panel(app, areas, PanelKind::Point, heading(app), buffer);
+pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
+    let inner = panel(app, areas, PanelKind::Point, heading(app), sheet);
     let frame = app.frame()?;
     let Some(point) = app.point_now() else {
         let text = match (frame.stage, &app.run.setup.scene.stress) {
@@ -25,28 +24,20 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
             (Stage::StartUp, _) => "followed once the passage begins",
             (Stage::Passage, _) => "no material point is followed",
         };
-        put(
-            inner,
-            0,
-            &Line::styled(text, theme.style(Role::Dim)),
-            buffer,
-        );
+        sheet.text(inner, 0, text, Role::Dim);
         return None;
     };
     let words = words(areas);
-    let left = Rect {
-        width: words.min(inner.width),
-        ..inner
-    };
-    numbers(app, frame, &point, left, buffer);
+    let left = with_columns(inner, inner.x, words.min(inner.width));
+    numbers(app, frame, &point, left, sheet);
     let area = plot(areas);
     if area.is_empty() {
         return None;
     }
     let plot = TracePlot { area, x: X_RANGE };
-    let curves = trace(app, frame, plot, buffer);
-    peaks_ticked(app, frame, plot, buffer);
-    axis(app, frame, area, point.depth_m, buffer);
+    let curves = trace(app, frame, plot, sheet);
+    peaks_ticked(app, frame, plot, sheet);
+    axis(app, frame, area, point.depth_m, sheet);
     curves
 }
 
@@ -55,13 +46,13 @@ pub(super) fn under_profile(
     app: &App,
     frame: &Frame,
     (area, x): (Rect, [f64; 2]),
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) -> Option<PixelPlot> {
     let point = app.point_now()?;
     let plot = TracePlot { area, x };
-    let curves = trace(app, frame, plot, buffer);
-    peaks_ticked(app, frame, plot, buffer);
-    axis(app, frame, area, point.depth_m, buffer);
+    let curves = trace(app, frame, plot, sheet);
+    peaks_ticked(app, frame, plot, sheet);
+    axis(app, frame, area, point.depth_m, sheet);
     curves
 }
 
@@ -127,15 +118,14 @@ fn heading(app: &App) -> Line<'static> {
     if let Some(point) = app.point_now() {
         let depth = app.view.units.length().show(point.depth_m, 2);
         let note = format!("body {}, {depth} deep ", point.body);
-        let note = ascii_text(theme, &note);
-        line.push_span(Span::styled("P ", theme.style(Role::Key)));
-        line.push_span(Span::styled(note, theme.style(Role::Dim)));
+        let note = theme.text(&note);
+        line.push_span(theme.span("P ", Role::Key));
+        line.push_span(theme.span(note, Role::Dim));
     }
     line
 }
 
-fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut Buffer) {
-    let theme = app.view.theme;
+fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, sheet: &mut Sheet<'_>) {
     let role = if point.body == 2 {
         Role::Body2
     } else {
@@ -181,10 +171,8 @@ fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut 
     ];
     for (row, (name, value, role)) in lines.into_iter().enumerate() {
         let row = row as u16;
-        let name = Line::styled(ascii_text(theme, name), theme.style(Role::Dim));
-        put(area, row, &name, buffer);
-        let value = Line::styled(ascii_text(theme, &value), theme.style(role));
-        put_right(area, row, &value, buffer);
+        sheet.text(area, row, name, Role::Dim);
+        sheet.text_right(area, row, &value, role);
     }
 }
 
@@ -202,7 +190,7 @@ fn hertz_pa(x: f64, frame: &Frame) -> f64 {
     frame.p_hertz_pa * (1.0 - x * x).max(0.0).sqrt()
 }
 
-fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) -> Option<PixelPlot> {
+fn trace(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
     let theme = app.view.theme;
     let range = range(app, frame);
     let mut chart = CurvePanel::of(app, plot.area, plot.x, range);
@@ -240,7 +228,7 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) -> Opti
         PointQuantity::Effective => Role::Peaks,
     };
     chart.line(points(app.replay.trace.current()), pen(role, '*'));
-    let curves = chart.render(theme.is_ascii(), buffer);
+    let curves = chart.render(sheet);
     if let Some(last) = app.replay.trace.current().last() {
         let row = row_of(plot.area, range, value(quantity, last, frame));
         mark(
@@ -250,7 +238,7 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) -> Opti
             row,
             "◆",
             Role::Strong,
-            buffer,
+            sheet,
         );
     }
     curves
@@ -292,7 +280,7 @@ fn range(app: &App, frame: &Frame) -> [f64; 2] {
 }
 
 /// A tick under the trace for each peak that has passed, and its number on the curve where there is room.
-fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) {
+fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>) {
     let (area, range) = (plot.area, range(app, frame));
     let mut free_from = 0;
     for tick in app.replay.trace.ticks() {
@@ -300,7 +288,7 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) 
         let Some(column) = column_of(plot, x) else {
             continue;
         };
-        mark(app, plot, x, area.height, "╿", Role::Cycles, buffer);
+        mark(app, plot, x, area.height, "╿", Role::Cycles, sheet);
         let number = tick.number.to_string();
         let width = number.len() as u16;
         let first = (column.saturating_sub((width - 1) / 2)).min(area.right() - width);
@@ -313,8 +301,8 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) 
         // Above the curve, or on it where it touches the top.
         let row =
             row_of(area, range, value(app.view.point_quantity, sample, frame)).saturating_sub(1);
-        let line = Line::styled(number, app.view.theme.style(Role::Cycles));
-        buffer.set_line(first, area.y + row, &line, width);
+        let line = app.view.theme.line(number, Role::Cycles);
+        sheet.buffer.set_line(first, area.y + row, &line, width);
         free_from = first + width + 1;
     }
 }
@@ -345,42 +333,35 @@ fn mark(
     row: u16,
     symbol: &'static str,
     role: Role,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let Some(column) = column_of(plot, x) else {
         return;
     };
     let ascii = if symbol == "◆" { "X" } else { "|" };
-    if let Some(cell) = buffer.cell_mut((column, plot.area.y + row)) {
-        cell.set_symbol(app.view.theme.pick(symbol, ascii))
-            .set_style(app.view.theme.style(role));
-    }
+    sheet.cell(
+        column,
+        plot.area.y + row,
+        app.view.theme.pick(symbol, ascii),
+        app.view.theme.style(role),
+    );
 }
 
-fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
+fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let pressure = app.view.units.pressure();
     let dim = theme.style(Role::Dim);
-    let left = Rect {
-        x: plot.x.saturating_sub(6),
-        width: 5,
-        ..plot
-    };
+    let left = with_columns(plot, plot.x.saturating_sub(6), 5);
     let range = range(app, frame);
-    put_right(
-        left,
-        0,
-        &Line::styled(tick(pressure.of(range[1])), dim),
-        buffer,
-    );
+    sheet.line_right(left, 0, &Line::styled(tick(pressure.of(range[1])), dim));
     let foot = tick(pressure.of(range[0]));
-    put_right(left, plot.height - 1, &Line::styled(foot, dim), buffer);
+    sheet.line_right(left, plot.height - 1, &Line::styled(foot, dim));
     if plot.height >= 4 {
-        put_right(left, 1, &Line::styled(pressure.name, dim), buffer);
+        sheet.line_right(left, 1, &Line::styled(pressure.name, dim));
     }
     if app.view.point_quantity != PointQuantity::Pressure && plot.height >= 5 {
         let depth = app.view.units.length().show(depth_m, 2);
-        let text = ascii_text(theme, &format!("at depth {depth}"));
-        put_right(plot, 0, &Line::styled(text, dim), buffer);
+        let text = theme.text(&format!("at depth {depth}"));
+        sheet.line_right(plot, 0, &Line::styled(text, dim));
     }
 }

@@ -1,14 +1,16 @@
 //! Last lines: where the run is, how well it converges, what is left out, what is recorded.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::tui::app::{App, Leading, Trouble, WhyUnconverged};
 use crate::tui::theme::Role;
 use crate::tui::units::{seconds, sig};
+use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::footer::{hints_shown, recorder};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, knobs, overlay, put, put_right};
+use crate::tui::view::knobs;
+use crate::tui::view::overlay;
+use crate::tui::view::sheet::{Sheet, with_columns};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{
     CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named,
@@ -18,23 +20,25 @@ use asperity_session::sweep::Along;
 /// Words and their roles, in the order in which they are dropped from the right.
 type StatusWords = Vec<(String, Role)>;
 
-pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
+pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) {
     let area = areas.status;
     let mut row = 0;
     if let Some(why) = app.why() {
-        let text = ascii_text(app.view.theme, &why.in_columns(usize::from(area.width) - 2));
+        let text = app
+            .view
+            .theme
+            .text(&why.in_columns(usize::from(area.width) - 2));
         let role = match why.of {
             Leading::Simulated => Role::Strong,
             Leading::Scaled | Leading::Formula => Role::Formula,
         };
-        let line = Line::styled(format!(" {text}"), app.view.theme.style(role));
-        put(area, row, &line, buffer);
+        sheet.text(area, row, format!(" {text}"), role);
         row += 1;
     }
     if let Some(frame) = app.frame() {
         let mut words = progress(app, frame);
         if areas.density == PanelSpacing::Full || area.height > row + 2 {
-            write(app, area, row, &words, buffer);
+            write(app, area, row, &words, sheet);
             row += 1;
             words = quality(app, frame);
         } else if app.trouble().is_none() {
@@ -43,22 +47,22 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             // What is wrong stands first: the rest may not fit.
             words = quality(app, frame).into_iter().chain(words).collect();
         }
-        write(app, area, row, &words, buffer);
+        write(app, area, row, &words, sheet);
         row += 1;
     }
     let last = area.height - 1;
     if row <= last {
-        last_line(app, area, last, buffer);
+        last_line(app, area, last, sheet);
     }
 }
 
-fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buffer) {
+fn write(app: &App, area: Rect, row: u16, words: &StatusWords, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let mut spans = vec![Span::raw(" ")];
     let mut used = 1;
     for (text, role) in words {
-        let text = ascii_text(theme, text);
-        let span = Span::styled(text, theme.style(*role));
+        let text = theme.text(text);
+        let span = theme.span(text, *role);
         if used + span.width() > usize::from(area.width) {
             break;
         }
@@ -66,7 +70,7 @@ fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buff
         spans.push(span);
         spans.push(Span::raw("  "));
     }
-    put(area, row, &Line::from(spans), buffer);
+    sheet.line(area, row, &Line::from(spans));
 }
 
 fn progress(app: &App, frame: &Frame) -> StatusWords {
@@ -201,39 +205,32 @@ fn regime(metrics: &Metrics) -> (&'static str, Role) {
     (metrics.regime.name(), role)
 }
 
-fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
+fn last_line(app: &App, area: Rect, row: u16, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let recorder = recorder(app);
-    let room = Rect {
-        width: area.width.saturating_sub(recorder.width() as u16 + 1),
-        ..area
-    };
-    put_right(area, row, &recorder, buffer);
+    let room = with_columns(
+        area,
+        area.x,
+        area.width.saturating_sub(recorder.width() as u16 + 1),
+    );
+    sheet.line_right(area, row, &recorder);
     if let Some(typed) = app.typing_line() {
-        let line = Line::styled(
-            format!(" {}", ascii_text(theme, &typed)),
-            theme.style(Role::Chosen),
-        );
-        put(room, row, &line, buffer);
+        sheet.text(room, row, format!(" {}", theme.text(&typed)), Role::Chosen);
         return;
     }
     if let Some(message) = app.message() {
         // A longer one is laid over the panels above.
         if one_line(message, room.width) {
-            let line = Line::styled(format!(" {message}"), theme.style(Role::Warn));
-            put(room, row, &line, buffer);
+            sheet.text(room, row, format!(" {message}"), Role::Warn);
         }
         return;
     }
     let mut spans = vec![Span::raw(" ")];
     for hint in hints_shown(app, room) {
-        spans.push(Span::styled(hint.key, theme.style(Role::Key)));
-        spans.push(Span::styled(
-            format!(" {}  ", ascii_text(theme, &hint.word)),
-            theme.style(Role::Dim),
-        ));
+        spans.push(theme.span(hint.key, Role::Key));
+        spans.push(theme.span(format!(" {}  ", theme.text(&hint.word)), Role::Dim));
     }
-    put(room, row, &Line::from(spans), buffer);
+    sheet.line(room, row, &Line::from(spans));
 }
 
 fn one_line(message: &str, columns: u16) -> bool {
@@ -241,11 +238,16 @@ fn one_line(message: &str, columns: u16) -> bool {
 }
 
 /// A message that the last line cannot hold, whole, above it; gives the rows that it lies over.
-pub(super) fn message(app: &App, areas: &Areas, screen: Rect, buffer: &mut Buffer) -> Option<Rect> {
+pub(super) fn message(
+    app: &App,
+    areas: &Areas,
+    screen: Rect,
+    sheet: &mut Sheet<'_>,
+) -> Option<Rect> {
     let message = app.message()?;
     let recorder = recorder(app).width() as u16 + 1;
     if one_line(message, areas.status.width.saturating_sub(recorder)) {
         return None;
     }
-    Some(overlay::message(app, message, screen, buffer))
+    Some(overlay::message(app, message, screen, sheet))
 }

@@ -1,40 +1,35 @@
 //! The estimate over the passages seen: one curve, the present on the right.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use super::pen;
 use crate::tui::app::App;
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::view::chart::CurvePanel;
-use crate::tui::view::{ascii_text, put};
+use crate::tui::view::sheet::{Sheet, below};
 
 /// Half of the least range, decades: noise stays small.
 const LEAST: f64 = 0.17;
 
-pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
+pub(super) fn render(app: &App, area: Rect, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
     let theme = app.view.theme;
     let (Some(first), Some(last)) = (app.lives.history.front(), app.lives.history.back()) else {
         return None;
     };
-    let plot = Rect {
-        y: area.y + 1,
-        height: area.height.saturating_sub(1),
-        ..area
-    };
+    let plot = below(area, 1);
     let span = last.passages - first.passages;
     let words = match area.width {
         27.. => format!("{span:.1} passages of 4a"),
         _ => format!("{span:.1} passages"),
     };
-    let words = ascii_text(theme, &words);
+    let words = theme.text(&words);
     let heading = Line::from(vec![
-        Span::styled("history ", theme.style(Role::Title)),
-        Span::styled(words, theme.style(Role::Dim)),
+        theme.span("history ", Role::Title),
+        theme.span(words, Role::Dim),
     ]);
-    put(area, 0, &heading, buffer);
+    sheet.line(area, 0, &heading);
     if span <= 0.0 || plot.is_empty() {
         return None;
     }
@@ -50,5 +45,5 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Pixel
     let passages = [first.passages, last.passages];
     let mut chart = CurvePanel::of(app, plot, passages, [middle - half, middle + half]);
     chart.line(points, pen(app, Role::Good, '*'));
-    chart.render(theme.is_ascii(), buffer)
+    chart.render(sheet)
 }

@@ -1,20 +1,19 @@
 //! Below the knobs, where there is room: speeds, sizes, what only a new run changes, and what the letters mean.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::{Margin, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::app::App;
 use crate::tui::choice::Choice;
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::sheet::Sheet;
 use asperity_engine::physics::estimate::speed_ratios;
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{Quantity, named};
 
 /// Where there is room: both bodies' speeds, the contact's size, and what the letters mean.
-pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
+pub(super) fn speeds(app: &App, area: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let Some(frame) = app.frame() else { return };
     let metrics = &frame.metrics;
@@ -65,30 +64,22 @@ pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
         } else {
             name
         };
-        let name = ascii_text(theme, name);
-        put(
-            area,
-            row,
-            &Line::styled(name, theme.style(Role::Dim)),
-            buffer,
-        );
-        let value = ascii_text(theme, value);
-        put_right(area, row, &Line::styled(value, theme.style(*role)), buffer);
+        let name = theme.text(name);
+        sheet.text(area, row, name, Role::Dim);
+        let value = theme.text(value);
+        sheet.text_right(area, row, value, *role);
     }
     if area.width < WORDS {
         return;
     }
     let below = lines.len() as u16 + 1;
-    let below = below + fixed(app, area, below, buffer);
+    let below = below + fixed(app, area, below, sheet);
     for (row, (name, meaning)) in SYMBOLS.iter().enumerate() {
         let line = Line::from(vec![
-            Span::styled(
-                format!("{:<5}", ascii_text(theme, name)),
-                theme.style(Role::Strong),
-            ),
-            Span::styled(ascii_text(theme, meaning), theme.style(Role::Dim)),
+            theme.span(format!("{:<5}", theme.text(name)), Role::Strong),
+            theme.span(meaning, Role::Dim),
         ]);
-        put(area, below + row as u16, &line, buffer);
+        sheet.line(area, below + row as u16, &line);
     }
 }
 
@@ -96,7 +87,7 @@ pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
 const WORDS: u16 = 22;
 
 /// What only a new run changes (`e`); the rows used.
-fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
+fn fixed(app: &App, area: Rect, from: u16, sheet: &mut Sheet<'_>) -> u16 {
     let theme = app.view.theme;
     let scene = &app.run.setup.scene;
     let shown = |choice: Choice| choice.of_scene(scene, app.view.units);
@@ -110,12 +101,11 @@ fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
     }
     for (row, (name, value, role)) in (from..).zip(&lines) {
         let name = Line::from(vec![
-            Span::styled("e ", theme.style(Role::Key)),
-            Span::styled(*name, theme.style(Role::Dim)),
+            theme.span("e ", Role::Key),
+            theme.span(*name, Role::Dim),
         ]);
-        put(area, row, &name, buffer);
-        let value = Line::styled(ascii_text(theme, value), theme.style(*role));
-        put_right(area, row, &value, buffer);
+        sheet.line(area, row, &name);
+        sheet.text_right(area, row, value, *role);
     }
     lines.len() as u16
 }

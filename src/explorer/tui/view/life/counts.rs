@@ -1,17 +1,16 @@
 //! Cycles by formula and counted, and the life against the one that was pinned.
 
-use ratatui::buffer::Buffer;
 use ratatui::text::{Line, Span};
 
 use super::{RowAllotment, simulated};
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{ascii_text, put};
+use crate::tui::view::sheet::Sheet;
 use asperity_engine::scene::CycleBasis;
 
 /// n by formula beside n counted, for both bodies.
-pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
+pub(super) fn counts(app: &App, rows: &mut RowAllotment, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let metrics = app.frame().map(|frame| frame.metrics.clone());
     let metrics = metrics.unwrap_or_default();
@@ -35,20 +34,20 @@ pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
         let counted_word = if row.width < 21 { "cnt. " } else { "counted " };
         let formula = formula.map_or_else(|| theme.pick("∞", "inf").to_owned(), |n| sig(n, 3));
         let line = Line::from(vec![
-            Span::styled(format!("{} ", ascii_text(theme, name)), theme.style(role)),
-            Span::styled(format!("{formula:<5}"), theme.style(Role::Formula)),
-            Span::styled(counted_word, theme.style(Role::Dim)),
+            theme.span(format!("{} ", theme.text(name)), role),
+            theme.span(format!("{formula:<5}"), Role::Formula),
+            theme.span(counted_word, Role::Dim),
             Span::styled(
-                ascii_text(theme, &sig_or_dash(counted, 3)),
+                theme.text(&sig_or_dash(counted, 3)),
                 simulated(app, theme.style(Role::Strong)),
             ),
         ]);
-        put(row, 0, &line, buffer);
+        sheet.line(row, 0, &line);
     }
 }
 
 /// The life by the count that is not the headline's: the paper's, or that by damage.
-pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
+pub(super) fn other_count(app: &App, rows: &mut RowAllotment, sheet: &mut Sheet<'_>) {
     let (Some(life), Some(asked)) = (app.life(), &app.run.setup.scene.life) else {
         return;
     };
@@ -58,17 +57,17 @@ pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffe
     };
     let theme = app.view.theme;
     let line = Line::from(vec![
-        Span::styled(format!("{word} "), theme.style(Role::Dim)),
+        theme.span(format!("{word} "), Role::Dim),
         Span::styled(
-            ascii_text(theme, &sig_or_dash(other, 2)),
+            theme.text(&sig_or_dash(other, 2)),
             simulated(app, theme.style(Role::Text)),
         ),
     ]);
-    put(rows.take(1), 0, &line, buffer);
+    sheet.line(rows.take(1), 0, &line);
 }
 
 /// "3.4 times shorter than pinned".
-pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
+pub(super) fn comparison(app: &App, rows: &mut RowAllotment, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let row = rows.take(1);
     let Some(ratio) = app.against_pinned() else {
@@ -87,13 +86,10 @@ pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
         ""
     };
     let line = Line::from(vec![
-        Span::styled(
-            format!("{} ", theme.pick("▼", "P")),
-            theme.style(Role::Warn),
-        ),
-        Span::styled(format!("{times}{word}{than}"), theme.style(role)),
+        theme.span(format!("{} ", theme.pick("▼", "P")), Role::Warn),
+        theme.span(format!("{times}{word}{than}"), role),
     ]);
-    put(row, 0, &line, buffer);
+    sheet.line(row, 0, &line);
     let Some(pinned) = &app.view.pinned else {
         return;
     };
@@ -105,11 +101,6 @@ pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
             sig(pinned.slide_roll, 2),
             app.view.units.pressure().show(pinned.p_hertz_pa, 3)
         );
-        put(
-            rows.take(1),
-            0,
-            &Line::styled(text, theme.style(Role::Dim)),
-            buffer,
-        );
+        sheet.text(rows.take(1), 0, text, Role::Dim);
     }
 }

@@ -1,6 +1,5 @@
 //! The mechanisms that make the life, as a waterfall of factors.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
@@ -8,13 +7,13 @@ use super::RowAllotment;
 use crate::tui::app::App;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::sig_or_dash;
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::sheet::{Sheet, with_columns};
 use asperity_engine::math::number::sig;
 use asperity_engine::scene::ContactKind;
 
 /// The factors one under the other on one logarithmic scale: each bar begins where the one above ended, so that the
 /// third ends at the life; the fourth is what the load costs beside it.
-pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
+pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, sheet: &mut Sheet<'_>) {
     let now = app.leading_factors();
     let pinned = app.view.pinned.map_or(1.0, |pinned| pinned.load_factor);
     let factors = [
@@ -38,21 +37,21 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
     for (n, (name, factor, role)) in factors.into_iter().enumerate() {
         let row = rows.take(1);
         let to = from * factor.unwrap_or(1.0);
-        waterfall_value(app, row, (name, factor, role), buffer);
-        waterfall_bar(app.view.theme, row, [from, to], role, buffer);
+        waterfall_value(app, row, (name, factor, role), sheet);
+        waterfall_bar(app.view.theme, row, [from, to], role, sheet);
         if let Some(end) = frozen(n) {
-            waterfall_mark(app.view.theme, row, end, buffer);
+            waterfall_mark(app.view.theme, row, end, sheet);
         }
         from = to;
     }
     let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
     if rows.rest().height >= 16 || turned {
-        against(app, rows.take(1), buffer);
+        against(app, rows.take(1), sheet);
     }
 }
 
 /// What the load's factor is against.
-fn against(app: &App, row: Rect, buffer: &mut Buffer) {
+fn against(app: &App, row: Rect, sheet: &mut Sheet<'_>) {
     let unit = match app.run.setup.scene.kind() {
         ContactKind::Point => app.view.units.force(),
         ContactKind::Line => app.view.units.force_per_length(),
@@ -72,11 +71,7 @@ fn against(app: &App, row: Rect, buffer: &mut Buffer) {
     let Some(words) = forms.iter().find(fits) else {
         return;
     };
-    let line = Line::styled(
-        ascii_text(app.view.theme, words),
-        app.view.theme.style(Role::Dim),
-    );
-    put(row, 0, &line, buffer);
+    sheet.text(row, 0, words, Role::Dim);
 }
 
 /// Decades of every bar: bars that rescale cannot be compared. What goes beyond them has an arrow at that end.
@@ -86,38 +81,35 @@ fn waterfall_value(
     app: &App,
     row: Rect,
     (name, factor, role): (&'static str, Option<f64>, Role),
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let theme = app.view.theme;
-    put(row, 0, &Line::styled(name, theme.style(role)), buffer);
-    let value = ascii_text(theme, &format!("×{}", sig_or_dash(factor, 2)));
+    sheet.text(row, 0, name, role);
+    let value = theme.text(&format!("×{}", sig_or_dash(factor, 2)));
     let style = theme.style(Role::Strong);
-    put_right(row, 0, &Line::styled(value, style), buffer);
+    sheet.line_right(row, 0, &Line::styled(value, style));
 }
 
 /// Where the bars of a row stand, between their names and values; `None`: there is no room.
 fn track(row: Rect) -> Option<Rect> {
     let (before, after) = (9, 7);
-    (!row.is_empty() && row.width >= before + after + 3).then(|| Rect {
-        x: row.x + before,
-        width: row.width - before - after,
-        ..row
-    })
+    (!row.is_empty() && row.width >= before + after + 3)
+        .then(|| with_columns(row, row.x + before, row.width - before - after))
 }
 
 /// The ends of the decades that every bar has.
-pub(super) fn scale(theme: Theme, row: Rect, buffer: &mut Buffer) {
+pub(super) fn scale(theme: Theme, row: Rect, sheet: &mut Sheet<'_>) {
     let Some(track) = track(row) else { return };
     let [least, most] = DECADES.map(|decade| sig(10_f64.powf(decade), 1));
     if usize::from(track.width) <= least.len() + most.len() {
         return;
     }
     let dim = theme.style(Role::Dim);
-    put(track, 0, &Line::styled(least, dim), buffer);
-    put_right(track, 0, &Line::styled(most, dim), buffer);
+    sheet.line(track, 0, &Line::styled(least, dim));
+    sheet.line_right(track, 0, &Line::styled(most, dim));
 }
 
-fn waterfall_bar(theme: Theme, row: Rect, [from, to]: [f64; 2], role: Role, buffer: &mut Buffer) {
+fn waterfall_bar(theme: Theme, row: Rect, [from, to]: [f64; 2], role: Role, sheet: &mut Sheet<'_>) {
     let Some(track) = track(row) else { return };
     let last = track.width - 1;
     let part = |value: f64| (value.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
@@ -136,34 +128,32 @@ fn waterfall_bar(theme: Theme, row: Rect, [from, to]: [f64; 2], role: Role, buff
         } else {
             (theme.pick("·", "."), Role::Border)
         };
-        if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
-            cell.set_symbol(symbol).set_style(theme.style(role));
-        }
+        sheet.cell(track.x + offset, track.y, symbol, theme.style(role));
     }
 }
 
 /// Where the frozen bar ended.
-fn waterfall_mark(theme: Theme, row: Rect, end: f64, buffer: &mut Buffer) {
+fn waterfall_mark(theme: Theme, row: Rect, end: f64, sheet: &mut Sheet<'_>) {
     let Some(track) = track(row) else { return };
     let part = (end.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
     let offset = (part.clamp(0.0, 1.0) * f64::from(track.width - 1)).round() as u16;
-    if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
-        cell.set_symbol(theme.pick("┃", "|"))
-            .set_style(theme.style(Role::Formula));
-    }
+    sheet.cell(
+        track.x + offset,
+        track.y,
+        theme.pick("┃", "|"),
+        theme.style(Role::Formula),
+    );
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::tui::theme::{Capabilities, ColorDepth, Glyphs};
+    use ratatui::buffer::Buffer;
 
     /// A bar on a track of 21 columns: five to a decade.
     fn bar(from: f64, to: f64) -> String {
-        let row = Rect::new(0, 0, 37, 1);
-        let mut buffer = Buffer::empty(row);
-        waterfall_bar(ascii(), row, [from, to], Role::Cycles, &mut buffer);
-        drawn(&buffer, row)
+        drawn(|row, sheet| waterfall_bar(ascii(), row, [from, to], Role::Cycles, sheet))
     }
 
     fn ascii() -> Theme {
@@ -173,7 +163,18 @@ mod tests {
         })
     }
 
-    fn drawn(buffer: &Buffer, row: Rect) -> String {
+    /// What stands on a row of 37 columns.
+    fn drawn(draw: impl Fn(Rect, &mut Sheet<'_>)) -> String {
+        let row = Rect::new(0, 0, 37, 1);
+        let mut buffer = Buffer::empty(row);
+        let theme = ascii();
+        draw(
+            row,
+            &mut Sheet {
+                theme,
+                buffer: &mut buffer,
+            },
+        );
         let cells = (0..row.width).filter_map(|x| buffer.cell((x, row.y)));
         let text: String = cells.map(ratatui::buffer::Cell::symbol).collect();
         text.trim().to_owned()
@@ -198,10 +199,9 @@ mod tests {
 
     #[test]
     fn the_ends_of_the_bars_are_told() {
-        let row = Rect::new(0, 0, 37, 1);
-        let mut buffer = Buffer::empty(row);
-        scale(ascii(), row, &mut buffer);
-        assert_eq!(drawn(&buffer, row), "1e-4                1");
-        scale(ascii(), Rect::new(0, 0, 18, 1), &mut buffer);
+        let ends = drawn(|row, sheet| scale(ascii(), row, sheet));
+        assert_eq!(ends, "1e-4                1");
+        let narrow = Rect::new(0, 0, 18, 1);
+        drawn(|_, sheet| scale(ascii(), narrow, sheet));
     }
 }

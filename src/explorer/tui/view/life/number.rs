@@ -1,14 +1,15 @@
 //! The life as a large figure, beside it where it comes from.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use super::RowAllotment;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, digits, put};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::digits;
+use crate::tui::view::sheet::{Sheet, with_columns};
 
 /// What the number is, for the panel's title: where there is no room beside the figure, against what.
 pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
@@ -21,7 +22,7 @@ pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
 }
 
 /// The number itself.
-pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
+pub(super) fn figure(app: &App, rows: &mut RowAllotment, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let role = match app.leading() {
         Leading::Simulated => Role::Strong,
@@ -35,21 +36,19 @@ pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
         } else {
             "no estimate"
         };
-        put(area, 1, &Line::styled(why, theme.style(Role::Dim)), buffer);
+        sheet.text(area, 1, why, Role::Dim);
     } else if theme.is_ascii() {
-        let line = Line::styled(format!(">> {text} <<"), theme.style(Role::Strong));
-        put(area, 1, &line, buffer);
+        sheet.text(area, 1, format!(">> {text} <<"), Role::Strong);
     } else {
-        digits::render(&text, area, theme.style(role), buffer);
+        digits::render(&text, area, theme.style(role), sheet);
     }
-    let beside = said(app, area, digits::width(&text), buffer);
+    let beside = said(app, area, digits::width(&text), sheet);
     let below = rows.take(1);
-    put(below, 0, &provenance(app, below.width, beside), buffer);
+    sheet.line(below, 0, &provenance(app, below.width, beside));
 }
 
 /// Which model and effective stress, and how far other choices would move the number.
-pub(super) fn model(app: &App, row: Rect, buffer: &mut Buffer) {
-    let theme = app.view.theme;
+pub(super) fn model(app: &App, row: Rect, sheet: &mut Sheet<'_>) {
     let scene = &app.run.setup.scene;
     let (Some(life), Some(stress)) = (&scene.life, &scene.stress) else {
         return;
@@ -76,8 +75,7 @@ pub(super) fn model(app: &App, row: Rect, buffer: &mut Buffer) {
     let Some(text) = forms.iter().find(fits).or(forms.last()) else {
         return;
     };
-    let line = Line::styled(ascii_text(theme, text), theme.style(Role::Dim));
-    put(row, 0, &line, buffer);
+    sheet.text(row, 0, text, Role::Dim);
 }
 
 /// Whether the large figure's source stands beside it.
@@ -97,7 +95,7 @@ fn source(app: &App) -> (&'static str, Role) {
 }
 
 /// Beside the large figure: where the number comes from.
-fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
+fn said(app: &App, area: Rect, used: u16, sheet: &mut Sheet<'_>) -> Beside {
     let theme = app.view.theme;
     let used = if theme.is_ascii() {
         used / 2 + 8
@@ -107,17 +105,13 @@ fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
     if area.width < used + 16 || app.leading_life().is_none() {
         return Beside::Nothing;
     }
-    let right = Rect {
-        x: area.x + used,
-        width: area.width - used,
-        ..area
-    };
+    let right = with_columns(area, area.x + used, area.width - used);
     let dim = theme.style(Role::Dim);
     let (word, role) = source(app);
-    put(right, 0, &Line::styled(word, theme.style(role)), buffer);
-    let of = ascii_text(theme, "× smooth rolling");
-    put(right, 1, &Line::styled(of, dim), buffer);
-    put(right, 2, &Line::styled("at the same load", dim), buffer);
+    sheet.text(right, 0, word, role);
+    let of = theme.text("× smooth rolling");
+    sheet.line(right, 1, &Line::styled(of, dim));
+    sheet.line(right, 2, &Line::styled("at the same load", dim));
     Beside::Source
 }
 
@@ -131,11 +125,11 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
     let mut spans = Vec::new();
     let mut used = 0;
     let mut add = |text: String, role: Role| {
-        let text = ascii_text(theme, &text);
+        let text = theme.text(&text);
         let length = text.chars().count();
         if used + length <= usize::from(width) {
             used += length;
-            spans.push(Span::styled(text, theme.style(role)));
+            spans.push(theme.span(text, role));
         }
     };
     let formula = sig_or_dash(app.lives.estimate.formula.life(), 2);

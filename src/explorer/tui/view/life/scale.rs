@@ -1,14 +1,11 @@
 //! The life on a logarithmic scale.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::text::Line;
 
 use super::{RowAllotment, simulated};
 use crate::tui::app::App;
 use crate::tui::theme::Role;
-use crate::tui::view::{put, put_right};
+use crate::tui::view::sheet::{Sheet, with_columns};
 
 /// Decades of the scale: from 10^-4 to 10.
 const DECADES: [f64; 2] = [-4.0, 1.0];
@@ -24,12 +21,12 @@ fn column(value: f64, width: u16) -> u16 {
 }
 
 /// The logarithmic scale with band, number, formula and pin.
-pub(super) fn scale(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
+pub(super) fn scale(app: &App, rows: &mut RowAllotment, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let bar = rows.take(1);
     let width = bar.width;
     let mut mark = |value: f64, symbol: &'static str, style: Style| {
-        if let Some(cell) = buffer.cell_mut((bar.x + column(value, width), bar.y))
+        if let Some(cell) = sheet.buffer.cell_mut((bar.x + column(value, width), bar.y))
             && !bar.is_empty()
         {
             cell.set_symbol(symbol).set_style(style);
@@ -78,24 +75,10 @@ pub(super) fn scale(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
         };
         let at = column(10_f64.powi(decade), width);
         let start = at.saturating_sub(text.len() as u16 / 2);
-        let place = Rect {
-            x: names.x + start,
-            width: names.width.saturating_sub(start),
-            ..names
-        };
-        put(
-            place,
-            0,
-            &Line::styled(text, theme.style(Role::Dim)),
-            buffer,
-        );
+        let place = with_columns(names, names.x + start, names.width.saturating_sub(start));
+        sheet.text(place, 0, text, Role::Dim);
     }
-    put_right(
-        names,
-        0,
-        &Line::styled("10", theme.style(Role::Dim)),
-        buffer,
-    );
+    sheet.text_right(names, 0, "10", Role::Dim);
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Numbers along the edges of the map: x/a below it; y/b, the depth, or the way since then at its left.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
@@ -8,7 +7,7 @@ use super::raster::MapWindow;
 use crate::tui::app::{App, MapKind};
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
-use crate::tui::view::{ascii_text, put_right};
+use crate::tui::view::sheet::{Sheet, with_columns};
 use asperity_engine::math::number::ticks;
 use asperity_engine::sim::Frame;
 
@@ -27,37 +26,30 @@ pub(super) fn draw(
     frame: &Frame,
     window: &MapWindow,
     (image, inner): (Rect, Rect),
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let [left, below] = room(inner);
     // Above the motion's row.
     let foot = inner.bottom().saturating_sub(2);
     if below > 0 {
-        along(app, window, image, foot, buffer);
+        along(app, window, image, foot, sheet);
     }
     if left > 0 {
-        let cells = Rect {
-            width: left - 1,
-            ..inner
-        };
-        downwards(app, frame, window, (image, cells), buffer);
+        let cells = with_columns(inner, inner.x, left - 1);
+        downwards(app, frame, window, (image, cells), sheet);
         if below > 0 {
             // The corner says what the numbers above it are.
-            number(app, cells, foot, down(app, frame).name, buffer);
+            number(cells, foot, down(app, frame).name, sheet);
         }
     }
 }
 
-fn number(app: &App, cells: Rect, row: u16, text: &str, buffer: &mut Buffer) {
-    let line = Line::styled(
-        ascii_text(app.view.theme, text),
-        app.view.theme.style(Role::Dim),
-    );
-    put_right(cells, row - cells.y, &line, buffer);
+fn number(cells: Rect, row: u16, text: &str, sheet: &mut Sheet<'_>) {
+    sheet.text_right(cells, row - cells.y, text, Role::Dim);
 }
 
 /// x/a below the map.
-fn along(app: &App, window: &MapWindow, image: Rect, row: u16, buffer: &mut Buffer) {
+fn along(app: &App, window: &MapWindow, image: Rect, row: u16, sheet: &mut Sheet<'_>) {
     let style = app.view.theme.style(Role::Dim);
     let mut free_from = image.x;
     for x in ticks(
@@ -76,7 +68,9 @@ fn along(app: &App, window: &MapWindow, image: Rect, row: u16, buffer: &mut Buff
         let first = centre.saturating_sub(width / 2).max(image.x);
         let first = first.min(image.right().saturating_sub(width));
         if first >= free_from {
-            buffer.set_line(first, row, &Line::styled(text, style), width);
+            sheet
+                .buffer
+                .set_line(first, row, &Line::styled(text, style), width);
             free_from = first + width + 1;
         }
     }
@@ -88,7 +82,7 @@ fn downwards(
     frame: &Frame,
     window: &MapWindow,
     (image, cells): (Rect, Rect),
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let scale = down(app, frame);
     let ends = window.y.map(|y| y * scale.per_window);
@@ -102,7 +96,7 @@ fn downwards(
         let part = (value - ends[0]) / (ends[1] - ends[0]);
         let row = image.y + (part * f64::from(image.height.saturating_sub(1))).round() as u16;
         if row >= free_from {
-            number(app, cells, row, &tick(value), buffer);
+            number(cells, row, &tick(value), sheet);
             free_from = row + 1;
         }
     }

@@ -1,17 +1,17 @@
 //! Both bodies' motion beside the map.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
-use crate::tui::view::{Areas, PanelSpacing, put, put_right};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::sheet::{Sheet, with_rows};
 use asperity_engine::sim::Frame;
 
 /// Both bodies' motion: chevrons that travel as far as the body does, in the picture's scale.
-pub(super) fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, buffer: &mut Buffer) {
+pub(super) fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, sheet: &mut Sheet<'_>) {
     let metrics = &frame.metrics;
     let mean = metrics.entrainment_m_s;
     let slide = 0.5 * metrics.slide_roll;
@@ -22,12 +22,8 @@ pub(super) fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, buffe
     let last = inner.height.saturating_sub(1);
     if areas.density == PanelSpacing::Full {
         for ((name, speed, role), row) in bodies.into_iter().zip([0, last]) {
-            let row = Rect {
-                y: inner.y + row,
-                height: 1,
-                ..inner
-            };
-            strip(app, frame, name, speed, role, row, buffer);
+            let row = with_rows(inner, inner.y + row, 1);
+            strip(app, frame, name, speed, role, row, sheet);
         }
         return;
     }
@@ -39,7 +35,7 @@ pub(super) fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, buffe
             width: half.saturating_sub(1),
             height: 1,
         };
-        strip(app, frame, name, speed, role, row, buffer);
+        strip(app, frame, name, speed, role, row, sheet);
     }
 }
 
@@ -53,7 +49,7 @@ fn strip(
     speed_m_s: f64,
     role: Role,
     row: Rect,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let theme = app.view.theme;
     let style = theme.style(role);
@@ -67,8 +63,8 @@ fn strip(
     };
     let value = Line::styled(value, style);
     let (before, after) = (label.width() as u16, value.width() as u16);
-    put(row, 0, &label, buffer);
-    put_right(row, 0, &value, buffer);
+    sheet.line(row, 0, &label);
+    sheet.line_right(row, 0, &value);
     let columns = row.width.saturating_sub(before + after);
     // One column is about a tenth of a half-width: slow enough to follow, and both bodies alike.
     let travelled = speed_m_s * frame.time_s / (0.1 * frame.a_m.max(1e-12));
@@ -82,7 +78,7 @@ fn strip(
     };
     for column in 0..columns {
         if (i64::from(column) - shift).rem_euclid(PITCH) == 0
-            && let Some(cell) = buffer.cell_mut((row.x + before + column, row.y))
+            && let Some(cell) = sheet.buffer.cell_mut((row.x + before + column, row.y))
         {
             cell.set_symbol(arrow).set_style(style);
         }

@@ -1,6 +1,5 @@
 //! From values to colours or characters, and the bar that says which is which.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
@@ -10,7 +9,7 @@ use crate::tui::app::{App, MapKind};
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::tick;
-use crate::tui::view::{ascii_text, put};
+use crate::tui::view::sheet::{Sheet, with_columns};
 use asperity_picture::interferogram::colour as fringe;
 use asperity_picture::{AboveRange, CONTACT, Look, Palette, Tint};
 
@@ -125,7 +124,7 @@ pub(super) fn paint(
     window: &MapWindow,
     kind: MapKind,
     image: Rect,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let pixel = |column: usize, row: usize| {
         Pixel::of(look, raster, window, kind, (column, row)).color(theme, look)
@@ -133,7 +132,7 @@ pub(super) fn paint(
     for row in 0..usize::from(image.height) {
         for column in 0..usize::from(image.width) {
             let at = (image.x + column as u16, image.y + row as u16);
-            let Some(cell) = buffer.cell_mut(at) else {
+            let Some(cell) = sheet.buffer.cell_mut(at) else {
                 continue;
             };
             if theme.paints() {
@@ -197,7 +196,13 @@ fn on_ellipse(window: &MapWindow, raster: &Raster, column: usize, row: usize) ->
     (raster.distance(x, y) - 1.0).abs() < 0.5 * pixel
 }
 
-pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut Buffer) {
+pub(super) fn color_bar(
+    theme: Theme,
+    look: &Look,
+    kind: MapKind,
+    bar: Rect,
+    sheet: &mut Sheet<'_>,
+) {
     if bar.width < 4 || bar.height < 3 {
         return;
     }
@@ -214,7 +219,7 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
             };
             pixel.color(theme, look)
         };
-        if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
+        if let Some(cell) = sheet.buffer.cell_mut((bar.x + 1, bar.y + row)) {
             if theme.paints() {
                 cell.set_symbol("▀").set_fg(color(0)).set_bg(color(1));
             } else if kind == MapKind::Fringes {
@@ -225,30 +230,21 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
             }
         }
     }
-    let text = Rect {
-        x: bar.x + 3,
-        width: bar.width - 3,
-        ..bar
-    };
+    let text = with_columns(bar, bar.x + 3, bar.width - 3);
     let dim = theme.style(Role::Dim);
     let number = |value: f64| Line::styled(number(theme, look, value, text.width), dim);
-    put(text, 0, &number(high), buffer);
-    put(
-        text,
-        1,
-        &Line::styled(ascii_text(theme, look.unit.name), dim),
-        buffer,
-    );
+    sheet.line(text, 0, &number(high));
+    sheet.line(text, 1, &Line::styled(theme.text(look.unit.name), dim));
     if bar.height >= 7 {
-        put(text, bar.height / 2, &number(0.5 * (low + high)), buffer);
+        sheet.line(text, bar.height / 2, &number(0.5 * (low + high)));
     }
-    put(text, bar.height - 1, &number(low), buffer);
+    sheet.line(text, bar.height - 1, &number(low));
     if kind == MapKind::Contact && bar.height >= 9 {
         let spot = Line::from(vec![
             Span::styled(theme.pick("█", "#"), Style::new().fg(theme.rgb(CONTACT))),
             Span::styled("touch", dim),
         ]);
-        put(text, bar.height - 3, &spot, buffer);
+        sheet.line(text, bar.height - 3, &spot);
     }
 }
 
@@ -257,7 +253,7 @@ fn number(theme: Theme, look: &Look, value: f64, room: u16) -> String {
     let text = if look.above == AboveRange::Dark && value == look.range[1] {
         format!(">{}", tick(look.unit.of(value)))
     } else {
-        ascii_text(theme, &look.number(value))
+        theme.text(&look.number(value))
     };
     if text.chars().count() <= usize::from(room) {
         text

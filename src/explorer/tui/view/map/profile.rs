@@ -1,6 +1,5 @@
 //! The map of the profile: [`SurfaceProfile`] in half blocks, characters or the terminal's own pixels.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
@@ -10,7 +9,8 @@ use crate::tui::app::{App, Zoom};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
-use crate::tui::view::{ascii_text, point, put, put_right};
+use crate::tui::view::point;
+use crate::tui::view::sheet::{Sheet, with_columns, with_rows};
 use asperity_engine::sim::Frame;
 use asperity_picture::profile::{Matter, ProfileColumn, ProfileScale, SurfaceProfile};
 
@@ -66,11 +66,11 @@ pub(super) fn rooms(inner: Rect) -> (Rect, Option<Rect>) {
         height: above,
         ..inner
     };
-    let below = Rect {
-        y: profile.bottom() + 1,
-        height: rows.saturating_sub(above + 2),
-        ..profile
-    };
+    let below = with_rows(
+        profile,
+        profile.bottom() + 1,
+        rows.saturating_sub(above + 2),
+    );
     let trace = (below.height >= 3).then_some(below);
     (profile, trace)
 }
@@ -80,12 +80,12 @@ pub(super) fn side_view(
     app: &App,
     frame: &Frame,
     inner: Rect,
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) -> Option<PixelPlot> {
     let profile = of(app, frame)?;
     let (area, below) = rooms(inner);
-    draw(app, (&profile, frame), (area, inner), buffer);
-    point::under_profile(app, frame, (below?, profile.x), buffer)
+    draw(app, (&profile, frame), (area, inner), sheet);
+    point::under_profile(app, frame, (below?, profile.x), sheet)
 }
 
 /// Draws the profile, where it is not left to the terminal's own pixels, and its numbers.
@@ -93,7 +93,7 @@ fn draw(
     app: &App,
     (profile, frame): (&SurfaceProfile, &Frame),
     (area, inner): (Rect, Rect),
-    buffer: &mut Buffer,
+    sheet: &mut Sheet<'_>,
 ) {
     let theme = app.view.theme;
     let rows = usize::from(area.height) * if theme.paints() { 2 } else { 1 };
@@ -104,7 +104,7 @@ fn draw(
     };
     for (x, column) in (area.x..).zip(&columns) {
         for row in 0..area.height {
-            let Some(cell) = buffer.cell_mut((x, area.y + row)) else {
+            let Some(cell) = sheet.buffer.cell_mut((x, area.y + row)) else {
                 continue;
             };
             let row = usize::from(row);
@@ -118,12 +118,12 @@ fn draw(
             }
         }
     }
-    numbers(app, profile, area, inner, buffer);
+    numbers(app, profile, area, inner, sheet);
     let cell = |part: f64, cells: u16| (part * f64::from(cells)) as u16;
     if !app.is_in_pixels()
         && let Some([along, down]) = point_part(app, (profile, frame))
         && let (column, row) = (cell(along, area.width), cell(down, area.height))
-        && let Some(cell) = buffer.cell_mut((area.x + column, area.y + row))
+        && let Some(cell) = sheet.buffer.cell_mut((area.x + column, area.y + row))
     {
         cell.set_symbol(theme.pick("◆", "X"));
         if theme.paints() {
@@ -147,41 +147,23 @@ fn point_part(app: &App, (profile, frame): (&SurfaceProfile, &Frame)) -> Option<
 }
 
 /// Heights at the left, x/a and what is what below.
-fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, buffer: &mut Buffer) {
+fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let dim = theme.style(Role::Dim);
     let unit = app.view.units.film();
-    let left = Rect {
-        x: inner.x,
-        width: area.x - inner.x - 1,
-        ..area
-    };
+    let left = with_columns(area, inner.x, area.x - inner.x - 1);
     let last = area.height.saturating_sub(1);
     let height = |value: f64| Line::styled(tick(unit.of(value)), dim);
-    put_right(left, 0, &height(profile.half_m()), buffer);
-    put_right(left, last, &height(-profile.half_m()), buffer);
+    sheet.line_right(left, 0, &height(profile.half_m()));
+    sheet.line_right(left, last, &height(-profile.half_m()));
     if area.height >= 5 {
-        put_right(
-            left,
-            1,
-            &Line::styled(ascii_text(theme, unit.name), dim),
-            buffer,
-        );
-        put_right(left, area.height / 2, &Line::styled("0", dim), buffer);
+        sheet.line_right(left, 1, &Line::styled(theme.text(unit.name), dim));
+        sheet.line_right(left, area.height / 2, &Line::styled("0", dim));
     }
-    let foot = Rect {
-        y: area.bottom(),
-        height: 1,
-        ..area
-    };
+    let foot = with_rows(area, area.bottom(), 1);
     let [from, to] = profile.x.map(|x| format!("{} a", sig(x, 2)));
-    put(
-        foot,
-        0,
-        &Line::styled(ascii_text(theme, &from), dim),
-        buffer,
-    );
-    put_right(foot, 0, &Line::styled(to, dim), buffer);
+    sheet.line(foot, 0, &Line::styled(theme.text(&from), dim));
+    sheet.line_right(foot, 0, &Line::styled(to, dim));
     let words = if theme.paints() {
         [
             "body 2 above, body 1 below, lit by their stress; oil by its pressure; cyan touches",
@@ -198,12 +180,8 @@ fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, buffer:
     let room = usize::from(foot.width).saturating_sub(16);
     if let Some(words) = words.iter().find(|words| words.len() <= room) {
         let start = (usize::from(foot.width) - words.len()) / 2;
-        let middle = Rect {
-            x: foot.x + start as u16,
-            width: words.len() as u16,
-            ..foot
-        };
-        put(middle, 0, &Line::styled(*words, dim), buffer);
+        let middle = with_columns(foot, foot.x + start as u16, words.len() as u16);
+        sheet.line(middle, 0, &Line::styled(*words, dim));
     }
 }
 
