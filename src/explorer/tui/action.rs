@@ -98,8 +98,6 @@ pub enum Action {
     Units,
     /// Other contrast.
     Contrast,
-    /// The map in half blocks, sixels, kitty's pixels.
-    Pixels,
     /// The keys.
     Help,
     /// What is computed, what is left out, and why.

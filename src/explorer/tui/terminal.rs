@@ -1,6 +1,5 @@
 //! The terminal itself: entered, left, and left again whatever happens. The only place that names crossterm.
 
-mod canvas;
 mod show;
 
 use std::cell::Cell;
@@ -59,11 +58,11 @@ impl Screen {
         Ok(Rect::from((Position::ORIGIN, Size::from(size()?))))
     }
 
-    /// Draws the screen and says whether anything of it has changed.
+    /// Draws the screen, where anything of it has changed.
     ///
     /// # Errors
     /// When the terminal cannot be written to.
-    pub(super) fn draw(&mut self, app: &App) -> io::Result<bool> {
+    pub(super) fn draw(&mut self, app: &App) -> io::Result<()> {
         if Self::area()? != self.shown.area {
             self.clear()?;
         }
@@ -72,19 +71,14 @@ impl Screen {
         let mut next = Buffer::empty(area);
         view::render(app, area, &mut next);
         if next == self.shown {
-            return Ok(false);
+            return Ok(());
         }
         queue!(self.terminal.backend_mut(), BeginSynchronizedUpdate)?;
         self.terminal
             .draw(|frame| frame.buffer_mut().clone_from(&next))?;
         execute!(self.terminal.backend_mut(), EndSynchronizedUpdate)?;
         self.shown = next;
-        Ok(true)
-    }
-
-    /// What it shows.
-    pub(super) fn shown(&self) -> &Buffer {
-        &self.shown
+        Ok(())
     }
 
     /// Hands the terminal to the shell and stops this process and its group until `fg`.
@@ -105,7 +99,7 @@ impl Screen {
     ///
     /// # Errors
     /// When it fails.
-    pub(super) fn clear(&mut self) -> io::Result<()> {
+    fn clear(&mut self) -> io::Result<()> {
         execute!(stdout(), Clear(ClearType::All))?;
         (self.terminal, self.shown) = blank()?;
         Ok(())

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::state::App;
 use crate::tui::kinds::Overlay;
-use crate::tui::pixels::Pixels;
+use crate::tui::pixels::Medium;
 
 impl App {
     /// This state, frozen: its frame, trace and factors, without what goes on; `None` before the first frame.
@@ -28,7 +28,7 @@ impl App {
         view.probe = None;
         view.message = None;
         view.overlay = Overlay::None;
-        view.pixels = Pixels::Blocks;
+        view.medium = Medium::Terminal;
         Some(Arc::new(frozen))
     }
 

@@ -87,7 +87,6 @@ impl App {
             Action::ReplayFaster(times) => self.replay_faster(times),
             Action::Units => self.view.units = self.view.units.next(),
             Action::Contrast => self.view.theme.next_contrast(),
-            Action::Pixels => self.next_pixels(),
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
             Action::Scene => self.toggle_draft(Form::Scene),
@@ -99,19 +98,6 @@ impl App {
             Action::Close => self.close(),
             _ => {}
         }
-    }
-
-    fn next_pixels(&mut self) {
-        if !self.view.theme.paints() {
-            self.say("the map is drawn in letters: this terminal shows no colours");
-            return;
-        }
-        let next = self.pixels().next();
-        self.set_pixels(next);
-        self.say(format!(
-            "map drawn in {}, if the terminal supports them (g: next)",
-            next.name()
-        ));
     }
 
     fn show_map(&mut self, map: MapKind) {

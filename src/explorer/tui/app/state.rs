@@ -13,7 +13,7 @@ use crate::tui::kinds::{
 };
 use crate::tui::kymograph::{Kymograph, Span};
 use crate::tui::lessons::{Lesson, Staging, TourState, built_in};
-use crate::tui::pixels::Pixels;
+use crate::tui::pixels::Medium;
 use crate::tui::replay::Replay;
 use crate::tui::theme::Theme;
 use crate::tui::trace::{Chosen, Trace};
@@ -125,7 +125,7 @@ pub(crate) struct ReplayState {
 pub(crate) struct ViewState {
     pub(crate) theme: Theme,
     pub(crate) units: Units,
-    pub(super) pixels: Pixels,
+    pub(super) medium: Medium,
     pub(crate) map: MapKind,
     pub(crate) zoom: Zoom,
     pub(crate) point_quantity: PointQuantity,
@@ -283,25 +283,15 @@ impl App {
         self.target(Knob::ForceN) + self.target(Knob::ForceNPerM)
     }
 
-    /// How the map is drawn.
-    pub fn pixels(&self) -> Pixels {
-        self.view.pixels
+    /// What shows the screen.
+    pub fn set_medium(&mut self, medium: Medium) {
+        self.view.medium = medium;
     }
 
-    /// Draws the map in another way.
-    pub fn set_pixels(&mut self, pixels: Pixels) {
-        self.view.pixels = pixels;
-    }
-
-    /// Whether the map is left to the terminal's own pixels: nothing lies over it, and it is in colour.
+    /// Whether map and curves are left to a page's own pixels, and nothing lies over them.
     pub(crate) fn is_in_pixels(&self) -> bool {
         let covered = self.view.overlay != Overlay::None || self.fault().is_some();
-        self.view.pixels != Pixels::Blocks && self.view.theme.paints() && !covered
-    }
-
-    /// Whether curves are left to a page, which draws them as lines.
-    pub(crate) fn is_in_lines(&self) -> bool {
-        self.view.pixels == Pixels::Page && self.is_in_pixels()
+        self.view.medium == Medium::Page && self.view.theme.paints() && !covered
     }
 
     /// The map that is shown.
@@ -389,7 +379,7 @@ impl ViewState {
             theme,
             curve,
             units: Units::default(),
-            pixels: Pixels::default(),
+            medium: Medium::default(),
             map: MapKind::default(),
             zoom: Zoom::default(),
             point_quantity: PointQuantity::default(),

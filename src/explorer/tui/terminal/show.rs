@@ -5,11 +5,9 @@ use std::io::{self, ErrorKind};
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
-use super::canvas::Canvas;
 use super::{Input, Panics, Screen};
 use crate::tui::event::ScreenEvent;
 use crate::tui::explorer::{Control, Explorer};
-use crate::tui::pixels::Pixels;
 use crate::tui::theme::{Capabilities, Contrast, Theme};
 use crate::tui::wiring::{TuiError, Wiring};
 use asperity_session::run::Command;
@@ -36,7 +34,6 @@ pub fn explore(wiring: Wiring) -> Result<(), TuiError> {
     let mut theme = Theme::new(Capabilities::detect(variable));
     theme.contrast = Contrast::detect(variable);
     let mut explorer = Explorer::new(wiring, theme);
-    explorer.app.set_pixels(Pixels::detect(variable));
     let panics = Panics::watch();
     let result = Screen::enter().and_then(|stage| {
         let input = Input::listen()?;
@@ -44,7 +41,6 @@ pub fn explore(wiring: Wiring) -> Result<(), TuiError> {
             stage,
             explorer: &mut explorer,
             panics: &panics,
-            canvas: Canvas::default(),
         };
         let control = show.explorer.teach_asked();
         let shown = show.follow(control).and_then(|_| show.go_on(&input));
@@ -61,7 +57,6 @@ struct Show<'a> {
     stage: Screen,
     explorer: &'a mut Explorer,
     panics: &'a Panics,
-    canvas: Canvas,
 }
 
 impl Show<'_> {
@@ -78,7 +73,7 @@ impl Show<'_> {
             self.follow(control)?;
             last = now;
             let began = Instant::now();
-            self.draw()?;
+            self.stage.draw(&self.explorer.app)?;
             let drawn = Instant::now();
             // Drawing counts: frames come every FRAME_TIME, not so long after each other.
             let mut wait = FRAME_TIME.saturating_sub(drawn - began).max(LEAST_WAIT);
@@ -111,19 +106,7 @@ impl Show<'_> {
         }
     }
 
-    fn draw(&mut self) -> io::Result<()> {
-        let app = &self.explorer.app;
-        if self.canvas.must_clear(app, Screen::area()?) {
-            self.stage.clear()?;
-        }
-        let has_changed = self.stage.draw(app)?;
-        self.canvas.show(app, self.stage.shown(), has_changed)
-    }
-
     fn take_event(&mut self, event: ScreenEvent) -> io::Result<Control> {
-        if event == ScreenEvent::Resize {
-            self.canvas.forget();
-        }
         let control = self.explorer.take_event(event, Screen::area()?);
         self.follow(control)
     }
@@ -133,10 +116,7 @@ impl Show<'_> {
         match control {
             Control::Go | Control::Stop => {}
             Control::Anew => self.panics.another_run(),
-            Control::Suspend => {
-                self.canvas.forget();
-                self.stage.suspend()?;
-            }
+            Control::Suspend => self.stage.suspend()?,
         }
         Ok(control)
     }

@@ -93,7 +93,7 @@ impl CurvePanel {
     /// The same as the explorer draws it: dots, or a page's lines.
     pub(super) fn of(app: &App, area: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
         Self {
-            curves: app.is_in_lines().then(Vec::new),
+            curves: app.is_in_pixels().then(Vec::new),
             ..Self::new(area, x, y)
         }
     }
