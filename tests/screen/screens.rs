@@ -19,7 +19,7 @@ use asperity_explorer::tui::{Health, RunStatus, view};
 use asperity_session::run::Command;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 use ratatui::style::Color;
 
 #[test]
@@ -240,7 +240,7 @@ fn many(theme: Theme) -> Vec<App> {
 
 #[test]
 fn ascii_terminals_get_ascii_only() {
-    for app in many(theme(ColorDepth::Basic, Glyphs::Ascii)) {
+    for app in many(theme(ColorDepth::Indexed, Glyphs::Ascii)) {
         for (width, height) in [(60, 20), (160, 48), (40, 5)] {
             let drawn = text(&app, width, height);
             let foreign = drawn.chars().find(|letter| !letter.is_ascii());
@@ -532,7 +532,7 @@ fn maps_in_pixels_are_the_maps_in_blocks() {
         assert_eq!(view::picture_area(&app, screen), None);
         app.set_medium(Medium::Page);
         let bare = buffer(&app, 120, 36);
-        let picture = view::picture(&app, screen, (1, 2)).unwrap();
+        let picture = view::picture(&app, screen, Size::new(1, 2)).unwrap();
         assert_eq!(Some(picture.area), view::picture_area(&app, screen));
         let mut letters = 0;
         for at in picture.area.positions() {

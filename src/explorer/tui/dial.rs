@@ -24,9 +24,9 @@ pub struct Dial {
     pub steps: Steps,
     /// Small steps in a big one.
     pub far: i32,
-    /// Least value.
+    /// Minimum value.
     pub min: f64,
-    /// Greatest value.
+    /// Maximum value.
     pub max: f64,
     /// The scene's value.
     pub home: f64,

@@ -46,7 +46,7 @@ impl MapKind {
             Self::Pressure => "pressure",
             Self::Film => "film",
             Self::Fringes => "interferogram",
-            Self::Contact => "touching",
+            Self::Contact => "asperity contact",
             Self::Roughness => "roughness",
             Self::Stress => "stress below",
             Self::PressureWaves => "pressure x-t",

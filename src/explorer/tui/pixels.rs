@@ -1,6 +1,6 @@
 //! What a page draws in its own pixels instead of cells: the map as a bitmap, curves as lines.
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 use ratatui::style::Color;
 
 /// What shows the screen.
@@ -44,4 +44,17 @@ pub struct Bitmap {
     pub height: usize,
     /// Red, green, blue, opacity; row by row.
     pub rgba: Vec<u8>,
+}
+
+impl Bitmap {
+    /// One for these cells, each of so many pixels; no pixel of it is drawn yet.
+    pub(crate) fn blank(area: Rect, cell: Size) -> Self {
+        let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
+        Self {
+            area,
+            width: side(area.width, cell.width),
+            height: side(area.height, cell.height),
+            rgba: Vec::new(),
+        }
+    }
 }

@@ -10,7 +10,7 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 
 use super::cells::changed;
 use super::curves::written as written_curves;
@@ -50,7 +50,7 @@ pub(super) struct WebPage {
     /// Keys of the link, until another scene is run.
     keys: Rc<RefCell<String>>,
     shown: Buffer,
-    cell: (u16, u16),
+    cell: Size,
     /// Curves as they were given last, and those that are new.
     curves: Vec<u8>,
     new_curves: Vec<u8>,
@@ -95,7 +95,7 @@ impl WebPage {
             nodes,
             keys,
             shown: Buffer::default(),
-            cell: (8, 16),
+            cell: Size::new(8, 16),
             curves: Vec::new(),
             new_curves: Vec::new(),
             last: Duration::ZERO,
@@ -104,7 +104,7 @@ impl WebPage {
     }
 
     /// Another size: all cells are drawn anew.
-    pub(super) fn resize(&mut self, columns: u16, rows: u16, cell: (u16, u16)) {
+    pub(super) fn resize(&mut self, columns: u16, rows: u16, cell: Size) {
         self.shown = Buffer::empty(Rect::new(0, 0, columns, rows));
         self.cell = cell;
         self.curves.clear();
@@ -161,12 +161,15 @@ impl WebPage {
         let Some(room) = view::picture_area(app, self.shown.area) else {
             return Vec::new();
         };
-        let (mut width, mut height) = self.cell;
+        let Size {
+            mut width,
+            mut height,
+        } = self.cell;
         let cells = usize::from(room.width) * usize::from(room.height);
         while cells * usize::from(width) * usize::from(height) > MOST_PIXELS && width > 2 {
             (width, height) = (width / 2, height / 2);
         }
-        let cell = (width.max(1), height.max(1));
+        let cell = Size::new(width.max(1), height.max(1));
         let Some(picture) = view::picture(app, self.shown.area, cell) else {
             return Vec::new();
         };
@@ -331,7 +334,7 @@ mod tests {
 
     fn page(link: &str) -> WebPage {
         let mut page = WebPage::open(PageLink::read(link).unwrap()).unwrap();
-        page.resize(120, 40, (8, 16));
+        page.resize(120, 40, Size::new(8, 16));
         page
     }
 
@@ -408,7 +411,11 @@ mod tests {
         for (n, key) in keys.chars().enumerate() {
             press(&mut page, KeyName::Char(key));
             let (columns, rows) = sizes[n % sizes.len()];
-            page.resize(columns, rows, (1 + n as u16 % 9, 1 + n as u16 % 19));
+            page.resize(
+                columns,
+                rows,
+                Size::new(1 + n as u16 % 9, 1 + n as u16 % 19),
+            );
             for (k, act) in acts.into_iter().enumerate() {
                 let at = |side: u16| (side / 5 * k as u16).saturating_add(n as u16 % 7);
                 let (column, row) = (at(columns), at(rows));
@@ -445,7 +452,7 @@ mod tests {
         assert!(page.curves().len() > 100);
         page.draw(1e6);
         assert!(page.curves().is_empty());
-        page.resize(120, 40, (8, 16));
+        page.resize(120, 40, Size::new(8, 16));
         page.draw(1e6);
         assert!(page.curves().len() > 100);
         // Under an overlay there are none.

@@ -189,18 +189,18 @@ fn grow(ends: &mut AxisEnds, frame: &Frame) {
             *old = nice_ceiling(value);
         }
     };
-    let greatest = |field: &[f32]| {
+    let maximum = |field: &[f32]| {
         let most = field
             .iter()
             .fold(0.0_f32, |most, value| most.max(value.abs()));
         f64::from(most)
     };
     grow(&mut ends.pressure_pa, frame.p_hertz_pa);
-    grow(&mut ends.pressure_pa, greatest(&frame.pressure_pa));
+    grow(&mut ends.pressure_pa, maximum(&frame.pressure_pa));
     grow(&mut ends.film_m, film_inside(frame));
 }
 
-/// The greatest film on the centre line inside the contact: outside it the gap grows without end.
+/// The maximum film on the centre line inside the contact: outside it the gap grows without end.
 fn film_inside(frame: &Frame) -> f64 {
     let row = frame.ny / 2 * frame.nx;
     let Some(line) = frame.film_m.get(row..row + frame.nx) else {

@@ -302,24 +302,15 @@ impl BeatReader {
 
     fn claim(&self, file: &ClaimFile) -> LessonRead<Claim> {
         let measure = self.measure("claims", &file.of, file.over.as_deref())?;
-        let (least, most) = (
-            file.from.unwrap_or(f64::NEG_INFINITY),
-            file.to.unwrap_or(f64::INFINITY),
-        );
-        let bounded = least.is_finite() || most.is_finite();
-        if !(bounded && least <= most) {
-            let found = format!("from {least} to {most}");
-            return refused(
-                self.key("claims"),
-                found,
-                "from <= to, at least one of them",
-            );
+        let min = file.from.unwrap_or(f64::NEG_INFINITY);
+        let max = file.to.unwrap_or(f64::INFINITY);
+        let is_bounded = min.is_finite() || max.is_finite();
+        if !(is_bounded && min <= max) {
+            let found = format!("from {min} to {max}");
+            let allowed = "from <= to, at least one of them";
+            return refused(self.key("claims"), found, allowed);
         }
-        Ok(Claim {
-            measure,
-            least,
-            most,
-        })
+        Ok(Claim { measure, min, max })
     }
 
     fn question(&self, file: QuestionFile) -> LessonRead<LessonQuestion> {

@@ -4,10 +4,10 @@ use ratatui::layout::{Position, Rect};
 
 use crate::tui::app::PanelKind;
 
-/// Least size of the screen, columns and rows.
-pub const LEAST: (u16, u16) = (60, 20);
-/// Least size of a narrower one: a phone held upright.
-pub const LEAST_NARROW: (u16, u16) = (40, 30);
+/// Minimum size of the screen, columns and rows.
+pub const MIN_SIZE: (u16, u16) = (60, 20);
+/// Minimum size of a narrower one: a phone held upright.
+pub const MIN_NARROW_SIZE: (u16, u16) = (40, 30);
 
 /// How much room there is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,10 +66,10 @@ pub struct Areas {
 impl Areas {
     /// The panels on a screen; `None` where it is too small.
     pub fn of(screen: Rect, banner: Banner) -> Option<Self> {
-        if screen.width < LEAST.0 {
+        if screen.width < MIN_SIZE.0 {
             return Self::narrow(screen, banner);
         }
-        if screen.height < LEAST.1 {
+        if screen.height < MIN_SIZE.1 {
             return None;
         }
         let density = if screen.width >= 110 && screen.height >= 32 {
@@ -115,7 +115,7 @@ impl Areas {
     fn narrow(screen: Rect, banner: Banner) -> Option<Self> {
         /// Rows of the sentence on a knob, of the run's state, and of the keys.
         const STATUS: u16 = 3;
-        if screen.width < LEAST_NARROW.0 || screen.height < LEAST_NARROW.1 {
+        if screen.width < MIN_NARROW_SIZE.0 || screen.height < MIN_NARROW_SIZE.1 {
             return None;
         }
         let caption_rows = banner.rows();

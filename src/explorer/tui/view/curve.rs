@@ -172,8 +172,7 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, sheet: &mut Sheet<'_>) {
 }
 
 fn axes(app: &App, figure: &CurveFigure, area: Rect, plot: Rect, sheet: &mut Sheet<'_>) {
-    let dim = app.view.theme.style(Role::Dim);
-    let word = |text: &str| Line::styled(app.view.theme.text(text), dim);
+    let word = |text: &str| app.view.theme.line(app.view.theme.text(text), Role::Dim);
     let left = Rect {
         y: plot.y,
         width: AXIS - 1,

@@ -1,7 +1,7 @@
 //! The keys of the last line: what can be done now.
 
 use ratatui::layout::{Position, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, ErrandKind, Overlay, PanelKind, RunPace};
@@ -161,9 +161,8 @@ fn hints(app: &App) -> Vec<FooterKey> {
 
 pub(super) fn recorder(app: &App) -> Line<'static> {
     let theme = app.view.theme;
-    let dim = theme.style(Role::Dim);
     let Some(recorder) = &app.run.status.recorder else {
-        return Line::styled("not recording ", dim);
+        return theme.line("not recording ", Role::Dim);
     };
     let (word, role) = match recorder.activity {
         RecorderActivity::Recording => (theme.pick("● rec ", "* rec "), Role::Pressure),
@@ -176,13 +175,13 @@ pub(super) fn recorder(app: &App) -> Line<'static> {
     };
     Line::from(vec![
         theme.span(word, role),
-        Span::styled(
+        theme.span(
             format!(
                 "{} {} frames {skipped}",
                 bytes(recorder.bytes),
                 recorder.frames
             ),
-            dim,
+            Role::Dim,
         ),
     ])
 }

@@ -9,7 +9,6 @@ mod validity;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
-use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, Leading, PanelKind};
@@ -74,7 +73,7 @@ pub(super) fn render(
     }
     mechanisms::mechanisms(app, &mut rows, sheet);
     if roomy {
-        mechanisms::scale(app.view.theme, rows.take(1), sheet);
+        mechanisms::scale(rows.take(1), sheet);
     }
     counts::counts(app, &mut rows, sheet);
     counts::other_count(app, &mut rows, sheet);
@@ -90,10 +89,9 @@ fn without_life(
     rows: &mut RowAllotment,
     sheet: &mut Sheet<'_>,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
-    let dim = app.view.theme.style(Role::Dim);
     let words = ["no life in this scene", "(no [life] table)"];
     for text in words {
-        sheet.line(rows.take(1), 0, &Line::styled(text, dim));
+        sheet.text(rows.take(1), 0, text, Role::Dim);
     }
     validity::line(app, rows.take(1), sheet);
     rows.skip();

@@ -10,7 +10,8 @@ mod paint;
 mod profile;
 mod raster;
 
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::style::Style;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, PanelKind, Zoom};
@@ -18,7 +19,7 @@ use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::view::areas::{Areas, PanelSpacing};
-use crate::tui::view::sheet::{Sheet, inside, panel, with_columns, with_rows};
+use crate::tui::view::sheet::{Sheet, inside, panel, with_columns};
 use asperity_engine::sim::Frame;
 use asperity_picture::{Picture, Subject};
 use heading::heading;
@@ -29,8 +30,32 @@ use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 /// Columns of the colour bar with its numbers.
 const BAR: u16 = 8;
 
+/// Where a map is drawn, and which part of the plane it shows.
+struct MapLayout {
+    window: MapWindow,
+    /// The room for the map.
+    room: Rect,
+    /// Its cells: all of the room, or as many as keep its shape.
+    image: Rect,
+    /// The cells of the colour bar.
+    bar: Rect,
+}
+
+impl MapLayout {
+    fn of(app: &App, areas: &Areas, frame: &Frame) -> Self {
+        let (room, bar) = split(areas, inside(areas, areas.map));
+        let window = window(app, frame, room);
+        Self {
+            window,
+            room,
+            image: image_area(app.view.map, &window, room),
+            bar,
+        }
+    }
+}
+
 pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
-    let (theme, title) = (app.view.theme, heading(app, areas));
+    let title = heading(app, areas);
     let inner = panel(app, areas, PanelKind::Map, title, sheet);
     let Some(frame) = app.frame() else {
         waiting(app, inner, sheet);
@@ -39,82 +64,72 @@ pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<
     if app.view.map == MapKind::Profile {
         return profile::side_view(app, frame, inner, sheet);
     }
-    let (picture, bar) = split(areas, inner);
-    let look = look(app);
-    let window = window(app, frame, picture);
-    let image = image_area(app.view.map, &window, picture);
+    let layout = MapLayout::of(app, areas, frame);
+    let (window, image) = (&layout.window, layout.image);
     if image.is_empty() {
         return None;
     }
-    let pixels = (usize::from(image.width), rows(theme, image));
-    match picture_of(app, frame, &window, pixels) {
-        // Its room stays blank: the terminal's own pixels come there.
+    let look = look(app);
+    let (columns, rows) = (usize::from(image.width), pixel_rows(sheet.theme, image));
+    match picture_of(app, frame, window, columns, rows) {
+        // Its room stays blank: a page's own pixels come there.
         Some(_) if app.is_in_pixels() => {}
-        Some(raster) => paint(theme, &raster, &look, &window, app.view.map, image, sheet),
-        None => sheet.text(
-            image,
-            image.height / 2,
-            "no stress is computed in this scene",
-            Role::Dim,
-        ),
+        Some(raster) => paint(&raster, &look, window, app.view.map, image, sheet),
+        None => {
+            let words = "no stress is computed in this scene";
+            sheet.text(image, image.height / 2, words, Role::Dim);
+        }
     }
     if !app.is_in_pixels() {
         let marks = [(point_at(app, frame), "◆"), (app.view.probe, "╋")];
         for (at, symbol) in marks {
-            if let Some(at) = at {
-                place(app, &window, image, at, symbol, sheet);
+            if let Some(part) = at.and_then(|(x, y)| window.part(x, y)) {
+                white_mark(image, part, symbol, sheet);
             }
         }
     }
-    axes::draw(app, frame, &window, (image, inner), sheet);
-    color_bar(theme, &look, app.view.map, bar, sheet);
+    axes::draw(app, frame, &layout, inner, sheet);
+    color_bar(&look, app.view.map, layout.bar, sheet);
     motion(app, frame, areas, inner, sheet);
-    probe(app, frame, (picture, image), sheet);
+    probe(app, frame, &layout, sheet);
     None
 }
 
 /// The cells that the map fills.
 pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
     let frame = app.frame()?;
-    if app.view.map == MapKind::Profile {
-        let (area, _) = profile::rooms(inside(areas, areas.map));
-        return Some(area).filter(|area| !area.is_empty());
-    }
-    let (picture, _) = split(areas, inside(areas, areas.map));
-    let window = window(app, frame, picture);
-    Some(image_area(app.view.map, &window, picture)).filter(|image| !image.is_empty())
+    let area = match app.view.map {
+        MapKind::Profile => profile::rooms(inside(areas, areas.map)).0,
+        _ => MapLayout::of(app, areas, frame).image,
+    };
+    (!area.is_empty()).then_some(area)
 }
 
 /// The map in pixels, so many for a cell.
-pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitmap> {
+pub(super) fn pixels(app: &App, areas: &Areas, cell: Size) -> Option<Bitmap> {
     let frame = app.frame()?;
     let area = room(app, areas)?;
     if app.view.map == MapKind::Profile {
         return profile::in_pixels(app, frame, area, cell);
     }
-    let (picture, _) = split(areas, inside(areas, areas.map));
-    let window = window(app, frame, picture);
+    let window = MapLayout::of(app, areas, frame).window;
     let look = look(app);
-    let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
-    let (width, height) = (side(area.width, cell.0), side(area.height, cell.1));
-    let raster = picture_of(app, frame, &window, (width, height))?;
-    let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
-    let rgba = places
-        .flat_map(|place| Pixel::of(&look, &raster, &window, app.view.map, place).rgba(&look))
+    let mut picture = Bitmap::blank(area, cell);
+    let (columns, rows) = (picture.width, picture.height);
+    let raster = picture_of(app, frame, &window, columns, rows)?;
+    picture.rgba = (0..rows)
+        .flat_map(|row| (0..columns).map(move |column| (column, row)))
+        .flat_map(|(column, row)| {
+            Pixel::of(&look, &raster, &window, app.view.map, column, row).rgba(&look)
+        })
         .collect();
-    let mut picture = Bitmap {
-        area,
-        width,
-        height,
-        rgba,
-    };
     let marks = [
         (point_at(app, frame), MapMark::Diamond),
         (app.view.probe, MapMark::Cross),
     ];
     for (at, mark) in marks {
-        if let Some(at) = at {
-            mark.draw(&mut picture, &window, at, 0.6 * f64::from(cell.0));
+        if let Some(part) = at.and_then(|(x, y)| window.part(x, y)) {
+            mark.draw(&mut picture, part, 0.6 * f64::from(cell.width));
         }
     }
     Some(picture)
@@ -125,15 +140,16 @@ fn picture_of(
     app: &App,
     frame: &Frame,
     window: &MapWindow,
-    pixels: (usize, usize),
+    columns: usize,
+    rows: usize,
 ) -> Option<Raster> {
     let subject = app.view.map.subject();
     let picture = Picture::of(frame, subject, &app.ranges())?;
     if !app.view.map.is_over_time() {
-        return rasterize(&picture, window, pixels);
+        return rasterize(&picture, window, columns, rows);
     }
     let span = app.waves()?;
-    rasterize_lines(&picture, window, pixels, |passages| {
+    rasterize_lines(&picture, window, columns, rows, |passages| {
         span.line(subject, -passages)
     })
 }
@@ -141,21 +157,19 @@ fn picture_of(
 /// A press on the picture reads it there.
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let frame = app.frame()?;
+    let part = |place: u16, start: u16, length: u16| {
+        (f64::from(place.saturating_sub(start)) + 0.5) / f64::from(length.max(1))
+    };
     if app.view.map == MapKind::Profile {
         let profile = profile::of(app, frame)?;
         let (area, _) = profile::rooms(inside(areas, areas.map));
         let across = at.x >= area.x && at.x < area.right() && areas.map.contains(at);
-        let part = (f64::from(at.x.saturating_sub(area.x)) + 0.5) / f64::from(area.width.max(1));
-        let x = profile.x[0] + part * (profile.x[1] - profile.x[0]);
+        let along = part(at.x, area.x, area.width);
+        let x = profile.x[0] + along * (profile.x[1] - profile.x[0]);
         return across.then_some(Action::PutPoint(x));
     }
-    let (picture, _) = split(areas, inside(areas, areas.map));
-    let window = window(app, frame, picture);
-    let image = image_area(app.view.map, &window, picture);
+    let MapLayout { window, image, .. } = MapLayout::of(app, areas, frame);
     image.contains(at).then(|| {
-        let part = |place: u16, start: u16, length: u16| {
-            (f64::from(place - start) + 0.5) / f64::from(length.max(1))
-        };
         Action::Probe(
             window.x_at(part(at.x, image.x, image.width)),
             window.y_at(part(at.y, image.y, image.height)),
@@ -186,7 +200,7 @@ fn split(areas: &Areas, inner: Rect) -> (Rect, Rect) {
     (picture, bar)
 }
 
-fn rows(theme: Theme, image: Rect) -> usize {
+fn pixel_rows(theme: Theme, image: Rect) -> usize {
     usize::from(image.height) * if theme.paints() { 2 } else { 1 }
 }
 
@@ -277,32 +291,17 @@ fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
     Some((point.sample.x_m / frame.a_m, y))
 }
 
-fn place(
-    app: &App,
-    window: &MapWindow,
-    image: Rect,
-    (x, y): (f64, f64),
-    symbol: &'static str,
-    sheet: &mut Sheet<'_>,
-) {
-    let theme = app.view.theme;
-    let part = |value: f64, range: [f64; 2]| (value - range[0]) / (range[1] - range[0]);
-    let (along, down) = (part(x, window.x), part(y, window.y));
-    if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
-        return;
-    }
-    let at = (
-        image.x + (along * f64::from(image.width)) as u16,
-        image.y + (down * f64::from(image.height)) as u16,
-    );
-    if let Some(cell) = sheet.buffer.cell_mut(at) {
-        cell.set_symbol(theme.pick(symbol, "X"));
-        if theme.paints() {
-            cell.set_fg(theme.rgb([255, 255, 255]));
-        } else {
-            cell.set_style(theme.style(Role::Strong));
-        }
-    }
+/// A mark at a part (0 to 1 along and down) of a map.
+fn white_mark(image: Rect, part: [f64; 2], symbol: &'static str, sheet: &mut Sheet<'_>) {
+    let theme = sheet.theme;
+    let x = image.x + (part[0] * f64::from(image.width)) as u16;
+    let y = image.y + (part[1] * f64::from(image.height)) as u16;
+    let style = if theme.paints() {
+        Style::new().fg(theme.rgb([255, 255, 255]))
+    } else {
+        theme.style(Role::Strong)
+    };
+    sheet.cell(x, y, theme.pick(symbol, "X"), style);
 }
 
 /// Pressure and film at a place of the centre line, so many passages ago.
@@ -314,9 +313,8 @@ fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
 }
 
 /// The values at the probe, on the last row of the picture.
-fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), sheet: &mut Sheet<'_>) {
+fn probe(app: &App, frame: &Frame, layout: &MapLayout, sheet: &mut Sheet<'_>) {
     let Some((x, y)) = app.view.probe else { return };
-    let theme = app.view.theme;
     let pressure_and_film = |(pressure, film): (f32, f32)| {
         let (p, h) = (app.view.units.pressure(), app.view.units.film());
         format!(
@@ -342,8 +340,7 @@ fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), sheet: &mut S
             .map(|values| format!("x {x:.2} a  y {y:.2} b  {}", pressure_and_film(values)))
     };
     if let Some(text) = text {
-        let line = theme.line(format!(" {} ", theme.text(&text)), Role::Strong);
-        let row = with_rows(picture, image.bottom() - 1, 1);
-        sheet.line(row, 0, &line);
+        let row = layout.image.bottom() - 1 - layout.room.y;
+        sheet.text(layout.room, row, format!(" {text} "), Role::Strong);
     }
 }

@@ -20,7 +20,7 @@ mod status;
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::{Color, Style};
 
 use crate::tui::action::Action;
@@ -30,7 +30,7 @@ use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 use sheet::{Sheet, with_rows};
 
-pub use areas::{Areas, Banner, LEAST, LEAST_NARROW, PanelSpacing};
+pub use areas::{Areas, Banner, MIN_NARROW_SIZE, MIN_SIZE, PanelSpacing};
 
 /// The panels of the screen as it is now.
 fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
@@ -125,13 +125,13 @@ fn draw_panels(app: &App, screen: Rect, sheet: &mut Sheet<'_>) -> Vec<PixelPlot>
     plots
 }
 
-/// The cells that the terminal's own pixels fill; `None`: none, or something lies over them.
+/// The cells that a page's pixels fill; `None`: none, or something lies over them.
 pub fn picture_area(app: &App, screen: Rect) -> Option<Rect> {
     map::room(app, &picture_areas(app, screen)?)
 }
 
 /// The picture for them, with cells of so many pixels.
-pub fn picture(app: &App, screen: Rect, cell: (u16, u16)) -> Option<Bitmap> {
+pub fn picture(app: &App, screen: Rect, cell: Size) -> Option<Bitmap> {
     map::pixels(app, &picture_areas(app, screen)?, cell)
 }
 
@@ -190,7 +190,7 @@ fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
 fn too_small(screen: Rect, sheet: &mut Sheet<'_>) {
     let text = format!(
         "{} x {} is too small: {} x {} shows the explorer, {} x {} a part of it. q quits.",
-        screen.width, screen.height, LEAST.0, LEAST.1, LEAST_NARROW.0, LEAST_NARROW.1
+        screen.width, screen.height, MIN_SIZE.0, MIN_SIZE.1, MIN_NARROW_SIZE.0, MIN_NARROW_SIZE.1
     );
     let line = sheet.theme.line(text, Role::Warn);
     sheet.paragraph(screen, line);

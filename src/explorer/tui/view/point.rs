@@ -45,7 +45,8 @@ pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<
 pub(super) fn under_profile(
     app: &App,
     frame: &Frame,
-    (area, x): (Rect, [f64; 2]),
+    area: Rect,
+    x: [f64; 2],
     sheet: &mut Sheet<'_>,
 ) -> Option<PixelPlot> {
     let point = app.point_now()?;
@@ -214,8 +215,8 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>) -> Op
         });
         chart.scatter(hertz, pen(Role::Hertz, '.'));
     }
-    if let Some((ghost, frozen)) = ghost(app) {
-        let frozen_points = ghost.iter().map(|sample| {
+    if let Some((samples, frozen)) = frozen(app) {
+        let frozen_points = samples.iter().map(|sample| {
             let y = value(quantity, sample, frozen);
             (sample.x_m / frozen.a_m, y)
         });
@@ -245,10 +246,11 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>) -> Op
 }
 
 /// The crossing that was frozen, and the frame beside it.
-fn ghost(app: &App) -> Option<(&[TraceSample], &Frame)> {
-    let ghost = app.view.frozen.as_ref()?;
-    let frame = ghost.frame()?;
-    let (before, current) = (ghost.replay.trace.before(), ghost.replay.trace.current());
+fn frozen(app: &App) -> Option<(&[TraceSample], &Frame)> {
+    let frozen = app.view.frozen.as_ref()?;
+    let frame = frozen.frame()?;
+    let trace = &frozen.replay.trace;
+    let (before, current) = (trace.before(), trace.current());
     let whole = if before.is_empty() { current } else { before };
     Some((whole, frame))
 }
@@ -265,7 +267,7 @@ fn range(app: &App, frame: &Frame) -> [f64; 2] {
         .iter()
         .chain(app.replay.trace.current());
     let values = samples.map(|sample| value(app.view.point_quantity, sample, frame).abs());
-    let frozen = ghost(app).into_iter().flat_map(|(samples, frame)| {
+    let frozen = frozen(app).into_iter().flat_map(|(samples, frame)| {
         let frozen = samples.iter();
         frozen.map(|sample| value(app.view.point_quantity, sample, frame).abs())
     });
@@ -301,8 +303,8 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>
         // Above the curve, or on it where it touches the top.
         let row =
             row_of(area, range, value(app.view.point_quantity, sample, frame)).saturating_sub(1);
-        let line = app.view.theme.line(number, Role::Cycles);
-        sheet.buffer.set_line(first, area.y + row, &line, width);
+        let cells = with_columns(area, first, width);
+        sheet.text(cells, row, number, Role::Cycles);
         free_from = first + width + 1;
     }
 }
@@ -350,18 +352,17 @@ fn mark(
 fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let pressure = app.view.units.pressure();
-    let dim = theme.style(Role::Dim);
     let left = with_columns(plot, plot.x.saturating_sub(6), 5);
     let range = range(app, frame);
-    sheet.line_right(left, 0, &Line::styled(tick(pressure.of(range[1])), dim));
+    sheet.text_right(left, 0, tick(pressure.of(range[1])), Role::Dim);
     let foot = tick(pressure.of(range[0]));
-    sheet.line_right(left, plot.height - 1, &Line::styled(foot, dim));
+    sheet.text_right(left, plot.height - 1, foot, Role::Dim);
     if plot.height >= 4 {
-        sheet.line_right(left, 1, &Line::styled(pressure.name, dim));
+        sheet.text_right(left, 1, pressure.name, Role::Dim);
     }
     if app.view.point_quantity != PointQuantity::Pressure && plot.height >= 5 {
         let depth = app.view.units.length().show(depth_m, 2);
         let text = theme.text(&format!("at depth {depth}"));
-        sheet.line_right(plot, 0, &Line::styled(text, dim));
+        sheet.text_right(plot, 0, text, Role::Dim);
     }
 }

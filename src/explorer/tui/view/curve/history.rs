@@ -10,8 +10,8 @@ use crate::tui::theme::Role;
 use crate::tui::view::chart::CurvePanel;
 use crate::tui::view::sheet::{Sheet, below};
 
-/// Half of the least range, decades: noise stays small.
-const LEAST: f64 = 0.17;
+/// Half of the minimum range, decades: noise stays small.
+const MIN_HALF_RANGE: f64 = 0.17;
 
 pub(super) fn render(app: &App, area: Rect, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
     let theme = app.view.theme;
@@ -41,7 +41,7 @@ pub(super) fn render(app: &App, area: Rect, sheet: &mut Sheet<'_>) -> Option<Pix
             (low.min(decade), high.max(decade))
         });
     let middle = 0.5 * (low + high);
-    let half = (0.55 * (high - low)).max(LEAST);
+    let half = (0.55 * (high - low)).max(MIN_HALF_RANGE);
     let passages = [first.passages, last.passages];
     let mut chart = CurvePanel::of(app, plot, passages, [middle - half, middle + half]);
     chart.line(points, pen(app, Role::Good, '*'));

@@ -1,11 +1,10 @@
 //! The mechanisms that make the life, as a waterfall of factors.
 
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 
 use super::RowAllotment;
 use crate::tui::app::App;
-use crate::tui::theme::{Role, Theme};
+use crate::tui::theme::Role;
 use crate::tui::units::sig_or_dash;
 use crate::tui::view::sheet::{Sheet, with_columns};
 use asperity_engine::math::number::sig;
@@ -22,13 +21,10 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, sheet: &mut Sheet<'
         ("traction", now.map(|now| now.traction), Role::Traction),
         ("load", now.map(|now| now.load / pinned), Role::Strong),
     ];
-    let ghost = app
-        .view
-        .frozen
-        .as_ref()
-        .and_then(|ghost| ghost.leading_factors());
+    let frozen = app.view.frozen.as_ref();
+    let frozen = frozen.and_then(|frozen| frozen.leading_factors());
     let frozen = |n: usize| {
-        let of = ghost?;
+        let of = frozen?;
         let row = [of.cycle, Some(of.peak), Some(of.traction), Some(of.load)];
         let row = row.into_iter().take(n + 1);
         Some(row.map(|factor| factor.unwrap_or(1.0)).product::<f64>())
@@ -37,10 +33,12 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, sheet: &mut Sheet<'
     for (n, (name, factor, role)) in factors.into_iter().enumerate() {
         let row = rows.take(1);
         let to = from * factor.unwrap_or(1.0);
-        waterfall_value(app, row, (name, factor, role), sheet);
-        waterfall_bar(app.view.theme, row, [from, to], role, sheet);
+        sheet.text(row, 0, name, role);
+        let value = format!("×{}", sig_or_dash(factor, 2));
+        sheet.text_right(row, 0, value, Role::Strong);
+        waterfall_bar(row, [from, to], role, sheet);
         if let Some(end) = frozen(n) {
-            waterfall_mark(app.view.theme, row, end, sheet);
+            waterfall_mark(row, end, sheet);
         }
         from = to;
     }
@@ -77,19 +75,6 @@ fn against(app: &App, row: Rect, sheet: &mut Sheet<'_>) {
 /// Decades of every bar: bars that rescale cannot be compared. What goes beyond them has an arrow at that end.
 const DECADES: [f64; 2] = [-4.0, 0.0];
 
-fn waterfall_value(
-    app: &App,
-    row: Rect,
-    (name, factor, role): (&'static str, Option<f64>, Role),
-    sheet: &mut Sheet<'_>,
-) {
-    let theme = app.view.theme;
-    sheet.text(row, 0, name, role);
-    let value = theme.text(&format!("×{}", sig_or_dash(factor, 2)));
-    let style = theme.style(Role::Strong);
-    sheet.line_right(row, 0, &Line::styled(value, style));
-}
-
 /// Where the bars of a row stand, between their names and values; `None`: there is no room.
 fn track(row: Rect) -> Option<Rect> {
     let (before, after) = (9, 7);
@@ -98,30 +83,38 @@ fn track(row: Rect) -> Option<Rect> {
 }
 
 /// The ends of the decades that every bar has.
-pub(super) fn scale(theme: Theme, row: Rect, sheet: &mut Sheet<'_>) {
+pub(super) fn scale(row: Rect, sheet: &mut Sheet<'_>) {
     let Some(track) = track(row) else { return };
-    let [least, most] = DECADES.map(|decade| sig(10_f64.powf(decade), 1));
-    if usize::from(track.width) <= least.len() + most.len() {
+    let [min, max] = DECADES.map(|decade| sig(10_f64.powf(decade), 1));
+    if usize::from(track.width) <= min.len() + max.len() {
         return;
     }
-    let dim = theme.style(Role::Dim);
-    sheet.line(track, 0, &Line::styled(least, dim));
-    sheet.line_right(track, 0, &Line::styled(most, dim));
+    sheet.text(track, 0, min, Role::Dim);
+    sheet.text_right(track, 0, max, Role::Dim);
 }
 
-fn waterfall_bar(theme: Theme, row: Rect, [from, to]: [f64; 2], role: Role, sheet: &mut Sheet<'_>) {
+/// Where on a track a factor is: 0 to 1 over the decades, less or more beyond them.
+fn part(value: f64) -> f64 {
+    (value.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0])
+}
+
+/// The column of a track in which a factor is.
+fn column(value: f64, track: Rect) -> u16 {
+    (part(value).clamp(0.0, 1.0) * f64::from(track.width - 1)).round() as u16
+}
+
+fn waterfall_bar(row: Rect, [from, to]: [f64; 2], role: Role, sheet: &mut Sheet<'_>) {
     let Some(track) = track(row) else { return };
+    let theme = sheet.theme;
     let last = track.width - 1;
-    let part = |value: f64| (value.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
-    let column = |value: f64| (part(value).clamp(0.0, 1.0) * f64::from(last)).round() as u16;
-    let (a, b) = (column(from), column(to));
+    let (a, b) = (column(from, track), column(to, track));
     // Half a cell beyond the last decade is drawn there as it is.
     let slack = 0.5 / f64::from(last);
-    let (least, most) = (part(from.min(to)), part(from.max(to)));
+    let (min, max) = (part(from.min(to)), part(from.max(to)));
     for offset in 0..track.width {
-        let (symbol, role) = if offset == 0 && least < -slack {
+        let (symbol, role) = if offset == 0 && min < -slack {
             (theme.pick("◂", "<"), role)
-        } else if offset == last && most > 1.0 + slack {
+        } else if offset == last && max > 1.0 + slack {
             (theme.pick("▸", ">"), role)
         } else if offset >= a.min(b) && offset <= a.max(b) {
             (theme.pick("█", "#"), role)
@@ -133,27 +126,22 @@ fn waterfall_bar(theme: Theme, row: Rect, [from, to]: [f64; 2], role: Role, shee
 }
 
 /// Where the frozen bar ended.
-fn waterfall_mark(theme: Theme, row: Rect, end: f64, sheet: &mut Sheet<'_>) {
+fn waterfall_mark(row: Rect, end: f64, sheet: &mut Sheet<'_>) {
     let Some(track) = track(row) else { return };
-    let part = (end.max(1e-300).log10() - DECADES[0]) / (DECADES[1] - DECADES[0]);
-    let offset = (part.clamp(0.0, 1.0) * f64::from(track.width - 1)).round() as u16;
-    sheet.cell(
-        track.x + offset,
-        track.y,
-        theme.pick("┃", "|"),
-        theme.style(Role::Formula),
-    );
+    let symbol = sheet.theme.pick("┃", "|");
+    let style = sheet.theme.style(Role::Formula);
+    sheet.cell(track.x + column(end, track), track.y, symbol, style);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::theme::{Capabilities, ColorDepth, Glyphs};
+    use crate::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
     use ratatui::buffer::Buffer;
 
     /// A bar on a track of 21 columns: five to a decade.
     fn bar(from: f64, to: f64) -> String {
-        drawn(|row, sheet| waterfall_bar(ascii(), row, [from, to], Role::Cycles, sheet))
+        drawn(|row, sheet| waterfall_bar(row, [from, to], Role::Cycles, sheet))
     }
 
     fn ascii() -> Theme {
@@ -199,9 +187,9 @@ mod tests {
 
     #[test]
     fn the_ends_of_the_bars_are_told() {
-        let ends = drawn(|row, sheet| scale(ascii(), row, sheet));
+        let ends = drawn(|row, sheet| scale(row, sheet));
         assert_eq!(ends, "1e-4                1");
         let narrow = Rect::new(0, 0, 18, 1);
-        drawn(|_, sheet| scale(ascii(), narrow, sheet));
+        drawn(|_, sheet| scale(narrow, sheet));
     }
 }

@@ -106,12 +106,11 @@ fn said(app: &App, area: Rect, used: u16, sheet: &mut Sheet<'_>) -> Beside {
         return Beside::Nothing;
     }
     let right = with_columns(area, area.x + used, area.width - used);
-    let dim = theme.style(Role::Dim);
     let (word, role) = source(app);
     sheet.text(right, 0, word, role);
     let of = theme.text("× smooth rolling");
-    sheet.line(right, 1, &Line::styled(of, dim));
-    sheet.line(right, 2, &Line::styled("at the same load", dim));
+    sheet.text(right, 1, of, Role::Dim);
+    sheet.text(right, 2, "at the same load", Role::Dim);
     Beside::Source
 }
 

@@ -1,8 +1,8 @@
 //! Numbers along the edges of the map: x/a below it; y/b, the depth, or the way since then at its left.
 
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 
+use super::MapLayout;
 use super::raster::MapWindow;
 use crate::tui::app::{App, MapKind};
 use crate::tui::theme::Role;
@@ -24,22 +24,23 @@ pub(super) fn room(inner: Rect) -> [u16; 2] {
 pub(super) fn draw(
     app: &App,
     frame: &Frame,
-    window: &MapWindow,
-    (image, inner): (Rect, Rect),
+    layout: &MapLayout,
+    inner: Rect,
     sheet: &mut Sheet<'_>,
 ) {
     let [left, below] = room(inner);
     // Above the motion's row.
     let foot = inner.bottom().saturating_sub(2);
     if below > 0 {
-        along(app, window, image, foot, sheet);
+        along(&layout.window, layout.image, foot, sheet);
     }
     if left > 0 {
         let cells = with_columns(inner, inner.x, left - 1);
-        downwards(app, frame, window, (image, cells), sheet);
+        let scale = down(app, frame);
+        downwards(&scale, layout, cells, sheet);
         if below > 0 {
             // The corner says what the numbers above it are.
-            number(cells, foot, down(app, frame).name, sheet);
+            number(cells, foot, scale.name, sheet);
         }
     }
 }
@@ -49,8 +50,7 @@ fn number(cells: Rect, row: u16, text: &str, sheet: &mut Sheet<'_>) {
 }
 
 /// x/a below the map.
-fn along(app: &App, window: &MapWindow, image: Rect, row: u16, sheet: &mut Sheet<'_>) {
-    let style = app.view.theme.style(Role::Dim);
+fn along(window: &MapWindow, image: Rect, row: u16, sheet: &mut Sheet<'_>) {
     let mut free_from = image.x;
     for x in ticks(
         window.x[0],
@@ -68,24 +68,17 @@ fn along(app: &App, window: &MapWindow, image: Rect, row: u16, sheet: &mut Sheet
         let first = centre.saturating_sub(width / 2).max(image.x);
         let first = first.min(image.right().saturating_sub(width));
         if first >= free_from {
-            sheet
-                .buffer
-                .set_line(first, row, &Line::styled(text, style), width);
+            let cells = Rect::new(first, row, width, 1);
+            sheet.text(cells, 0, text, Role::Dim);
             free_from = first + width + 1;
         }
     }
 }
 
 /// y/b, depth or way at the left of the map.
-fn downwards(
-    app: &App,
-    frame: &Frame,
-    window: &MapWindow,
-    (image, cells): (Rect, Rect),
-    sheet: &mut Sheet<'_>,
-) {
-    let scale = down(app, frame);
-    let ends = window.y.map(|y| y * scale.per_window);
+fn downwards(scale: &Down, layout: &MapLayout, cells: Rect, sheet: &mut Sheet<'_>) {
+    let image = layout.image;
+    let ends = layout.window.y.map(|y| y * scale.per_window);
     let about = usize::from(image.height / 3).clamp(1, 5);
     let mut free_from = 0;
     let mut values = ticks(ends[0].min(ends[1]), ends[0].max(ends[1]), about);

@@ -1,7 +1,6 @@
 //! Both bodies' motion beside the map.
 
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 
 use crate::tui::app::App;
 use crate::tui::theme::Role;
@@ -54,14 +53,14 @@ fn strip(
     let theme = app.view.theme;
     let style = theme.style(role);
     let body = if row.width >= 30 { "body " } else { "" };
-    let label = Line::styled(format!("{body}{name} "), style);
+    let label = theme.line(format!("{body}{name} "), role);
     let unit = app.view.units.speed();
     let value = if row.width >= 30 {
         format!(" {}", unit.show(speed_m_s, 3))
     } else {
         format!(" {}", sig(unit.of(speed_m_s), 3))
     };
-    let value = Line::styled(value, style);
+    let value = theme.line(value, role);
     let (before, after) = (label.width() as u16, value.width() as u16);
     sheet.line(row, 0, &label);
     sheet.line_right(row, 0, &value);

@@ -39,7 +39,8 @@ impl Pixel {
         raster: &Raster,
         window: &MapWindow,
         kind: MapKind,
-        (column, row): (usize, usize),
+        column: usize,
+        row: usize,
     ) -> Self {
         let value = f64::from(raster.at(column, row));
         let has_ring = kind.is_plane() && !matches!(kind, MapKind::Fringes | MapKind::Contact);
@@ -84,21 +85,11 @@ pub(super) enum MapMark {
 }
 
 impl MapMark {
-    /// Draws it at a place, with so many pixels to each side.
-    pub(super) fn draw(
-        self,
-        picture: &mut Bitmap,
-        window: &MapWindow,
-        (x, y): (f64, f64),
-        half: f64,
-    ) {
+    /// Draws it at a part (0 to 1 along and down) of a picture, with so many pixels to each side.
+    pub(super) fn draw(self, picture: &mut Bitmap, part: [f64; 2], half: f64) {
         /// How far the black around it goes.
         const EDGE: f64 = 1.35;
-        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
-        let (along, down) = (part(x, window.x), part(y, window.y));
-        if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
-            return;
-        }
+        let [along, down] = part;
         let middle = [along * picture.width as f64, down * picture.height as f64].map(f64::floor);
         for row in 0..picture.height {
             for column in 0..picture.width {
@@ -118,7 +109,6 @@ impl MapMark {
 }
 
 pub(super) fn paint(
-    theme: Theme,
     raster: &Raster,
     look: &Look,
     window: &MapWindow,
@@ -126,8 +116,9 @@ pub(super) fn paint(
     image: Rect,
     sheet: &mut Sheet<'_>,
 ) {
+    let theme = sheet.theme;
     let pixel = |column: usize, row: usize| {
-        Pixel::of(look, raster, window, kind, (column, row)).color(theme, look)
+        Pixel::of(look, raster, window, kind, column, row).color(theme, look)
     };
     for row in 0..usize::from(image.height) {
         for column in 0..usize::from(image.width) {
@@ -196,13 +187,8 @@ fn on_ellipse(window: &MapWindow, raster: &Raster, column: usize, row: usize) ->
     (raster.distance(x, y) - 1.0).abs() < 0.5 * pixel
 }
 
-pub(super) fn color_bar(
-    theme: Theme,
-    look: &Look,
-    kind: MapKind,
-    bar: Rect,
-    sheet: &mut Sheet<'_>,
-) {
+pub(super) fn color_bar(look: &Look, kind: MapKind, bar: Rect, sheet: &mut Sheet<'_>) {
+    let theme = sheet.theme;
     if bar.width < 4 || bar.height < 3 {
         return;
     }
@@ -231,10 +217,9 @@ pub(super) fn color_bar(
         }
     }
     let text = with_columns(bar, bar.x + 3, bar.width - 3);
-    let dim = theme.style(Role::Dim);
-    let number = |value: f64| Line::styled(number(theme, look, value, text.width), dim);
+    let number = |value: f64| theme.line(number(theme, look, value, text.width), Role::Dim);
     sheet.line(text, 0, &number(high));
-    sheet.line(text, 1, &Line::styled(theme.text(look.unit.name), dim));
+    sheet.text(text, 1, look.unit.name, Role::Dim);
     if bar.height >= 7 {
         sheet.line(text, bar.height / 2, &number(0.5 * (low + high)));
     }
@@ -242,7 +227,7 @@ pub(super) fn color_bar(
     if kind == MapKind::Contact && bar.height >= 9 {
         let spot = Line::from(vec![
             Span::styled(theme.pick("█", "#"), Style::new().fg(theme.rgb(CONTACT))),
-            Span::styled("touch", dim),
+            theme.span("spot", Role::Dim),
         ]);
         sheet.line(text, bar.height - 3, &spot);
     }

@@ -1,10 +1,9 @@
-//! The map of the profile: [`SurfaceProfile`] in half blocks, characters or the terminal's own pixels.
+//! The map of the profile: [`SurfaceProfile`] in half blocks, characters or a page's pixels.
 
-use ratatui::layout::Rect;
-use ratatui::text::Line;
+use ratatui::layout::{Rect, Size};
 
 use super::paint::MapMark;
-use super::raster::MapWindow;
+use super::white_mark;
 use crate::tui::app::{App, Zoom};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
@@ -84,15 +83,17 @@ pub(super) fn side_view(
 ) -> Option<PixelPlot> {
     let profile = of(app, frame)?;
     let (area, below) = rooms(inner);
-    draw(app, (&profile, frame), (area, inner), sheet);
-    point::under_profile(app, frame, (below?, profile.x), sheet)
+    draw(app, &profile, frame, area, inner, sheet);
+    point::under_profile(app, frame, below?, profile.x, sheet)
 }
 
-/// Draws the profile, where it is not left to the terminal's own pixels, and its numbers.
+/// Draws the profile, where it is not left to a page's pixels, and its numbers.
 fn draw(
     app: &App,
-    (profile, frame): (&SurfaceProfile, &Frame),
-    (area, inner): (Rect, Rect),
+    profile: &SurfaceProfile,
+    frame: &Frame,
+    area: Rect,
+    inner: Rect,
     sheet: &mut Sheet<'_>,
 ) {
     let theme = app.view.theme;
@@ -119,23 +120,15 @@ fn draw(
         }
     }
     numbers(app, profile, area, inner, sheet);
-    let cell = |part: f64, cells: u16| (part * f64::from(cells)) as u16;
     if !app.is_in_pixels()
-        && let Some([along, down]) = point_part(app, (profile, frame))
-        && let (column, row) = (cell(along, area.width), cell(down, area.height))
-        && let Some(cell) = sheet.buffer.cell_mut((area.x + column, area.y + row))
+        && let Some(part) = point_part(app, profile, frame)
     {
-        cell.set_symbol(theme.pick("◆", "X"));
-        if theme.paints() {
-            cell.set_fg(theme.rgb([255, 255, 255]));
-        } else {
-            cell.set_style(theme.style(Role::Strong));
-        }
+        white_mark(area, part, "◆", sheet);
     }
 }
 
 /// The followed point, riding on its body: parts of the picture along and down.
-fn point_part(app: &App, (profile, frame): (&SurfaceProfile, &Frame)) -> Option<[f64; 2]> {
+fn point_part(app: &App, profile: &SurfaceProfile, frame: &Frame) -> Option<[f64; 2]> {
     let point = app.point_now()?;
     let x = point.sample.x_m / frame.a_m;
     let [lower, upper] = profile.surfaces(x);
@@ -149,72 +142,56 @@ fn point_part(app: &App, (profile, frame): (&SurfaceProfile, &Frame)) -> Option<
 /// Heights at the left, x/a and what is what below.
 fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
-    let dim = theme.style(Role::Dim);
     let unit = app.view.units.film();
     let left = with_columns(area, inner.x, area.x - inner.x - 1);
     let last = area.height.saturating_sub(1);
-    let height = |value: f64| Line::styled(tick(unit.of(value)), dim);
+    let height = |value: f64| theme.line(tick(unit.of(value)), Role::Dim);
     sheet.line_right(left, 0, &height(profile.half_m()));
     sheet.line_right(left, last, &height(-profile.half_m()));
     if area.height >= 5 {
-        sheet.line_right(left, 1, &Line::styled(theme.text(unit.name), dim));
-        sheet.line_right(left, area.height / 2, &Line::styled("0", dim));
+        sheet.text_right(left, 1, unit.name, Role::Dim);
+        sheet.text_right(left, area.height / 2, "0", Role::Dim);
     }
     let foot = with_rows(area, area.bottom(), 1);
     let [from, to] = profile.x.map(|x| format!("{} a", sig(x, 2)));
-    sheet.line(foot, 0, &Line::styled(theme.text(&from), dim));
-    sheet.line_right(foot, 0, &Line::styled(to, dim));
+    sheet.text(foot, 0, &from, Role::Dim);
+    sheet.text_right(foot, 0, to, Role::Dim);
     let words = if theme.paints() {
         [
-            "body 2 above, body 1 below, lit by their stress; oil by its pressure; cyan touches",
-            "bodies by stress, oil by pressure; cyan touches",
-            "cyan touches",
+            "body 2 above, body 1 below, lit by their stress; oil by its pressure; cyan: asperity contact",
+            "bodies by stress, oil by pressure; cyan: contact",
+            "cyan: contact",
         ]
     } else {
         [
-            "+ body 2 above, : body 1 below, oil between them; # touches",
-            "+ body 2, : body 1; # touches",
-            "# touches",
+            "+ body 2 above, : body 1 below, oil between them; # asperity contact",
+            "+ body 2, : body 1; # contact",
+            "# contact",
         ]
     };
     let room = usize::from(foot.width).saturating_sub(16);
     if let Some(words) = words.iter().find(|words| words.len() <= room) {
         let start = (usize::from(foot.width) - words.len()) / 2;
         let middle = with_columns(foot, foot.x + start as u16, words.len() as u16);
-        sheet.line(middle, 0, &Line::styled(*words, dim));
+        sheet.text(middle, 0, *words, Role::Dim);
     }
 }
 
-/// The profile in the terminal's own pixels, so many for a cell.
-fn pixels(profile: &SurfaceProfile, area: Rect, cell: (u16, u16)) -> Bitmap {
-    let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
-    let (width, height) = (side(area.width, cell.0), side(area.height, cell.1));
+/// The profile with the followed point in a page's pixels, so many for a cell.
+pub(super) fn in_pixels(app: &App, frame: &Frame, area: Rect, cell: Size) -> Option<Bitmap> {
+    let profile = of(app, frame)?;
+    let mut picture = Bitmap::blank(area, cell);
+    let (width, height) = (picture.width, picture.height);
     let columns: Vec<ProfileColumn> = profile.columns(width).collect();
-    let places = (0..height).flat_map(|row| columns.iter().map(move |column| (column, row)));
-    let rgba = places
+    picture.rgba = (0..height)
+        .flat_map(|row| columns.iter().map(move |column| (column, row)))
         .flat_map(|(column, row)| {
             let [r, g, b] = profile.rgb(profile.at(column, row, height));
             [r, g, b, 255]
         })
         .collect();
-    Bitmap {
-        area,
-        width,
-        height,
-        rgba,
-    }
-}
-
-/// The same with the followed point.
-pub(super) fn in_pixels(app: &App, frame: &Frame, area: Rect, cell: (u16, u16)) -> Option<Bitmap> {
-    let profile = of(app, frame)?;
-    let mut picture = pixels(&profile, area, cell);
-    if let Some([x, y]) = point_part(app, (&profile, frame)) {
-        let whole = MapWindow {
-            x: [0.0, 1.0],
-            y: [0.0, 1.0],
-        };
-        MapMark::Diamond.draw(&mut picture, &whole, (x, y), 0.6 * f64::from(cell.0));
+    if let Some(part) = point_part(app, &profile, frame) {
+        MapMark::Diamond.draw(&mut picture, part, 0.6 * f64::from(cell.width));
     }
     Some(picture)
 }

@@ -18,6 +18,14 @@ pub(super) struct MapWindow {
 }
 
 impl MapWindow {
+    /// Parts of the width and height (0 to 1) at which a place is; `None`: outside.
+    pub(super) fn part(&self, x: f64, y: f64) -> Option<[f64; 2]> {
+        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
+        let parts = [part(x, self.x), part(y, self.y)];
+        let is_inside = parts.iter().all(|part| (0.0..1.0).contains(part));
+        is_inside.then_some(parts)
+    }
+
     /// x at a part (0 to 1) of the width.
     pub(super) fn x_at(&self, part: f64) -> f64 {
         self.x[0] + (self.x[1] - self.x[0]) * part
@@ -104,7 +112,8 @@ impl PixelSpan {
 pub(super) fn rasterize(
     picture: &Picture,
     window: &MapWindow,
-    (columns, rows): (usize, usize),
+    columns: usize,
+    rows: usize,
 ) -> Option<Raster> {
     let (kind, [a_m, b_m]) = picture.hertz;
     let half_m = if picture.is_below { a_m } else { b_m };
@@ -138,7 +147,8 @@ pub(super) fn rasterize(
 pub(super) fn rasterize_lines<'a>(
     picture: &Picture,
     window: &MapWindow,
-    (columns, rows): (usize, usize),
+    columns: usize,
+    rows: usize,
     line: impl Fn(f64) -> Option<CentreValues<'a>>,
 ) -> Option<Raster> {
     let along = along(picture, window, columns)?;
@@ -307,7 +317,7 @@ mod tests {
         let frame = ramp();
         let picture = Picture::of(&frame, Subject::Pressure, &Ranges::default()).unwrap();
         for columns in [3, 8, 9, 40] {
-            let raster = rasterize(&picture, &ALL, (columns, 4)).unwrap();
+            let raster = rasterize(&picture, &ALL, columns, 4).unwrap();
             for column in 0..columns {
                 let centre = ALL.x_at((column as f64 + 0.5) / columns as f64) as f32;
                 // Means over nodes are off by at most half a node.
@@ -323,7 +333,7 @@ mod tests {
         frame.contact[2 * 9 + 4] = 1;
         for columns in [2, 3, 5, 9, 30] {
             let picture = Picture::of(&frame, Subject::Contact, &Ranges::default()).unwrap();
-            let raster = rasterize(&picture, &ALL, (columns, 3)).unwrap();
+            let raster = rasterize(&picture, &ALL, columns, 3).unwrap();
             let seen = (0..columns).any(|column| (0..3).any(|row| raster.spot(column, row)));
             assert!(seen, "{columns}");
         }
