@@ -93,7 +93,7 @@ pub enum Action {
     /// The keys speak of this panel.
     Focus(PanelKind),
     /// The keys speak of the panel so many places further on.
-    NextPanel(usize),
+    NextPanel(i32),
     /// Other units.
     Units,
     /// Other contrast.

@@ -57,7 +57,7 @@ pub const KEYS: &[Row] = rows! {
     }
     Show {
         "Tab", "another panel":
-            key(Name::Tab) => NextPanel(1), key(Name::BackTab) => NextPanel(4), shift(Name::BackTab) => NextPanel(4);
+            key(Name::Tab) => NextPanel(1), key(Name::BackTab) => NextPanel(-1), shift(Name::BackTab) => NextPanel(-1);
         "⏎", "panel whole; run; start": key(Name::Enter) => Enter;
         "m M", "next map; map before": ch('m') => NextMap, ch('M') => PreviousMap;
         "z", "contact or whole domain": ch('z') => Zoom;

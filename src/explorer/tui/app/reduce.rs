@@ -74,7 +74,7 @@ impl App {
     fn show(&mut self, action: Action) {
         match action {
             Action::NextMap => self.show_map(self.view.map.shifted(1)),
-            Action::PreviousMap => self.show_map(self.view.map.shifted(MapKind::ALL.len() - 1)),
+            Action::PreviousMap => self.show_map(self.view.map.shifted(-1)),
             Action::Zoom => {
                 self.view.zoom = match self.view.zoom {
                     Zoom::Contact => Zoom::Domain,
@@ -291,8 +291,8 @@ impl App {
         };
     }
 
-    fn focus_next(&mut self, by: usize) {
-        self.view.focus = self.view.focus.next(by);
+    fn focus_next(&mut self, by: i32) {
+        self.view.focus = self.view.focus.shifted(by);
         if self.view.enlarged.is_some() {
             self.view.enlarged = Some(self.view.focus);
         }

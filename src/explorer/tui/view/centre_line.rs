@@ -9,7 +9,7 @@ use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
 use crate::tui::view::areas::Areas;
-use crate::tui::view::chart::{CurvePanel, Pen};
+use crate::tui::view::chart::{CurvePanel, Pen, PlotFrame};
 use crate::tui::view::sheet::{Sheet, panel, title, with_columns, with_rows};
 use asperity_engine::sim::Frame;
 
@@ -78,7 +78,12 @@ fn curves(
     let theme = app.view.theme;
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let hertz = frame.p_hertz_pa / app.run.axis_ends.pressure_pa.max(1.0);
-    let mut chart = CurvePanel::of(app, plot, x, [0.0, 1.0]);
+    let axes = PlotFrame {
+        area: plot,
+        x,
+        y: [0.0, 1.0],
+    };
+    let mut chart = CurvePanel::of(app, axes);
     let fine = usize::from(plot.width) * 2;
     chart.scatter(
         (0..=fine).filter_map(|i| {

@@ -22,6 +22,46 @@ struct Cell {
     letter: char,
 }
 
+/// Where a figure is drawn, and which values its edges are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PlotFrame {
+    pub(super) area: Rect,
+    /// Left and right.
+    pub(super) x: [f64; 2],
+    /// Foot and top.
+    pub(super) y: [f64; 2],
+}
+
+impl PlotFrame {
+    /// The column of the screen for x; `None`: outside.
+    pub(super) fn column(&self, x: f64) -> Option<u16> {
+        let part = (x - self.x[0]) / (self.x[1] - self.x[0]);
+        let cells = (part * f64::from(self.area.width.saturating_sub(1))).round() as u16;
+        (0.0..=1.0).contains(&part).then_some(self.area.x + cells)
+    }
+
+    /// The row of the figure for y, from above; what lies outside is brought to its edge.
+    pub(super) fn row(&self, y: f64) -> u16 {
+        let down = 1.0 - (y - self.y[0]) / (self.y[1] - self.y[0]);
+        (down.clamp(0.0, 1.0) * f64::from(self.area.height.saturating_sub(1))).round() as u16
+    }
+
+    /// Draws a mark at x on a row of the figure, where x is in it.
+    pub(super) fn mark(&self, x: f64, row: u16, symbol: &str, role: Role, sheet: &mut Sheet<'_>) {
+        if let Some(column) = self.column(x) {
+            let style = sheet.theme.style(role);
+            sheet.cell(column, self.area.y + row, symbol, style);
+        }
+    }
+
+    /// x at a column of the screen.
+    pub(super) fn x_at(&self, column: u16) -> f64 {
+        let last = self.area.width.max(2) - 1;
+        let part = f64::from(column.saturating_sub(self.area.x)) / f64::from(last);
+        self.x[0] + part * (self.x[1] - self.x[0])
+    }
+}
+
 /// Curves drawn over each other: a cell takes the colour of the last one that touched it.
 #[derive(Debug)]
 pub(super) struct CurvePanel {
@@ -79,7 +119,7 @@ impl Pen {
 
 impl CurvePanel {
     /// An empty chart with its ranges.
-    pub(super) fn new(area: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
+    fn new(area: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
         let cells = vec![Cell::default(); usize::from(area.width) * usize::from(area.height)];
         Self {
             area,
@@ -91,10 +131,10 @@ impl CurvePanel {
     }
 
     /// The same as the explorer draws it: dots, or a page's lines.
-    pub(super) fn of(app: &App, area: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
+    pub(super) fn of(app: &App, plot: PlotFrame) -> Self {
         Self {
             curves: app.is_in_pixels().then(Vec::new),
-            ..Self::new(area, x, y)
+            ..Self::new(plot.area, plot.x, plot.y)
         }
     }
 

@@ -10,7 +10,7 @@ use crate::tui::action::Action;
 use crate::tui::app::App;
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
-use crate::tui::view::chart::{CurvePanel, Pen};
+use crate::tui::view::chart::{CurvePanel, Pen, PlotFrame};
 use crate::tui::view::sheet::{Sheet, with_columns, with_rows};
 
 /// Rows from which a curve can be read, with its heading and its axis.
@@ -40,14 +40,29 @@ struct CurveFigure {
     foot: [String; 3],
 }
 
+impl CurveFigure {
+    fn on(&self, area: Rect) -> PlotFrame {
+        PlotFrame {
+            area,
+            x: self.x,
+            y: self.y,
+        }
+    }
+
+    /// Draws a mark on a place, where that is in the plot.
+    fn spot(&self, plot: Rect, x: f64, y: f64, symbol: &str, role: Role, sheet: &mut Sheet<'_>) {
+        if !plot.is_empty() && (self.y[0]..=self.y[1]).contains(&y) {
+            let plot = self.on(plot);
+            plot.mark(x, plot.row(y), symbol, role, sheet);
+        }
+    }
+}
+
 /// A press on a plot along S, or along the speed, puts that knob there.
 pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {
     let figure = along::figure(app);
-    plot.contains(at).then(|| {
-        let part = f64::from(at.x - plot.x) / f64::from(plot.width.max(2) - 1);
-        let x = figure.x[0] + part * (figure.x[1] - figure.x[0]);
-        along::goes_to(app, x)
-    })
+    let x = figure.on(plot).x_at(at.x);
+    plot.contains(at).then(|| along::goes_to(app, x))
 }
 
 /// Draws what there is room for; says where the curve's plot is, and what it leaves to a page.
@@ -93,7 +108,7 @@ fn draw(
         width: area.width.saturating_sub(AXIS),
         height: area.height.saturating_sub(2),
     };
-    let mut chart = CurvePanel::of(app, plot, figure.x, figure.y);
+    let mut chart = CurvePanel::of(app, figure.on(plot));
     chart.upright(figure.knob, pen(app, Role::Dim, ':'));
     chart.line(figure.formula.iter().copied(), pen(app, Role::Formula, '.'));
     for &(x, _, band) in &figure.points {
@@ -103,39 +118,14 @@ fn draw(
     let curves = chart.render(sheet);
     let simulated = theme.pick("•", "o");
     for &(x, y, _) in &figure.points {
-        spot(app, figure, plot, (x, y), (simulated, Role::Good), sheet);
+        figure.spot(plot, x, y, simulated, Role::Good, sheet);
     }
     if let Some(now) = figure.now {
-        let here = (theme.pick("◉", "O"), Role::Strong);
-        spot(app, figure, plot, (figure.knob, now), here, sheet);
+        let symbol = theme.pick("◉", "O");
+        figure.spot(plot, figure.knob, now, symbol, Role::Strong, sheet);
     }
     axes(app, figure, area, plot, sheet);
     (plot, curves)
-}
-
-/// A mark on a place, where that is in the plot.
-fn spot(
-    app: &App,
-    figure: &CurveFigure,
-    plot: Rect,
-    (x, y): (f64, f64),
-    (symbol, role): (&'static str, Role),
-    sheet: &mut Sheet<'_>,
-) {
-    let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
-    let (along, up) = (part(x, figure.x), part(y, figure.y));
-    if plot.is_empty() || !(0.0..=1.0).contains(&along) || !(0.0..=1.0).contains(&up) {
-        return;
-    }
-    let cells = |part: f64, cells: u16| (part * f64::from(cells - 1)).round() as u16;
-    let at = (
-        plot.x + cells(along, plot.width),
-        plot.y + cells(1.0 - up, plot.height),
-    );
-    if let Some(cell) = sheet.buffer.cell_mut(at) {
-        cell.set_symbol(symbol)
-            .set_style(app.view.theme.style(role));
-    }
 }
 
 /// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.

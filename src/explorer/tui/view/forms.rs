@@ -1,6 +1,6 @@
 //! The forms of another scene: what only a new run can change, and what its plan says.
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 use ratatui::text::Line;
 
 use crate::tui::app::App;
@@ -25,8 +25,8 @@ pub(super) fn scene(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
         Form::Scene => "change the scene (e closes, E operating point)",
         Form::Point => "operating point (E closes, e scene)",
     };
-    let size = (WIDE, rows.len() as u16 + BELOW + 1);
-    let inner = boxed(app, within, size, title, Role::Key, sheet);
+    let size = Size::new(WIDE, rows.len() as u16 + BELOW + 1);
+    let inner = boxed(within, size, title, Role::Key, sheet);
     // Where not all rows fit, the chosen one is among those that are seen.
     let seen = usize::from(inner.height.saturating_sub(BELOW - 1)).clamp(1, rows.len());
     let first = (draft.row + 1).saturating_sub(seen);

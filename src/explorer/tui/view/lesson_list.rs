@@ -1,6 +1,6 @@
 //! The list of lessons over the screen.
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 use ratatui::text::Line;
 
 use crate::tui::app::App;
@@ -12,8 +12,8 @@ use crate::tui::view::sheet::Sheet;
 pub(super) fn lessons(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
     let theme = app.view.theme;
     let rows = app.lesson.all.len() as u16;
-    let size = (66, rows + 4);
-    let inner = boxed(app, within, size, "lessons (t closes)", Role::Key, sheet);
+    let size = Size::new(66, rows + 4);
+    let inner = boxed(within, size, "lessons (t closes)", Role::Key, sheet);
     for (place, lesson) in app.lesson.all.iter().enumerate() {
         let chosen = place == app.lesson.chosen;
         let mark = if chosen { theme.pick("▸", ">") } else { " " };

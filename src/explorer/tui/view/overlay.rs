@@ -1,6 +1,6 @@
 //! What lies over the screen: keys, plan, a fault.
 
-use ratatui::layout::{Margin, Rect};
+use ratatui::layout::{Constraint, Margin, Rect, Size};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType, Borders, Clear, Widget};
@@ -13,24 +13,18 @@ use crate::tui::view::sheet::{ASCII_BORDER, Sheet, with_columns, with_rows};
 
 /// Draws a box of a wanted size in the middle and gives the room inside.
 pub(super) fn boxed(
-    app: &App,
     within: Rect,
-    (width, height): (u16, u16),
+    size: Size,
     title: &str,
     role: Role,
     sheet: &mut Sheet<'_>,
 ) -> Rect {
-    let theme = app.view.theme;
-    let (width, height) = (width.min(within.width), height.min(within.height));
-    let area = Rect {
-        x: within.x + (within.width - width) / 2,
-        y: within.y + (within.height - height) / 2,
-        width,
-        height,
-    };
+    let theme = sheet.theme;
+    let width = Constraint::Length(size.width.min(within.width));
+    let height = Constraint::Length(size.height.min(within.height));
+    let area = within.centered(width, height);
     Clear.render(area, sheet.buffer);
-    // As wide as the screen it needs no sides, which would be a third of what a slow line has to carry of it, and no foot
-    // where nothing is below.
+    // As wide as the screen it needs no sides, and no foot where nothing is below.
     let borders = match (area.width == within.width, area.height == within.height) {
         (true, true) => Borders::TOP,
         (true, false) => Borders::TOP | Borders::BOTTOM,
@@ -71,14 +65,8 @@ pub(super) fn help(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
     } else {
         "keys (? closes)"
     };
-    let inner = boxed(
-        app,
-        within,
-        (columns * 40 + 4, rows + 2),
-        title,
-        Role::Key,
-        sheet,
-    );
+    let size = Size::new(columns * 40 + 4, rows + 2);
+    let inner = boxed(within, size, title, Role::Key, sheet);
     let each = inner.width / columns;
     let shown = lines.iter().skip(usize::from(app.view.scroll.min(hidden)));
     for (place, (_, line)) in shown.enumerate() {
@@ -199,7 +187,7 @@ pub(super) fn plan(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
     } else {
         "plan (i closes)"
     };
-    let inner = boxed(app, within, (wide, tall), title, Role::Key, sheet);
+    let inner = boxed(within, Size::new(wide, tall), title, Role::Key, sheet);
     let shown = rows.iter().skip(usize::from(app.view.scroll.min(hidden)));
     for (row, line) in (0..inner.height).zip(shown) {
         sheet.line(inner, row, line);
@@ -254,7 +242,7 @@ pub(super) fn message(app: &App, text: &str, screen: Rect, sheet: &mut Sheet<'_>
     let lines: Vec<String> = text.flat_map(|line| wrapped(&line, columns)).collect();
     let tall = (lines.len() as u16 + 2).min(screen.height);
     let foot = with_rows(screen, screen.bottom() - tall, tall);
-    let inner = boxed(app, foot, (wide, tall), "", Role::Warn, sheet);
+    let inner = boxed(foot, Size::new(wide, tall), "", Role::Warn, sheet);
     for (row, line) in (0..).zip(lines) {
         sheet.text(inner, row, line, Role::Warn);
     }
@@ -284,8 +272,8 @@ pub(super) fn fault(app: &App, reason: &str, within: Rect, sheet: &mut Sheet<'_>
     let theme = app.view.theme;
     let wide = 76.min(within.width);
     let rows = reason.chars().count() as u16 / wide.saturating_sub(6).max(1) + 1;
-    let size = (wide, rows + 6);
-    let inner = boxed(app, within, size, "the run failed", Role::Bad, sheet);
+    let size = Size::new(wide, rows + 6);
+    let inner = boxed(within, size, "the run failed", Role::Bad, sheet);
     let text = vec![
         theme.line(reason.to_owned(), Role::Bad),
         Line::default(),

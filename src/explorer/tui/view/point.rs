@@ -11,7 +11,7 @@ use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
 use crate::tui::units::{nice_ceiling, sig_or_dash, tick};
 use crate::tui::view::areas::{Areas, PanelSpacing};
-use crate::tui::view::chart::{CurvePanel, Pen};
+use crate::tui::view::chart::{CurvePanel, Pen, PlotFrame};
 use crate::tui::view::sheet::{Sheet, inside, panel, title, with_columns};
 use asperity_engine::sim::{Frame, Stage};
 
@@ -34,15 +34,11 @@ pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<
     if area.is_empty() {
         return None;
     }
-    let plot = TracePlot { area, x: X_RANGE };
-    let curves = trace(app, frame, plot, sheet);
-    peaks_ticked(app, frame, plot, sheet);
-    axis(app, frame, area, point.depth_m, sheet);
-    curves
+    draw(app, frame, area, X_RANGE, sheet)
 }
 
-/// The trace alone, over the places of the picture above it.
-pub(super) fn under_profile(
+/// The trace over these x/a, with its ticks and axis; nothing where no point is followed.
+pub(super) fn draw(
     app: &App,
     frame: &Frame,
     area: Rect,
@@ -50,18 +46,12 @@ pub(super) fn under_profile(
     sheet: &mut Sheet<'_>,
 ) -> Option<PixelPlot> {
     let point = app.point_now()?;
-    let plot = TracePlot { area, x };
-    let curves = trace(app, frame, plot, sheet);
-    peaks_ticked(app, frame, plot, sheet);
-    axis(app, frame, area, point.depth_m, sheet);
+    let y = range(app, frame);
+    let plot = PlotFrame { area, x, y };
+    let curves = trace(app, frame, &plot, sheet);
+    peaks_ticked(app, frame, &plot, sheet);
+    axis(app, &plot, point.depth_m, sheet);
     curves
-}
-
-/// Where a trace is drawn, and which x/a that is.
-#[derive(Debug, Clone, Copy)]
-struct TracePlot {
-    area: Rect,
-    x: [f64; 2],
 }
 
 /// Columns of the numbers; a narrow screen leaves them to the trace, unless it is all that is shown.
@@ -102,8 +92,12 @@ pub(super) fn pressed(areas: &Areas, at: Position) -> Option<Action> {
 pub(super) fn dragged(areas: &Areas, at: Position) -> Option<Action> {
     let plot = plot(areas);
     plot.contains(at).then(|| {
-        let part = f64::from(at.x - plot.x) / f64::from(plot.width - 1);
-        Action::PutPoint(X_RANGE[0] + (X_RANGE[1] - X_RANGE[0]) * part)
+        let plot = PlotFrame {
+            area: plot,
+            x: X_RANGE,
+            y: [0.0, 1.0],
+        };
+        Action::PutPoint(plot.x_at(at.x))
     })
 }
 
@@ -191,10 +185,9 @@ fn hertz_pa(x: f64, frame: &Frame) -> f64 {
     frame.p_hertz_pa * (1.0 - x * x).max(0.0).sqrt()
 }
 
-fn trace(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
+fn trace(app: &App, frame: &Frame, plot: &PlotFrame, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
     let theme = app.view.theme;
-    let range = range(app, frame);
-    let mut chart = CurvePanel::of(app, plot.area, plot.x, range);
+    let mut chart = CurvePanel::of(app, *plot);
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     let quantity = app.view.point_quantity;
     let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
@@ -231,16 +224,9 @@ fn trace(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>) -> Op
     chart.line(points(app.replay.trace.current()), pen(role, '*'));
     let curves = chart.render(sheet);
     if let Some(last) = app.replay.trace.current().last() {
-        let row = row_of(plot.area, range, value(quantity, last, frame));
-        mark(
-            app,
-            plot,
-            last.x_m / frame.a_m,
-            row,
-            "◆",
-            Role::Strong,
-            sheet,
-        );
+        let row = plot.row(value(quantity, last, frame));
+        let symbol = theme.pick("◆", "X");
+        plot.mark(last.x_m / frame.a_m, row, symbol, Role::Strong, sheet);
     }
     curves
 }
@@ -282,15 +268,16 @@ fn range(app: &App, frame: &Frame) -> [f64; 2] {
 }
 
 /// A tick under the trace for each peak that has passed, and its number on the curve where there is room.
-fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>) {
-    let (area, range) = (plot.area, range(app, frame));
+fn peaks_ticked(app: &App, frame: &Frame, plot: &PlotFrame, sheet: &mut Sheet<'_>) {
+    let area = plot.area;
     let mut free_from = 0;
     for tick in app.replay.trace.ticks() {
         let x = tick.x_m / frame.a_m;
-        let Some(column) = column_of(plot, x) else {
+        let Some(column) = plot.column(x) else {
             continue;
         };
-        mark(app, plot, x, area.height, "╿", Role::Cycles, sheet);
+        let symbol = sheet.theme.pick("╿", "|");
+        plot.mark(x, area.height, symbol, Role::Cycles, sheet);
         let number = tick.number.to_string();
         let width = number.len() as u16;
         let first = (column.saturating_sub((width - 1) / 2)).min(area.right() - width);
@@ -301,8 +288,8 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, sheet: &mut Sheet<'_>
             continue;
         }
         // Above the curve, or on it where it touches the top.
-        let row =
-            row_of(area, range, value(app.view.point_quantity, sample, frame)).saturating_sub(1);
+        let y = value(app.view.point_quantity, sample, frame);
+        let row = plot.row(y).saturating_sub(1);
         let cells = with_columns(area, first, width);
         sheet.text(cells, row, number, Role::Cycles);
         free_from = first + width + 1;
@@ -315,45 +302,11 @@ fn nearest(samples: &[TraceSample], x_m: f64) -> Option<&TraceSample> {
     all.min_by(|one, two| away(one).total_cmp(&away(two)))
 }
 
-/// Row of the plot for a value.
-fn row_of(plot: Rect, range: [f64; 2], value: f64) -> u16 {
-    let down = 1.0 - (value - range[0]) / (range[1] - range[0]);
-    (down.clamp(0.0, 1.0) * f64::from(plot.height - 1)).round() as u16
-}
-
-/// Column of the screen for x/a; `None` outside the plot.
-fn column_of(plot: TracePlot, x: f64) -> Option<u16> {
-    let part = (x - plot.x[0]) / (plot.x[1] - plot.x[0]);
-    let column = plot.area.x + (part * f64::from(plot.area.width - 1)).round() as u16;
-    (0.0..=1.0).contains(&part).then_some(column)
-}
-
-fn mark(
-    app: &App,
-    plot: TracePlot,
-    x: f64,
-    row: u16,
-    symbol: &'static str,
-    role: Role,
-    sheet: &mut Sheet<'_>,
-) {
-    let Some(column) = column_of(plot, x) else {
-        return;
-    };
-    let ascii = if symbol == "◆" { "X" } else { "|" };
-    sheet.cell(
-        column,
-        plot.area.y + row,
-        app.view.theme.pick(symbol, ascii),
-        app.view.theme.style(role),
-    );
-}
-
-fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, sheet: &mut Sheet<'_>) {
+fn axis(app: &App, plot: &PlotFrame, depth_m: f64, sheet: &mut Sheet<'_>) {
+    let (plot, range) = (plot.area, plot.y);
     let theme = app.view.theme;
     let pressure = app.view.units.pressure();
     let left = with_columns(plot, plot.x.saturating_sub(6), 5);
-    let range = range(app, frame);
     sheet.text_right(left, 0, tick(pressure.of(range[1])), Role::Dim);
     let foot = tick(pressure.of(range[0]));
     sheet.text_right(left, plot.height - 1, foot, Role::Dim);

@@ -7,7 +7,7 @@ use super::pen;
 use crate::tui::app::App;
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
-use crate::tui::view::chart::CurvePanel;
+use crate::tui::view::chart::{CurvePanel, PlotFrame};
 use crate::tui::view::sheet::{Sheet, below};
 
 /// Half of the minimum range, decades: noise stays small.
@@ -42,8 +42,12 @@ pub(super) fn render(app: &App, area: Rect, sheet: &mut Sheet<'_>) -> Option<Pix
         });
     let middle = 0.5 * (low + high);
     let half = (0.55 * (high - low)).max(MIN_HALF_RANGE);
-    let passages = [first.passages, last.passages];
-    let mut chart = CurvePanel::of(app, plot, passages, [middle - half, middle + half]);
+    let plot = PlotFrame {
+        area: plot,
+        x: [first.passages, last.passages],
+        y: [middle - half, middle + half],
+    };
+    let mut chart = CurvePanel::of(app, plot);
     chart.line(points, pen(app, Role::Good, '*'));
     chart.render(sheet)
 }

@@ -84,7 +84,7 @@ pub(super) fn side_view(
     let profile = of(app, frame)?;
     let (area, below) = rooms(inner);
     draw(app, &profile, frame, area, inner, sheet);
-    point::under_profile(app, frame, below?, profile.x, sheet)
+    point::draw(app, frame, below?, profile.x, sheet)
 }
 
 /// Draws the profile, where it is not left to a page's pixels, and its numbers.
