@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo test --release --test attack                                   a taste of each, two minutes at most
-//! cargo test --release --test attack -- --ignored --nocapture          10 000 inputs; writes assets/reports/attack.md
+//! cargo test --release --test attack -- --ignored --nocapture          10 000 inputs
 //! ASPERITY_ATTACK=scenes:123 cargo test --release --test attack hostile -- --nocapture      that one input again
 //! tests/attack/fuzz/fuzz.sh scene 600                                  coverage-guided, on one parser (`fuzz/runs.md`)
 //! ```
@@ -81,11 +81,10 @@ fn faults_lose_nothing() {
 }
 
 #[test]
-#[ignore = "the long form: some minutes, and it writes the report"]
+#[ignore = "the long form: some minutes"]
 fn the_whole_attack() {
     let mut tallies = attack(1);
     tallies.extend(replay::all());
     tallies.extend(faults::all());
-    report::write(&tallies);
     assert_survived(&tallies);
 }

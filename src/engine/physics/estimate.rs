@@ -23,7 +23,7 @@
 //! contact without sliding (every factor 1) and the anchor; beyond the anchor, where the two have nothing in common (one
 //! raises life, the other lowers it, or they differ beyond [`ALIKE`]), factors are scaled in proportion.
 //!
-//! The formula never sees a simulation. How far it is off: `assets/reports/formula.md`. `n_i` is [`contacts`]'s.
+//! The formula never sees a simulation. How far it is off: `tests/screen/formula.rs`. `n_i` is [`contacts`]'s.
 //!
 //! [`contacts`]: EstimateBasis::contacts
 

@@ -21,7 +21,7 @@
 //! memory and held to amplitudes that the papers computed, within 0.04); stress, [`super::stress_exact`] and McEwen (1949).
 //!
 //! Left out: what the film does to a wave in sliding, the film's own waves, contacts beyond partial flattening of one
-//! wave, wide ellipses (a section of a line stands in from b/a = 2 on). How far it is off: `assets/reports/formula.md`.
+//! wave, wide ellipses (a section of a line stands in from b/a = 2 on). How far it is off: `tests/screen/formula.rs`.
 
 use super::hertz::HertzShape;
 use super::invariants::Stress6;

@@ -115,8 +115,7 @@ fn scenes_of_evidence_are_those_of_the_set_and_of_the_folder() {
         .collect();
     let built_in = presets::evidence().iter().map(|p| p.name.to_owned());
     assert_eq!(used, built_in.collect::<BTreeSet<_>>());
-    let folder =
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/engine/assets/evidence");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../engine/assets/evidence");
     let files: BTreeSet<String> = std::fs::read_dir(&folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())
