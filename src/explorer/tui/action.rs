@@ -166,7 +166,7 @@ pub fn lookup(chord: Chord) -> Option<Action> {
 pub fn lookup_typed(chord: Chord) -> Option<Action> {
     let chord = normal(chord);
     match chord.key {
-        KeyName::Char(letter) if chord.held == Modifiers::NONE => Some(Action::Letter(letter)),
+        KeyName::Char(letter) if chord.modifiers == Modifiers::NONE => Some(Action::Letter(letter)),
         KeyName::Backspace => Some(Action::Erase),
         KeyName::Enter => Some(Action::Enter),
         KeyName::Esc => Some(Action::Close),
@@ -177,8 +177,8 @@ pub fn lookup_typed(chord: Chord) -> Option<Action> {
 /// Shift is part of a character already; terminals disagree on whether they name it too.
 fn normal(mut chord: Chord) -> Chord {
     if let KeyName::Char(letter) = &mut chord.key {
-        chord.held.shift = false;
-        if chord.held.control {
+        chord.modifiers.shift = false;
+        if chord.modifiers.control {
             *letter = letter.to_ascii_lowercase();
         }
     }

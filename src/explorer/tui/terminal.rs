@@ -186,7 +186,7 @@ impl Panics {
             } else if Arc::strong_count(&kept.said) > 1 {
                 let name = thread::current().name().map(str::to_owned);
                 kept.lock().push(Panic {
-                    text: told(info),
+                    text: in_one_line(info),
                     broke_the_run: !name.is_some_and(|name| BESIDE.contains(&name.as_str())),
                 });
             } else {
@@ -225,7 +225,7 @@ impl Panics {
 }
 
 /// A panic in one line.
-fn told(info: &panic::PanicHookInfo<'_>) -> String {
+fn in_one_line(info: &panic::PanicHookInfo<'_>) -> String {
     let what = info.payload_as_str().unwrap_or("no message");
     match info.location() {
         Some(place) => format!(
@@ -323,7 +323,7 @@ fn chord(event: &KeyEvent) -> Option<Chord> {
     let is_held = |modifier| event.modifiers.contains(modifier);
     Some(Chord {
         key,
-        held: Modifiers {
+        modifiers: Modifiers {
             shift: is_held(KeyModifiers::SHIFT),
             control: is_held(KeyModifiers::CONTROL),
             alt: is_held(KeyModifiers::ALT),

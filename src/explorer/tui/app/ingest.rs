@@ -23,7 +23,7 @@ const HISTORY: usize = 1024;
 /// Wall time over which the speed of the run is averaged.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
 /// How long a step that did not converge is told: single ones would flicker.
-const TOLD: Duration = Duration::from_secs(3);
+const TROUBLE_SHOWN: Duration = Duration::from_secs(3);
 /// How long a knob that was set here is not overruled by what a frame says of its target.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -51,7 +51,7 @@ impl App {
         self.take_rate(&frame);
         if !frame.metrics.converged {
             let trouble = Trouble::of(&frame, self.run.setup.scene.numerics.tolerance);
-            self.run.trouble = Some((trouble, self.now + TOLD));
+            self.run.trouble = Some((trouble, self.now + TROUBLE_SHOWN));
         }
         self.take_life(&frame);
         self.take_film(&frame);
@@ -77,9 +77,10 @@ impl App {
         let tolerance = self.run.setup.scene.numerics.tolerance;
         let shown = self.frame().filter(|frame| !frame.metrics.converged);
         let shown = shown.map(|frame| Trouble::of(frame, tolerance));
-        let told = self.run.trouble.filter(|(_, until)| self.now < *until);
+        let recent = self.run.trouble.filter(|(_, until)| self.now < *until);
         shown.or_else(|| {
-            told.filter(|_| self.run.frames_back == 0)
+            recent
+                .filter(|_| self.run.frames_back == 0)
                 .map(|(trouble, _)| trouble)
         })
     }

@@ -165,7 +165,7 @@ impl App {
     /// Moves a knob's target; the estimate follows at once, the run when it gets there.
     pub(super) fn set(&mut self, place: usize, value: f64) -> Vec<Effect> {
         let dial = &self.choice.dials[place];
-        if let DialState::Dead(reason) = dial.life {
+        if let DialState::Dead(reason) = dial.state {
             let line = format!(
                 "{}: the surface is {reason}, so there is nothing to turn",
                 dial.label

@@ -6,7 +6,7 @@ use super::data::{Effect, ErrandKind};
 use super::state::App;
 use crate::tui::action::Action;
 use crate::tui::kinds::{Overlay, RunPace};
-use crate::tui::lessons::{FoundAnswer, Lesson, TourPhase, TourState, reached};
+use crate::tui::lessons::{FoundAnswer, Lesson, TourPhase, TourState};
 use asperity_session::run::Command;
 
 impl App {
@@ -235,7 +235,7 @@ impl App {
             let setting = lesson.setting(at, dial);
             let value = setting.map_or(dial.home, |setting| setting.value(dial));
             // A run without another scene may not go there; a surface that is smooth has nothing to set.
-            if reached(dial, value).is_ok() {
+            if dial.checked(value).is_ok() {
                 effects.extend(self.set(place, value));
             }
         }

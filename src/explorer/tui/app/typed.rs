@@ -24,7 +24,7 @@ impl App {
     /// Begins a value for the chosen knob, unless there is nothing to turn.
     pub(super) fn begin_typing(&mut self) -> Vec<Effect> {
         let dial = &self.choice.dials[self.choice.chosen];
-        if let DialState::Dead(reason) = dial.life {
+        if let DialState::Dead(reason) = dial.state {
             let line = format!(
                 "{}: the surface is {reason}, so there is nothing to turn",
                 dial.label

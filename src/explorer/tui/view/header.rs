@@ -74,7 +74,7 @@ fn state(app: &App) -> (&'static str, String, Role) {
     }
     if app.replay.playing.is_some() && app.run.status.health == Health::Running {
         let word = if app.replay_stands() {
-            "replay, held"
+            "replay, paused"
         } else {
             "replay"
         };

@@ -144,7 +144,7 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, sheet: &mut 
 /// `0.30 → 0.50` on the way, `0.50` there.
 fn value_line(app: &App, dial: &Dial) -> Line<'static> {
     let theme = app.view.theme;
-    if let DialState::Dead(reason) = dial.life {
+    if let DialState::Dead(reason) = dial.state {
         return theme.line(reason, Role::Dim);
     }
     let unit = dial.unit(app.view.units);
@@ -180,7 +180,7 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, sheet: &mut Sheet<'
     let (now, target) = (column(dial.now), column(dial.target));
     // S has its zero in the middle; other sliders fill from the left.
     let root = if dial.min < 0.0 { column(0.0) } else { 0 };
-    let dead = dial.life != DialState::Live;
+    let dead = dial.state != DialState::Live;
     let filled = if place == app.choice.chosen {
         Role::Chosen
     } else {
@@ -232,7 +232,7 @@ fn paint(
 /// Range of the slider; for the load the Hertz pressure, as that is what one thinks in.
 fn range(app: &App, dial: &Dial, slot: Rect, sheet: &mut Sheet<'_>) {
     let unit = dial.unit(app.view.units);
-    if dial.life != DialState::Live {
+    if dial.state != DialState::Live {
         return;
     }
     let is_load = dial.knob.is_load();

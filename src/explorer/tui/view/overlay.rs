@@ -175,7 +175,7 @@ pub(super) fn plan(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
     let columns = usize::from(wide.saturating_sub(4)).max(1);
     let rows: Vec<Line> = lines
         .iter()
-        .flat_map(|line| folded(line, columns))
+        .flat_map(|line| folded(line, columns, 2))
         .collect();
     let tall = (rows.len() as u16 + 2).min(within.height);
     let hidden = (rows.len() as u16).saturating_sub(tall.saturating_sub(2));
@@ -197,8 +197,8 @@ pub(super) fn plan(app: &App, within: Rect, sheet: &mut Sheet<'_>) {
 /// Width of the plan, in columns.
 const PLAN_WIDE: u16 = 100;
 
-/// A line in rows of so many columns, broken between words; what goes on keeps the indentation, and two columns more.
-fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
+/// A line in rows of so many columns, broken between words; what goes on keeps the indentation, and so many columns more.
+fn folded(line: &Line<'static>, columns: usize, hanging: usize) -> Vec<Line<'static>> {
     if line.width() <= columns {
         return vec![line.clone()];
     }
@@ -228,7 +228,7 @@ fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
         spans.extend((from..to).map(|k| Span::styled(letters[k].to_string(), styles[k])));
         rows.push(Line::from(spans));
         from = to + letters[to..].iter().take_while(|c| **c == ' ').count();
-        before = indent + 2;
+        before = indent + hanging;
     }
     rows
 }
@@ -237,34 +237,16 @@ fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
 pub(super) fn message(app: &App, text: &str, screen: Rect, sheet: &mut Sheet<'_>) -> Rect {
     let theme = app.view.theme;
     let wide = 100.min(screen.width);
-    let text = text.lines().map(|line| theme.text(line));
+    let text = text.lines().map(|line| theme.line(line, Role::Warn));
     let columns = usize::from(wide.saturating_sub(4)).max(1);
-    let lines: Vec<String> = text.flat_map(|line| wrapped(&line, columns)).collect();
+    let lines: Vec<Line> = text.flat_map(|line| folded(&line, columns, 0)).collect();
     let tall = (lines.len() as u16 + 2).min(screen.height);
     let foot = with_rows(screen, screen.bottom() - tall, tall);
     let inner = boxed(foot, Size::new(wide, tall), "", Role::Warn, sheet);
     for (row, line) in (0..).zip(lines) {
-        sheet.text(inner, row, line, Role::Warn);
+        sheet.line(inner, row, &line);
     }
     foot
-}
-
-/// A line in rows of so many columns, broken between words.
-fn wrapped(line: &str, columns: usize) -> Vec<String> {
-    let mut rows = vec![String::new()];
-    for word in line.split_whitespace() {
-        let last = rows.last().map_or(0, |row| row.chars().count());
-        if last > 0 && last + 1 + word.chars().count() > columns {
-            rows.push(String::new());
-        }
-        if let Some(row) = rows.last_mut() {
-            if !row.is_empty() {
-                row.push(' ');
-            }
-            row.push_str(word);
-        }
-    }
-    rows
 }
 
 /// An engine that failed.
