@@ -70,7 +70,7 @@ impl App {
         }
     }
 
-    /// Actions that change only what is shown.
+    /// Actions that change only what is shown; the others have been done, or mean nothing here.
     fn show(&mut self, action: Action) {
         match action {
             Action::NextMap => self.show_map(self.view.map.shifted(1)),
@@ -96,7 +96,37 @@ impl App {
             Action::NextPanel(by) => self.focus_next(by),
             Action::Enter => self.toggle_enlarged(),
             Action::Close => self.close(),
-            _ => {}
+            Action::Quit
+            | Action::Suspend
+            | Action::ChooseNext
+            | Action::ChoosePrevious
+            | Action::Choose(_)
+            | Action::Turn(_)
+            | Action::TurnFar(_)
+            | Action::Slide(_, _)
+            | Action::Typical(_)
+            | Action::GoTo(_, _)
+            | Action::Type
+            | Action::Letter(_)
+            | Action::Erase
+            | Action::Home
+            | Action::HomeAll
+            | Action::TogglePause
+            | Action::StepForward
+            | Action::StepBack
+            | Action::PointBody
+            | Action::PointDepth(_)
+            | Action::MovePoint(_)
+            | Action::PutPoint(_)
+            | Action::Curve
+            | Action::Replay
+            | Action::Record
+            | Action::View
+            | Action::Save
+            | Action::Write
+            | Action::EndTour
+            | Action::NextBeat
+            | Action::PreviousBeat => {}
         }
     }
 

@@ -196,18 +196,17 @@ fn trace(app: &App, frame: &Frame, plot: &PlotFrame, sheet: &mut Sheet<'_>) -> O
             .map(|sample| (sample.x_m / frame.a_m, value(quantity, sample, frame)))
             .collect()
     };
-    if matches!(quantity, PointQuantity::Pressure | PointQuantity::Excess) {
-        let fine = usize::from(plot.area.width) * 2;
-        let hertz = (0..=fine).filter_map(|i| {
-            let x = plot.x[0] + (plot.x[1] - plot.x[0]) * i as f64 / fine as f64;
-            let p = match quantity {
-                PointQuantity::Excess => 0.0,
-                _ => hertz_pa(x, frame),
-            };
-            (x.abs() < 1.0).then_some((x, p))
-        });
-        chart.scatter(hertz, pen(Role::Hertz, '.'));
-    }
+    let fine = 2 * usize::from(plot.area.width);
+    let hertz = (0..=fine).filter_map(|i| {
+        let x = plot.x[0] + (plot.x[1] - plot.x[0]) * i as f64 / fine as f64;
+        let p = match quantity {
+            PointQuantity::Pressure => hertz_pa(x, frame),
+            PointQuantity::Excess => 0.0,
+            PointQuantity::Shear | PointQuantity::Effective => return None,
+        };
+        (x.abs() < 1.0).then_some((x, p))
+    });
+    chart.scatter(hertz, pen(Role::Hertz, '.'));
     if let Some((samples, frozen)) = frozen(app) {
         let frozen_points = samples.iter().map(|sample| {
             let y = value(quantity, sample, frozen);

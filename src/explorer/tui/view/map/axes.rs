@@ -113,7 +113,12 @@ fn down(app: &App, frame: &Frame) -> Down {
             name: "a",
             per_window: 4.0,
         },
-        _ => Down {
+        MapKind::Pressure
+        | MapKind::Film
+        | MapKind::Fringes
+        | MapKind::Contact
+        | MapKind::Roughness
+        | MapKind::Profile => Down {
             name: "y/b",
             per_window: 1.0,
         },

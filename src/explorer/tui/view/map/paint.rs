@@ -21,7 +21,11 @@ pub(super) fn look(app: &App) -> Look {
     let unit = match app.view.map {
         MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => app.view.units.film(),
         MapKind::Roughness => app.view.units.height(),
-        _ => app.view.units.pressure(),
+        MapKind::Pressure
+        | MapKind::Contact
+        | MapKind::Stress
+        | MapKind::PressureWaves
+        | MapKind::Profile => app.view.units.pressure(),
     };
     Look::of(app.view.map.subject(), &app.ranges()).in_unit(unit)
 }
