@@ -21,7 +21,7 @@ use asperity_explorer::tui::view;
 use asperity_picture::export::{Export, Format};
 use asperity_picture::{ABOVE, CONTACT, Ramp};
 use asperity_recorder::Recorder;
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::Rect;
 
 type Rgb = [u8; 3];
 
@@ -179,7 +179,7 @@ fn exported(file: &Path) -> (Vec<Rgb>, [usize; 2]) {
 
 /// Middles of the terminal's cells: place in half-widths, and colour.
 fn on_screen(app: &mut App, map: MapKind) -> Vec<([f64; 2], Rgb)> {
-    const CELL: Size = Size::new(9, 19);
+    const CELL: (u16, u16) = (9, 19);
     while app.map() != map {
         app.apply(Action::NextMap);
     }
@@ -194,8 +194,8 @@ fn on_screen(app: &mut App, map: MapKind) -> Vec<([f64; 2], Rgb)> {
         let Some(Action::Probe(x, y)) = view::pointed(app, screen, pressed) else {
             panic!("the map is read where it is pressed")
         };
-        let column = usize::from((at.x - picture.area.x) * CELL.width + CELL.width / 2);
-        let row = usize::from((at.y - picture.area.y) * CELL.height + CELL.height / 2);
+        let column = usize::from((at.x - picture.area.x) * CELL.0 + CELL.0 / 2);
+        let row = usize::from((at.y - picture.area.y) * CELL.1 + CELL.1 / 2);
         let pixel = 4 * (row * picture.width + column);
         let [r, g, b, _] = picture.rgba[pixel..pixel + 4] else {
             panic!("four bytes")

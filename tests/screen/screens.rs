@@ -19,7 +19,7 @@ use asperity_explorer::tui::{Health, RunStatus, view};
 use asperity_session::run::Command;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::Rect;
 use ratatui::style::Color;
 
 #[test]
@@ -532,7 +532,7 @@ fn maps_in_pixels_are_the_maps_in_blocks() {
         assert_eq!(view::picture_area(&app, screen), None);
         app.set_medium(Medium::Page);
         let bare = buffer(&app, 120, 36);
-        let picture = view::picture(&app, screen, Size::new(1, 2)).unwrap();
+        let picture = view::picture(&app, screen, (1, 2)).unwrap();
         assert_eq!(Some(picture.area), view::picture_area(&app, screen));
         let mut letters = 0;
         for at in picture.area.positions() {

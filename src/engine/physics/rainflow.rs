@@ -22,6 +22,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::turning::{Turn, Turning};
+use crate::saved::saved;
 
 /// A counted cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,6 +57,10 @@ pub struct Rainflow {
     forced: u64,
 }
 
+saved! {
+    Rainflow { same: ends, capacity; parts: turning; room: stack, ring; free: forced; }
+}
+
 impl Rainflow {
     /// Counter of cycles with a range of at least `gate`, with memory for `capacity` open reversals
     /// (at least 4).
@@ -69,23 +74,6 @@ impl Rainflow {
             capacity,
             forced: 0,
         }
-    }
-
-    /// Whether a counter that was saved is of the same make as this one, and holds no more than it can.
-    pub fn fits(&self, saved: &Self) -> bool {
-        self.turning.gate() == saved.turning.gate()
-            && (self.ends, self.capacity) == (saved.ends, saved.capacity)
-            && saved.stack.len() <= self.capacity + 2
-            && saved.ring.len() <= self.capacity + 3
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub fn make_room(&mut self) {
-        let room = |list: &mut Vec<f64>, most: usize| {
-            list.reserve_exact(most.saturating_sub(list.len()));
-        };
-        room(&mut self.stack, self.capacity + 2);
-        room(&mut self.ring, self.capacity + 3);
     }
 
     /// Starts a new history.

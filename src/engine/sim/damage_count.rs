@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::grid::Grid;
 use crate::physics::cycles::BodyId;
+use crate::saved::saved;
 use crate::solve::axis::Line;
 use crate::solve::columns::Columns;
 use crate::solve::material::MaterialTracker;
@@ -39,6 +40,10 @@ pub(super) struct DamageCount {
     is_known: bool,
 }
 
+saved! {
+    DamageCount { parts: bodies; free: fastest, is_known; }
+}
+
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct BodyCount {
     columns: Columns,
@@ -52,6 +57,10 @@ struct BodyCount {
     own: Option<f64>,
     #[serde(rename = "wanted")]
     needed: f64,
+}
+
+saved! {
+    BodyCount { same: own, needed; parts: columns, cycles, ln_ratios; free: distance; }
 }
 
 impl DamageCount {
@@ -79,16 +88,6 @@ impl DamageCount {
             fastest: 0.0,
             is_known: false,
         }
-    }
-
-    /// Whether counts that were saved are of the same make.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        self.bodies.iter().zip(&saved.bodies).all(|(own, saved)| {
-            own.columns.fits(&saved.columns)
-                && own.cycles.len() == saved.cycles.len()
-                && own.ln_ratios.len() == saved.ln_ratios.len()
-                && (own.own, own.needed) == (saved.own, saved.needed)
-        })
     }
 
     /// Forgets all counts.

@@ -9,10 +9,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::physics::rainflow::{Cycle, HistoryEnds, Rainflow};
+use crate::saved::saved;
 
 /// What a cycle's damage is taken from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DamageBasis {
+pub(super) enum DamageBasis {
     /// Ranges of the signed orthogonal shear.
     Ranges,
     /// Peaks of the effective stress.
@@ -61,6 +62,10 @@ pub(super) struct CrossingHistory {
     pub(super) last: Option<CycleCount>,
 }
 
+saved! {
+    CrossingHistory { same: basis; parts: flow; free: cycles, last; }
+}
+
 impl CrossingHistory {
     /// Open reversals of a crossing's pressure: far more than the crests of any contact that a grid resolves.
     pub(super) const OPEN: usize = 512;
@@ -75,16 +80,6 @@ impl CrossingHistory {
             cycles: CycleCount::default(),
             last: None,
         }
-    }
-
-    /// Whether a history that was saved is of the same make as this one.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        self.basis == saved.basis && self.flow.fits(&saved.flow)
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub(super) fn make_room(&mut self) {
-        self.flow.make_room();
     }
 
     pub(super) fn push(&mut self, value: f64, exponent: f64) {

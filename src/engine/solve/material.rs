@@ -44,10 +44,12 @@ use serde::{Deserialize, Serialize};
 
 pub use self::spec::TrackerSpec;
 pub use super::axis::Line;
+pub use super::cycle_count::CycleCount;
+use super::cycle_count::DamageBasis;
 use super::cycle_count::{Crossing, CrossingHistory};
-pub use super::cycle_count::{CycleCount, DamageBasis};
 use super::damage::DamageMap;
 use crate::physics::turning::{PassedMaximum, Peaks};
+use crate::saved::saved;
 
 /// Fraction of the golden section: multiples of it, modulo 1, spread evenly and never fall into step with
 /// the ripples, as equal spacing may.
@@ -66,17 +68,14 @@ struct TrackedPoint {
     effective: Vec<CrossingHistory>,
 }
 
-impl TrackedPoint {
-    /// Whether a point that was saved is of the same make as this one.
-    fn fits(&self, saved: &Self) -> bool {
-        let all = |own: &[CrossingHistory], saved: &[CrossingHistory]| {
-            own.len() == saved.len() && own.iter().zip(saved).all(|(own, saved)| own.fits(saved))
-        };
-        self.pressure.fits(&saved.pressure)
-            && all(&self.shear, &saved.shear)
-            && all(&self.effective, &saved.effective)
+saved! {
+    TrackedPoint {
+        parts: pressure, peaks, shear, effective;
+        free: x, crossing, place;
     }
+}
 
+impl TrackedPoint {
     fn histories(&mut self) -> impl Iterator<Item = &mut CrossingHistory> {
         std::iter::once(&mut self.pressure)
             .chain(&mut self.shear)
@@ -123,6 +122,22 @@ pub struct MaterialTracker {
     map: Option<DamageMap>,
 }
 
+saved! {
+    MaterialTracker {
+        parts: points, ended, greatest, map;
+        room: trace;
+        free: spec, crossings, oldest, shown, distance;
+    }
+    holds |own, saved| {
+        let spec = TrackerSpec { shown_depth: saved.spec.shown_depth, ..own.spec };
+        spec == saved.spec
+            && spec.shown_depth < spec.depths.max(1)
+            && saved.trace.len() <= spec.trace.max(1)
+            && saved.oldest < saved.trace.len().max(1)
+            && saved.shown < saved.points.len()
+    }
+}
+
 impl MaterialTracker {
     /// Points spread over the track; at least one.
     pub fn new(spec: TrackerSpec) -> Self {
@@ -159,44 +174,10 @@ impl MaterialTracker {
             oldest: 0,
             shown: 0,
             distance: 0.0,
-            map: spec.map.map(|(block, _)| DamageMap::new(block)),
+            map: spec.map.map(DamageMap::new),
         };
         tracker.restart(0.0);
         tracker
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub fn make_room(&mut self) {
-        self.points
-            .iter_mut()
-            .flat_map(TrackedPoint::histories)
-            .for_each(CrossingHistory::make_room);
-        let room = self.spec.trace.max(1).saturating_sub(self.trace.len());
-        self.trace.reserve_exact(room);
-    }
-
-    /// Whether a tracker that was saved is of the same make as this one, and nothing in it points astray.
-    pub fn fits(&self, saved: &Self) -> bool {
-        let spec = TrackerSpec {
-            shown_depth: saved.spec.shown_depth,
-            ..self.spec
-        };
-        let mut points = self.points.iter().zip(&saved.points);
-        spec == saved.spec
-            && spec.shown_depth < spec.depths.max(1)
-            && self.points.len() == saved.points.len()
-            && points.all(|(own, saved)| own.fits(saved))
-            && self.ended.len() == saved.ended.len()
-            && self.greatest.len() == saved.greatest.len()
-            && self.map.is_some() == saved.map.is_some()
-            && self
-                .map
-                .iter()
-                .zip(&saved.map)
-                .all(|(own, saved)| own.fits(saved))
-            && saved.trace.len() <= spec.trace.max(1)
-            && saved.oldest < saved.trace.len().max(1)
-            && saved.shown < saved.points.len()
     }
 
     /// Forgets all counts (after a change of speeds, load or roughness); points stay where they are, and the
@@ -275,14 +256,8 @@ impl MaterialTracker {
                 history.start(exponent);
             }
             point.peaks.start();
-            if let (Some(map), Some((_, basis)), Crossing::Whole) =
-                (&mut self.map, self.spec.map, crossing)
-            {
-                let histories = match basis {
-                    DamageBasis::Ranges => &point.shear,
-                    DamageBasis::Peaks => &point.effective,
-                };
-                let damage = histories.iter().filter_map(|h| Some(h.last?.damage));
+            if let (Some(map), Crossing::Whole) = (&mut self.map, crossing) {
+                let damage = point.effective.iter().filter_map(|h| Some(h.last?.damage));
                 map.add(point.place, damage);
             }
             point.place = point.x - self.distance;

@@ -1,6 +1,6 @@
 //! What a page draws in its own pixels instead of cells: the map as a bitmap, curves as lines.
 
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::Rect;
 use ratatui::style::Color;
 
 /// What shows the screen.
@@ -47,14 +47,22 @@ pub struct Bitmap {
 }
 
 impl Bitmap {
-    /// One for these cells, each of so many pixels; no pixel of it is drawn yet.
-    pub(crate) fn blank(area: Rect, cell: Size) -> Self {
+    /// Pixels along and down of so many cells.
+    pub(super) fn size(area: Rect, cell: (u16, u16)) -> (usize, usize) {
         let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
+        (side(area.width, cell.0), side(area.height, cell.1))
+    }
+
+    /// Every pixel by its column and row.
+    pub(super) fn of(area: Rect, cell: (u16, u16), rgba: impl Fn(usize, usize) -> [u8; 4]) -> Self {
+        let (width, height) = Self::size(area, cell);
+        let rgba = (0..width * height).flat_map(|place| rgba(place % width, place / width));
+        let rgba = rgba.collect();
         Self {
             area,
-            width: side(area.width, cell.width),
-            height: side(area.height, cell.height),
-            rgba: Vec::new(),
+            width,
+            height,
+            rgba,
         }
     }
 }

@@ -197,6 +197,26 @@ impl Theme {
         if self.is_ascii() { ascii } else { unicode }
     }
 
+    /// Words as they are, in ASCII where only that may be drawn.
+    pub(crate) fn words(self, text: impl AsRef<str>) -> String {
+        let text = text.as_ref();
+        if self.is_ascii() {
+            in_ascii(text)
+        } else {
+            text.to_owned()
+        }
+    }
+
+    /// Words in the look of a role, as a part of a line.
+    pub(crate) fn span(self, text: impl AsRef<str>, role: Role) -> Span<'static> {
+        Span::styled(self.words(text), self.style(role))
+    }
+
+    /// Words in the look of a role, as a line.
+    pub(crate) fn line(self, text: impl AsRef<str>, role: Role) -> Line<'static> {
+        Line::styled(self.words(text), self.style(role))
+    }
+
     /// Whether maps are drawn in half blocks of colour (else in characters of growing ink).
     pub fn paints(self) -> bool {
         !self.is_ascii()
@@ -220,25 +240,6 @@ impl Theme {
             style = style.add_modifier(Modifier::REVERSED);
         }
         style
-    }
-
-    /// Text in the characters that the terminal shows.
-    pub fn text(self, text: &str) -> String {
-        if self.is_ascii() {
-            ascii(text)
-        } else {
-            text.to_owned()
-        }
-    }
-
-    /// Text as a thing of that role.
-    pub fn span(self, text: impl AsRef<str>, role: Role) -> Span<'static> {
-        Span::styled(self.text(text.as_ref()), self.style(role))
-    }
-
-    /// The same as a line of its own.
-    pub fn line(self, text: impl AsRef<str>, role: Role) -> Line<'static> {
-        Line::from(self.span(text, role))
     }
 
     /// A colour of a map, `t` from 0 to 1.
@@ -277,8 +278,9 @@ impl Theme {
                     (Role::Title, _) | (Role::Dim | Role::Border, Contrast::High) => {
                         return Some(Color::Reset);
                     }
-                    (other, Contrast::Light) => darkened(okabe_ito(other)),
-                    (other, _) => okabe_ito(other),
+                    // The same hue for a light background.
+                    (_, Contrast::Light) => okabe_ito(role).map(|c| (f32::from(c) * 0.55) as u8),
+                    _ => okabe_ito(role),
                 };
                 Some(self.rgb(rgb))
             }
@@ -286,11 +288,12 @@ impl Theme {
     }
 }
 
-/// What only Unicode terminals show, in letters.
-fn ascii(text: &str) -> String {
+/// What only Unicode terminals show, in letters for those that do not.
+fn in_ascii(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
+            '∞' => plain.push_str("inf"),
             'λ' => plain.push_str("lambda"),
             'ζ' => plain.push_str("zeta"),
             'µ' | 'μ' => plain.push('u'),
@@ -321,11 +324,6 @@ fn ascii(text: &str) -> String {
 const PAPER: [u8; 3] = [250, 250, 247];
 const INK: [u8; 3] = [24, 26, 32];
 
-/// The same hue for a light background.
-fn darkened(rgb: [u8; 3]) -> [u8; 3] {
-    rgb.map(|c| (f32::from(c) * 0.55) as u8)
-}
-
 fn weight(role: Role) -> Modifier {
     match role {
         Role::Strong | Role::Key | Role::Chosen | Role::Bad | Role::Title => Modifier::BOLD,
@@ -334,6 +332,7 @@ fn weight(role: Role) -> Modifier {
     }
 }
 
+/// Of Okabe & Ito, made lighter for a dark background.
 fn okabe_ito(role: Role) -> [u8; 3] {
     match role {
         Role::Text | Role::Strong | Role::Title | Role::Dim | Role::Border => [222, 226, 235],

@@ -7,8 +7,6 @@
 use std::cell::RefCell;
 use std::sync::{Mutex, PoisonError};
 
-use ratatui::layout::Size;
-
 use super::link::PageLink;
 use super::page::{WebPage, measured};
 use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct, ScreenEvent};
@@ -94,7 +92,7 @@ fn take(
 pub extern "C" fn resize(columns: u32, rows: u32, cell_width: u32, cell_height: u32) {
     let small = |value: u32| value.min(1000) as u16;
     on_page(|page| {
-        let cell = Size::new(small(cell_width).max(1), small(cell_height).max(1));
+        let cell = (small(cell_width).max(1), small(cell_height).max(1));
         page.resize(small(columns), small(rows), cell);
     });
 }

@@ -1,7 +1,6 @@
 //! The page's state: the explorer and the run behind it.
 
 use std::cell::RefCell;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -10,7 +9,7 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::Rect;
 
 use super::cells::changed;
 use super::curves::written as written_curves;
@@ -22,11 +21,11 @@ use crate::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use crate::tui::{Control, Explorer, Health, RunStatus, Setup, Shown, Wiring, view};
 use asperity_engine::math::number::sig;
 use asperity_engine::scene::{Knob, Scene};
-use asperity_session::run::{Cooperative, Ending, LoopTurn, NearEnd, Request, Watcher};
+use asperity_session::run::{Cooperative, Ending, LoopTurn, Request, RunHandle, Watcher};
 use asperity_session::sweep::{Background, Ground, SweepWorker};
 
-/// Most pixels of a picture: each is a colour computed anew.
-const MOST_PIXELS: usize = 160_000;
+/// Maximum number of pixels of a picture: each is a colour computed anew.
+const MAX_PIXELS: usize = 160_000;
 
 /// A run and its rows.
 struct PageRun {
@@ -50,7 +49,7 @@ pub(super) struct WebPage {
     /// Keys of the link, until another scene is run.
     keys: Rc<RefCell<String>>,
     shown: Buffer,
-    cell: Size,
+    cell: (u16, u16),
     /// Curves as they were given last, and those that are new.
     curves: Vec<u8>,
     new_curves: Vec<u8>,
@@ -66,14 +65,14 @@ impl WebPage {
         let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
         let run = Rc::new(RefCell::new(run));
         let beside = PageSweep::default();
-        let mut wiring = wiring(&run.borrow().session, setup, &beside, &files);
+        let mut wiring = wiring(&run.borrow().session.handle, setup, &beside, &files);
         wiring.lesson = link.lesson;
         let keys = Rc::new(RefCell::new(link.keys));
         let (place, sweep, kept) = (Rc::clone(&run), Rc::clone(&beside), Rc::clone(&files));
         let left = Rc::clone(&keys);
         wiring.rebuild = Some(Box::new(move |scene, name| {
             let (next, setup) = start(scene, name, nodes, Ending::OnStop)?;
-            let wiring = self::wiring(&next.session, setup, &sweep, &kept);
+            let wiring = self::wiring(&next.session.handle, setup, &sweep, &kept);
             place.replace(next);
             left.borrow_mut().clear();
             Ok(wiring)
@@ -95,7 +94,7 @@ impl WebPage {
             nodes,
             keys,
             shown: Buffer::default(),
-            cell: Size::new(8, 16),
+            cell: (8, 16),
             curves: Vec::new(),
             new_curves: Vec::new(),
             last: Duration::ZERO,
@@ -104,7 +103,7 @@ impl WebPage {
     }
 
     /// Another size: all cells are drawn anew.
-    pub(super) fn resize(&mut self, columns: u16, rows: u16, cell: Size) {
+    pub(super) fn resize(&mut self, columns: u16, rows: u16, cell: (u16, u16)) {
         self.shown = Buffer::empty(Rect::new(0, 0, columns, rows));
         self.cell = cell;
         self.curves.clear();
@@ -161,15 +160,12 @@ impl WebPage {
         let Some(room) = view::picture_area(app, self.shown.area) else {
             return Vec::new();
         };
-        let Size {
-            mut width,
-            mut height,
-        } = self.cell;
+        let (mut width, mut height) = self.cell;
         let cells = usize::from(room.width) * usize::from(room.height);
-        while cells * usize::from(width) * usize::from(height) > MOST_PIXELS && width > 2 {
+        while cells * usize::from(width) * usize::from(height) > MAX_PIXELS && width > 2 {
             (width, height) = (width / 2, height / 2);
         }
-        let cell = Size::new(width.max(1), height.max(1));
+        let cell = (width.max(1), height.max(1));
         let Some(picture) = view::picture(app, self.shown.area, cell) else {
             return Vec::new();
         };
@@ -185,11 +181,8 @@ impl WebPage {
     /// Life, where the knobs are, and what to know before trusting it, in words.
     pub(super) fn spoken(&self) -> String {
         let app = &self.explorer.app;
-        let mut words = String::new();
-        // Writing to a string cannot fail.
-        let _ = match app.life() {
-            Some(life) => write!(
-                words,
+        let life = match app.life() {
+            Some(life) => format!(
                 "Relative life {}, band {} to {}, {}.",
                 sig(life.life_relative, 3),
                 sig(life.life_relative_low, 2),
@@ -200,18 +193,17 @@ impl WebPage {
                     "still moving"
                 }
             ),
-            None => write!(words, "No simulated life yet."),
+            None => "No simulated life yet.".to_owned(),
         };
-        let _ = write!(
-            words,
-            " S {}, load {}.",
-            sig(app.target(Knob::SlideRoll), 3),
-            sig(app.load_n(), 3)
-        );
+        let slide_roll = sig(app.target(Knob::SlideRoll), 3);
+        let mut words = format!("{life} S {slide_roll}, load {}.", sig(app.load_n(), 3));
         let cautions = app.frame().map(|frame| frame.cautions());
-        for caution in cautions.iter().flatten() {
-            let _ = write!(words, " {}.", caution.text);
-        }
+        words.extend(
+            cautions
+                .iter()
+                .flatten()
+                .map(|caution| format!(" {}.", caution.text)),
+        );
         words
     }
 
@@ -257,15 +249,7 @@ fn start(
 ) -> Result<(PageRun, Setup), String> {
     let (scene, plan) = on_nodes(scene, nodes)?;
     let scene = Arc::new(scene);
-    let setup = Setup {
-        scene: Arc::clone(&scene),
-        name: name.to_owned(),
-        load_n: plan.force_n,
-        half_width_m: plan.hertz.a_m,
-        p_hertz_pa: plan.hertz.p_max_pa,
-        plan_text: plan.to_string(),
-        left_out: plan.left_out.clone(),
-    };
+    let setup = Setup::of(Arc::clone(&scene), name, &plan);
     let rows = KeptRows::default();
     let request = Request {
         name: name.to_owned(),
@@ -279,26 +263,29 @@ fn start(
     Ok((PageRun { session, rows }, setup))
 }
 
-fn wiring(session: &NearEnd, setup: Setup, beside: &PageSweep, files: &Files) -> Wiring {
-    let status = session.status_reader();
-    let (ground, scene) = (session.settled_reader(), Arc::clone(&setup.scene));
+fn wiring(handle: &RunHandle, setup: Setup, beside: &PageSweep, files: &Files) -> Wiring {
+    let [status, settled, ground] = [(); 3].map(|()| handle.clone());
+    let scene = Arc::clone(&setup.scene);
     let place = Rc::clone(beside);
     let (saves, writes) = (Rc::clone(files), Rc::clone(files));
     let name = setup.name.replace('/', "-");
     let file = format!("{name}.toml");
     Wiring {
         setup,
-        frames: session.latest(),
-        commands: session.commands(),
+        frames: handle.latest(),
+        commands: handle.commands(),
         status: Box::new(move || RunStatus {
-            health: status().failure.map_or(Health::Running, Health::Failed),
+            health: status
+                .status()
+                .failure
+                .map_or(Health::Running, Health::Failed),
             recorder: None,
         }),
-        settled: Box::new(session.settled_reader()),
+        settled: Box::new(move || settled.settled()),
         start_sweep: Some(Box::new(move |order| {
             let ground = Ground {
                 scene: Arc::clone(&scene),
-                state: ground()?.state.clone()?,
+                state: ground.settled()?.state.clone()?,
             };
             let (sweep, worker) = Background::cooperative(ground, order);
             place.replace(worker);
@@ -327,14 +314,14 @@ fn wiring(session: &NearEnd, setup: Setup, beside: &PageSweep, files: &Files) ->
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "tests")]
 mod tests {
+    #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct};
 
     fn page(link: &str) -> WebPage {
         let mut page = WebPage::open(PageLink::read(link).unwrap()).unwrap();
-        page.resize(120, 40, Size::new(8, 16));
+        page.resize(120, 40, (8, 16));
         page
     }
 
@@ -411,11 +398,7 @@ mod tests {
         for (n, key) in keys.chars().enumerate() {
             press(&mut page, KeyName::Char(key));
             let (columns, rows) = sizes[n % sizes.len()];
-            page.resize(
-                columns,
-                rows,
-                Size::new(1 + n as u16 % 9, 1 + n as u16 % 19),
-            );
+            page.resize(columns, rows, (1 + n as u16 % 9, 1 + n as u16 % 19));
             for (k, act) in acts.into_iter().enumerate() {
                 let at = |side: u16| (side / 5 * k as u16).saturating_add(n as u16 % 7);
                 let (column, row) = (at(columns), at(rows));
@@ -452,7 +435,7 @@ mod tests {
         assert!(page.curves().len() > 100);
         page.draw(1e6);
         assert!(page.curves().is_empty());
-        page.resize(120, 40, Size::new(8, 16));
+        page.resize(120, 40, (8, 16));
         page.draw(1e6);
         assert!(page.curves().len() > 100);
         // Under an overlay there are none.

@@ -2,7 +2,7 @@
 //!
 //! Part of `material.rs`.
 
-use super::{CycleCount, DamageBasis, MaterialTracker};
+use super::{CycleCount, MaterialTracker};
 use crate::solve::cycle_count::mean;
 
 impl MaterialTracker {
@@ -21,24 +21,16 @@ impl MaterialTracker {
         mean(self.points.iter().filter_map(|p| p.effective.get(k)?.last))
     }
 
-    /// Mean of the counts and of the equivalent cycles of every depth, on a basis, into `counted` and
-    /// `equivalent`; false until a crossing is finished.
-    pub fn cycles_by_depth(
-        &self,
-        basis: DamageBasis,
-        counted: &mut [f64],
-        equivalent: &mut [f64],
-    ) -> bool {
-        let mut known = !counted.is_empty();
-        for (k, (counted, equivalent)) in counted.iter_mut().zip(equivalent).enumerate() {
-            let cycles = match basis {
-                DamageBasis::Ranges => self.shear_cycles(k),
-                DamageBasis::Peaks => self.effective_cycles(k),
-            };
-            known &= cycles.is_some();
-            let cycles = cycles.unwrap_or_default();
+    /// Mean counts of the signed shear's cycles of every depth into `shear`, and of the effective stress's cycles, each by
+    /// its peak in cycles of the maximum, into `by_peaks`; false until a crossing is finished.
+    pub fn cycles_by_depth(&self, shear: &mut [f64], by_peaks: &mut [f64]) -> bool {
+        let mut known = !shear.is_empty();
+        for (k, (shear, by_peaks)) in shear.iter_mut().zip(by_peaks).enumerate() {
+            let (ranges, peaks) = (self.shear_cycles(k), self.effective_cycles(k));
+            known &= ranges.is_some() && peaks.is_some();
             // What never passes the gate is one loading cycle all the same.
-            (*counted, *equivalent) = (cycles.count.max(1.0), cycles.equivalent.max(1.0));
+            *shear = ranges.unwrap_or_default().count.max(1.0);
+            *by_peaks = peaks.unwrap_or_default().equivalent.max(1.0);
         }
         known
     }

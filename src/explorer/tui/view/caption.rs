@@ -1,13 +1,15 @@
 //! Under the top line: what a lesson, or the scene's script, says now.
 
-use ratatui::layout::Rect;
-use ratatui::style::Style;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::app::App;
 use crate::tui::lessons::{Beat, Claim, FoundAnswer, LessonQuestion, TourPhase, TourState};
 use crate::tui::theme::Role;
-use crate::tui::view::sheet::{Sheet, below, with_columns};
+use crate::tui::view::chart::Symbol;
+use crate::tui::view::place::{columns, put, put_right, rows_from};
 
 /// Words to show.
 pub(super) struct Caption {
@@ -106,10 +108,11 @@ fn verdict(
     let is = format!("{name} {value}, \u{201c}{}\u{201d}.", answer(right));
     match tour.said {
         Some(said) if said == right => (format!("Right: {is}"), Role::Good),
-        Some(said) => (
-            format!("You said \u{201c}{}\u{201d}; it is {is}", answer(said)),
-            Role::Warn,
-        ),
+        Some(said) => {
+            let said = answer(said);
+            let text = format!("You said \u{201c}{said}\u{201d}; it is {is}");
+            (text, Role::Warn)
+        }
         None => (format!("It is {is}"), Role::Strong),
     }
 }
@@ -157,27 +160,26 @@ fn scripted(app: &App) -> Option<&str> {
         .map(|event| event.caption.as_str())
 }
 
-pub(super) fn render(app: &App, caption: &Caption, area: Rect, sheet: &mut Sheet<'_>) {
+pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
-    for row in 0..area.height {
-        sheet.text(area, row, theme.pick("▌", "|"), Role::Key);
-    }
-    let text = with_columns(area, area.x + 2, area.width.saturating_sub(4));
+    let edge = Symbol::new(theme, "▌", "|", Role::Key);
+    area.rows()
+        .for_each(|row| edge.draw(row.as_position(), buffer));
+    let text = area.inner(Margin::new(2, 0));
     let hint = theme.line(caption.hint, Role::Dim);
     let title = theme.span(&caption.title, Role::Key);
-    let beside = with_columns(text, text.x, text.width.saturating_sub(hint.width() as u16));
     let figures = theme.span(&caption.figures, Role::Strong);
-    sheet.line(beside, 0, &Line::from(vec![title, figures]));
-    sheet.line_right(text, 0, &hint);
-    let below = below(text, 1);
-    let mut spans = Vec::new();
-    for (text, role) in &caption.words {
-        let style = match role {
-            Role::Text => Style::default(),
-            other => theme.style(*other),
+    let beside = columns(text, 0, text.width.saturating_sub(hint.width() as u16));
+    put(beside, 0, &Line::from(vec![title, figures]), buffer);
+    put_right(text, 0, &hint, buffer);
+    let words = caption.words.iter().flat_map(|(text, role)| {
+        let words = match role {
+            Role::Text => Span::raw(theme.words(text)),
+            role => theme.span(text, *role),
         };
-        spans.push(Span::styled(theme.text(text), style));
-        spans.push(Span::raw(" "));
-    }
-    sheet.paragraph(below, Line::from(spans));
+        [words, Span::raw(" ")]
+    });
+    Paragraph::new(words.collect::<Line<'_>>())
+        .wrap(Wrap { trim: true })
+        .render(rows_from(text, 1), buffer);
 }

@@ -1,135 +1,94 @@
 //! Right, below: a curve along S or the speed with the operating point on it, and the history of the estimate.
 
 mod along;
-mod history;
 
+use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::text::Line;
+use ratatui::text::{Line, Span};
 
 use crate::tui::action::Action;
 use crate::tui::app::App;
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
-use crate::tui::view::chart::{CurvePanel, Pen, PlotFrame};
-use crate::tui::view::sheet::{Sheet, with_columns, with_rows};
+use crate::tui::view::chart::{CurvePanel, Pen, Plot, Symbol};
+use crate::tui::view::place::{columns_from, put, put_middle, put_right, rows, rows_from};
+use along::CurveFigure;
 
 /// Rows from which a curve can be read, with its heading and its axis.
 const CURVE_ROWS: u16 = 7;
-/// Columns of the numbers left of it.
-const AXIS: u16 = 5;
-
-/// x, y, and between which y it may lie.
-type Place = (f64, f64, Option<[f64; 2]>);
-
-/// A curve with its axes; places in the units of the axes.
-struct CurveFigure {
-    name: &'static str,
-    /// What a formula says; empty: there is none.
-    formula: Vec<(f64, f64)>,
-    /// What was simulated, with the ends of its band.
-    points: Vec<Place>,
-    /// Where the knob is.
-    knob: f64,
-    /// The number that leads now.
-    now: Option<f64>,
-    x: [f64; 2],
-    y: [f64; 2],
-    /// Numbers at the lower and upper end of y.
-    y_ends: [String; 2],
-    /// Words left, in the middle and right below the axis.
-    foot: [String; 3],
-}
-
-impl CurveFigure {
-    fn on(&self, area: Rect) -> PlotFrame {
-        PlotFrame {
-            area,
-            x: self.x,
-            y: self.y,
-        }
-    }
-
-    /// Draws a mark on a place, where that is in the plot.
-    fn spot(&self, plot: Rect, x: f64, y: f64, symbol: &str, role: Role, sheet: &mut Sheet<'_>) {
-        if !plot.is_empty() && (self.y[0]..=self.y[1]).contains(&y) {
-            let plot = self.on(plot);
-            plot.mark(x, plot.row(y), symbol, role, sheet);
-        }
-    }
-}
 
 /// A press on a plot along S, or along the speed, puts that knob there.
 pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {
-    let figure = along::figure(app);
-    let x = figure.on(plot).x_at(at.x);
+    let x = along::figure(app).plot(plot).x_at(at.x);
     plot.contains(at).then(|| along::goes_to(app, x))
 }
 
 /// Draws what there is room for; says where the curve's plot is, and what it leaves to a page.
-pub(super) fn render(
-    app: &App,
-    area: Rect,
-    sheet: &mut Sheet<'_>,
-) -> (Option<Rect>, Vec<PixelPlot>) {
-    let below = |rows: u16, from: u16| with_rows(area, area.y + from, rows);
-    let figure = || along::figure(app);
-    if area.height >= CURVE_ROWS + 5 {
-        let rows = (area.height / 3).clamp(4, 8);
-        let curve = area.height - rows - 1;
-        let history = history::render(app, below(rows, 1 + curve), sheet);
-        let (plot, curve) = draw(app, &figure(), below(curve, 1), sheet);
-        (Some(plot), history.into_iter().chain(curve).collect())
-    } else if area.height > CURVE_ROWS {
-        let (plot, curve) = draw(app, &figure(), below(area.height - 1, 1), sheet);
-        (Some(plot), curve.into_iter().collect())
-    } else if area.height >= 2 {
-        let history = history::render(app, area, sheet);
-        (None, history.into_iter().collect())
-    } else {
-        (None, Vec::new())
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> (Option<Rect>, Vec<PixelPlot>) {
+    let history_rows = match area.height {
+        0..2 => return (None, Vec::new()),
+        2..=CURVE_ROWS => area.height,
+        height if height < CURVE_ROWS + 5 => 0,
+        height => (height / 3).clamp(4, 8),
+    };
+    let curve_rows = area.height - history_rows;
+    let below = rows_from(area, curve_rows);
+    let left_to_page = history(app, below, buffer);
+    if curve_rows == 0 {
+        return (None, left_to_page.into_iter().collect());
     }
-}
-
-fn pen(app: &App, role: Role, letter: char) -> Pen {
-    Pen::new(app.view.theme, role, letter)
+    let figure = along::figure(app);
+    let (plot, curve) = draw(app, &figure, rows(area, 1, curve_rows - 1), buffer);
+    let plots = left_to_page.into_iter().chain(curve);
+    (Some(plot), plots.collect())
 }
 
 fn draw(
     app: &App,
     figure: &CurveFigure,
     area: Rect,
-    sheet: &mut Sheet<'_>,
+    buffer: &mut Buffer,
 ) -> (Rect, Option<PixelPlot>) {
+    /// Columns of the numbers left of it.
+    const AXIS: u16 = 5;
     let theme = app.view.theme;
-    heading(app, figure, area, sheet);
-    let plot = Rect {
-        x: area.x + AXIS,
-        y: area.y + 1,
-        width: area.width.saturating_sub(AXIS),
-        height: area.height.saturating_sub(2),
-    };
-    let mut chart = CurvePanel::of(app, figure.on(plot));
-    chart.upright(figure.knob, pen(app, Role::Dim, ':'));
-    chart.line(figure.formula.iter().copied(), pen(app, Role::Formula, '.'));
-    for &(x, _, band) in &figure.points {
-        let ends = band.into_iter().flatten().map(|y| (x, y));
-        chart.line(ends, pen(app, Role::Good, '|'));
+    let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
+    heading(app, figure, area, buffer);
+    let below = columns_from(rows_from(area, 1), AXIS);
+    let plot = figure.plot(rows(below, 0, below.height.saturating_sub(1)));
+    let mut chart = CurvePanel::new(plot);
+    chart.upright(figure.knob, pen(Role::Dim, ':'));
+    chart.line(figure.formula.iter().copied(), pen(Role::Formula, '.'));
+    for point in &figure.points {
+        let ends = point.band.into_iter().flatten().map(|y| (point.x, y));
+        chart.line(ends, pen(Role::Good, '|'));
     }
-    let curves = chart.render(sheet);
-    let simulated = theme.pick("•", "o");
-    for &(x, y, _) in &figure.points {
-        figure.spot(plot, x, y, simulated, Role::Good, sheet);
+    let curves = chart.render(app, buffer);
+    let simulated = Symbol::new(theme, "•", "o", Role::Good);
+    for point in &figure.points {
+        plot.mark(point.x, point.y, simulated, buffer);
     }
     if let Some(now) = figure.now {
-        let symbol = theme.pick("◉", "O");
-        figure.spot(plot, figure.knob, now, symbol, Role::Strong, sheet);
+        let here = Symbol::new(theme, "◉", "O", Role::Strong);
+        plot.mark(figure.knob, now, here, buffer);
     }
-    axes(app, figure, area, plot, sheet);
-    (plot, curves)
+    plot.y_ends(theme, &figure.y_ends, "", buffer);
+    let foot = rows_from(below, plot.area.height);
+    let [from, middle, to] = figure
+        .foot
+        .each_ref()
+        .map(|text| theme.line(text, Role::Dim));
+    put(foot, 0, &from, buffer);
+    put_right(foot, 0, &to, buffer);
+    let beside = from.width().max(to.width());
+    if 2 * (beside + 1) + middle.width() <= usize::from(foot.width) {
+        put_middle(foot, 0, &middle, buffer);
+    }
+    (plot.area, curves)
 }
 
 /// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.
-fn heading(app: &App, figure: &CurveFigure, area: Rect, sheet: &mut Sheet<'_>) {
+fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let legend = |words: [&'static str; 2]| {
         let mut spans = vec![
@@ -139,8 +98,8 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, sheet: &mut Sheet<'_>) {
         let marks = [("┄ ", ". ", Role::Formula), ("• ", "o ", Role::Good)];
         for ((mark, plain, role), word) in marks.into_iter().zip(words) {
             if role != Role::Formula || !figure.formula.is_empty() {
-                spans.push(theme.span(theme.pick(mark, plain), role));
-                spans.push(theme.span(word, Role::Dim));
+                let mark = Span::styled(theme.pick(mark, plain), theme.style(role));
+                spans.extend([mark, theme.span(word, Role::Dim)]);
             }
         }
         Line::from(spans)
@@ -151,36 +110,47 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, sheet: &mut Sheet<'_>) {
     } else {
         legend(["form. ", "sim. "])
     };
-    sheet.line(area, 0, &heading);
+    put(area, 0, &heading, buffer);
     let Some((done, all)) = app.lives.sweep else {
         return;
     };
     let text = format!("{}{done}/{all}", theme.pick("↻ ", "@ "));
     let line = theme.line(text, Role::Warn);
     let has_room = (heading.width() + line.width()) as u16 <= area.width;
-    sheet.line_right(area, u16::from(!has_room), &line);
+    put_right(area, u16::from(!has_room), &line, buffer);
 }
 
-fn axes(app: &App, figure: &CurveFigure, area: Rect, plot: Rect, sheet: &mut Sheet<'_>) {
-    let word = |text: &str| app.view.theme.line(app.view.theme.text(text), Role::Dim);
-    let left = Rect {
-        y: plot.y,
-        width: AXIS - 1,
-        height: plot.height,
-        ..area
-    };
-    sheet.line_right(left, 0, &word(&figure.y_ends[1]));
-    let last = plot.height.saturating_sub(1);
-    sheet.line_right(left, last, &word(&figure.y_ends[0]));
-    let foot = with_rows(plot, plot.bottom(), 1);
-    let [from, middle, to] = figure.foot.each_ref().map(|text| word(text));
-    sheet.line(foot, 0, &from);
-    sheet.line_right(foot, 0, &to);
-    let width = middle.width() as u16;
-    let taken = (from.width() + to.width() + 2) as u16 + width;
-    if taken <= foot.width {
-        let start = (foot.width / 2).saturating_sub(width / 2);
-        let centred = with_columns(foot, foot.x + start.max(from.width() as u16 + 1), width);
-        sheet.line(centred, 0, &middle);
+/// The estimate over the passages seen, the present on the right.
+fn history(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
+    /// Half of the minimum range, decades: noise stays small.
+    const MIN_HALF: f64 = 0.17;
+    let theme = app.view.theme;
+    let (first, last) = (app.lives.history.front()?, app.lives.history.back()?);
+    let span = last.passages - first.passages;
+    let unit = if area.width >= 27 { " of 4a" } else { "" };
+    let heading = Line::from(vec![
+        theme.span("history ", Role::Title),
+        theme.span(format!("{span:.1} passages{unit}"), Role::Dim),
+    ]);
+    put(area, 0, &heading, buffer);
+    let area = rows_from(area, 1);
+    if span <= 0.0 || area.is_empty() {
+        return None;
     }
+    let samples = app.lives.history.iter();
+    let points = samples.map(|sample| (sample.passages, sample.life_relative.log10()));
+    let decades = points.clone().map(|(_, decade)| decade);
+    let (low, high) = (
+        decades.clone().fold(f64::MAX, f64::min),
+        decades.fold(f64::MIN, f64::max),
+    );
+    let middle = 0.5 * (low + high);
+    let half = (0.55 * (high - low)).max(MIN_HALF);
+    let mut chart = CurvePanel::new(Plot {
+        area,
+        x: [first.passages, last.passages],
+        y: [middle - half, middle + half],
+    });
+    chart.line(points, Pen::new(theme, Role::Good, '*'));
+    chart.render(app, buffer)
 }

@@ -9,6 +9,7 @@ use crate::tui::choice::Form;
 use crate::tui::theme::Role;
 use crate::tui::units::bytes;
 use crate::tui::view::areas::Areas;
+use crate::tui::view::place::{columns, rows_from};
 use crate::tui::wiring::RecorderActivity;
 
 /// A key of the last line: what it is called, and what it asks for.
@@ -51,12 +52,8 @@ pub(super) fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
 /// A press on a key of the last line is that key.
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let recorder = recorder(app).width() as u16 + 1;
-    let room = Rect {
-        y: areas.status.bottom().saturating_sub(1),
-        height: 1,
-        width: areas.status.width.saturating_sub(recorder),
-        ..areas.status
-    };
+    let last = rows_from(areas.status, areas.status.height.saturating_sub(1));
+    let room = columns(last, 0, last.width.saturating_sub(recorder));
     if app.message().is_some() || !room.contains(at) {
         return None;
     }
@@ -76,7 +73,7 @@ fn left_out(app: &App, room: usize) -> String {
     let all = app
         .view
         .theme
-        .text(&format!("not computed: {}", stages.join(", ")));
+        .words(&format!("not computed: {}", stages.join(", ")));
     if all.chars().count() + 4 <= room {
         all
     } else {
@@ -89,17 +86,13 @@ fn hints(app: &App) -> Vec<FooterKey> {
     let key = FooterKey::new;
     let enter = app.view.theme.pick("⏎", "Enter");
     if app.is_typing() {
-        return vec![
-            key(enter, "set", Action::Enter),
-            key("Esc", "leave it", Action::Close),
-        ];
+        let leave = key("Esc", "leave it", Action::Close);
+        return vec![key(enter, "set", Action::Enter), leave];
     }
     match app.view.overlay {
         Overlay::Lessons => {
-            return vec![
-                key(enter, "begin", Action::Enter),
-                key("t", "close", Action::Lessons),
-            ];
+            let close = key("t", "close", Action::Lessons);
+            return vec![key(enter, "begin", Action::Enter), close];
         }
         Overlay::Scene => {
             let is_point = app
@@ -119,10 +112,8 @@ fn hints(app: &App) -> Vec<FooterKey> {
         Overlay::Help | Overlay::Plan => return vec![key("Esc", "close", Action::Close)],
         Overlay::None => {}
     }
-    let mut hints = vec![
-        key("?", "keys", Action::Help),
-        key("q", "quit", Action::Quit),
-    ];
+    let quit = key("q", "quit", Action::Quit);
+    let mut hints = vec![key("?", "keys", Action::Help), quit];
     if app.lesson.tour.is_some() {
         hints.push(key("n", "go on", Action::NextBeat));
         hints.push(key("N", "back", Action::PreviousBeat));
@@ -136,10 +127,9 @@ fn hints(app: &App) -> Vec<FooterKey> {
         (None, RunPace::Paused) => key("space", "go on", Action::TogglePause),
         (None, RunPace::Running) => key("space", "pause", Action::TogglePause),
     };
-    let pin = if app.view.pinned.is_some() {
-        "release"
-    } else {
-        "freeze"
+    let pin = match app.view.pinned {
+        Some(_) => "release",
+        None => "freeze",
     };
     let own = match app.view.focus {
         PanelKind::Knobs => key("=", "type", Action::Type),
@@ -173,15 +163,7 @@ pub(super) fn recorder(app: &App) -> Line<'static> {
         0 => String::new(),
         skipped => format!("{skipped} skipped "),
     };
-    Line::from(vec![
-        theme.span(word, role),
-        theme.span(
-            format!(
-                "{} {} frames {skipped}",
-                bytes(recorder.bytes),
-                recorder.frames
-            ),
-            Role::Dim,
-        ),
-    ])
+    let written = bytes(recorder.bytes);
+    let words = format!("{written} {} frames {skipped}", recorder.frames);
+    Line::from(vec![theme.span(word, role), theme.span(words, Role::Dim)])
 }

@@ -1,5 +1,6 @@
 //! The top line: what runs, and the numbers that must be readable without help.
 
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
@@ -7,25 +8,25 @@ use crate::tui::app::{App, RunPace};
 use crate::tui::dial::Dial;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::sheet::{Sheet, with_columns};
+use crate::tui::view::place::{columns, put, put_right, whole_words};
 use crate::tui::wiring::Health;
 use asperity_engine::physics::estimate::speed_ratios;
 use asperity_engine::sim::{LubricationRegime, Stage, named};
 
-pub(super) fn render(app: &App, area: Rect, sheet: &mut Sheet<'_>) {
+pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let numbers = numbers(app, area.width);
-    sheet.line_right(area, 0, &numbers);
+    put_right(area, 0, &numbers, buffer);
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
     let (mark, word, role) = state(app);
     let mut left = Line::from(vec![
         theme.span(" asperity ", Role::Title),
         theme.span(format!("{mark}{word} "), role),
     ]);
-    let title = theme.text(&title(app));
-    let title = whole_words(&title, usize::from(room).saturating_sub(left.width() + 1));
-    left.push_span(theme.span(&title, Role::Dim));
-    sheet.line(with_columns(area, area.x, room), 0, &left);
+    let free = usize::from(room).saturating_sub(left.width() + 1);
+    let title = whole_words(&theme.words(title(app)), free);
+    left.push_span(theme.span(title, Role::Dim));
+    put(columns(area, 0, room), 0, &left, buffer);
 }
 
 /// The scene's title, which may hold numbers; where knobs are no longer what they were, by a key, the scene's script or in what
@@ -44,27 +45,6 @@ fn title(app: &App) -> String {
     format!("{}, changed: {}", app.run.setup.name, changed.join(", "))
 }
 
-/// As many whole words as fit, and a sign that there are more.
-fn whole_words(text: &str, room: usize) -> String {
-    if text.chars().count() <= room {
-        return text.to_owned();
-    }
-    let mut kept = String::new();
-    for word in text.split_inclusive(' ') {
-        // Three columns for the dots where there are no others.
-        if kept.chars().count() + word.trim_end().chars().count() + 3 > room {
-            break;
-        }
-        kept.push_str(word);
-    }
-    let kept = kept.trim_end_matches([' ', ',', ':']);
-    if kept.is_empty() {
-        String::new()
-    } else {
-        format!("{kept}…")
-    }
-}
-
 /// What the run does, as a shape, a word and a colour.
 fn state(app: &App) -> (&'static str, String, Role) {
     let theme = app.view.theme;
@@ -74,7 +54,7 @@ fn state(app: &App) -> (&'static str, String, Role) {
     }
     if app.replay.playing.is_some() && app.run.status.health == Health::Running {
         let word = if app.replay_stands() {
-            "replay, paused"
+            "replay, held"
         } else {
             "replay"
         };
@@ -94,7 +74,7 @@ fn state(app: &App) -> (&'static str, String, Role) {
 /// Columns from which specific sliding has room, too.
 const ROOMY: u16 = 76;
 
-fn numbers(app: &App, columns: u16) -> Line<'static> {
+fn numbers(app: &App, width: u16) -> Line<'static> {
     let theme = app.view.theme;
     let Some(frame) = app.frame() else {
         return Line::default();
@@ -111,40 +91,19 @@ fn numbers(app: &App, columns: u16) -> Line<'static> {
         sig_or_dash(metrics.lambda_ratio, 2)
     };
     let mut pairs = vec![
-        ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
-        ("p_h", p_hertz, Role::Strong),
-        ("λ", lambda, Role::Strong),
-        ("n", n, Role::Strong),
+        ("S", format!("{:.2}", metrics.slide_roll)),
+        ("p_h", p_hertz),
+        ("λ", lambda),
+        ("n", n),
     ];
-    if columns >= ROOMY {
+    if width >= ROOMY {
         let (u1, u2) = speed_ratios(metrics.slide_roll);
         let specific = [u1, u2].map(|own| sig((u2 - u1).abs() / own.abs(), 2));
-        pairs.insert(1, ("ζ", specific.join(" "), Role::Strong));
+        pairs.insert(1, ("ζ", specific.join(" ")));
     }
-    let mut spans = Vec::new();
-    for (name, value, role) in pairs {
-        spans.push(theme.span(format!("{} ", theme.text(name)), Role::Dim));
-        spans.push(theme.span(format!("{}  ", theme.text(&value)), role));
-    }
-    Line::from(spans)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn titles_are_cut_between_words() {
-        let title = "Two rough rollers, sliding";
-        let table = [
-            (26, title),
-            (25, "Two rough rollers…"),
-            (14, "Two rough…"),
-            (6, "Two…"),
-            (4, ""),
-        ];
-        for (room, cut) in table {
-            assert_eq!(whole_words(title, room), cut, "{room}");
-        }
-    }
+    let pairs = pairs.into_iter().flat_map(|(name, value)| {
+        let name = theme.span(format!("{name} "), Role::Dim);
+        [name, theme.span(format!("{value}  "), Role::Strong)]
+    });
+    pairs.collect()
 }

@@ -1,8 +1,9 @@
 //! Left: the knobs as sliders.
 
-mod speeds;
+pub(super) mod speeds;
 
-use ratatui::layout::{Position, Rect};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Margin, Position, Rect};
 use ratatui::text::{Line, Span};
 
 use crate::tui::action::Action;
@@ -11,33 +12,35 @@ use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
 use crate::tui::view::areas::{Areas, PanelSpacing};
-use crate::tui::view::sheet::{Sheet, inside, panel, title, with_columns, with_rows};
+use crate::tui::view::chart::Symbol;
+use crate::tui::view::panel::{panel, title};
+use crate::tui::view::place::{
+    columns, columns_from, fitting, put, put_middle, put_right, rows, rows_from,
+};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::Knob;
-pub(super) use speeds::{SPECIFIC, SYMBOLS};
 
-pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) {
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let heading = title(theme, theme.pick("↑↓←→", "hjkl"), "knobs");
-    let inner = panel(app, areas, PanelKind::Knobs, heading, sheet);
+    let inner = panel(app, areas, PanelKind::Knobs, heading, buffer);
     for (place, dial) in app.choice.dials.iter().enumerate() {
         let slot = slot(areas, place);
         if slot.is_empty() {
             break;
         }
-        name_and_value(app, place, dial, slot, sheet);
-        slider(app, place, dial, track(slot), sheet);
+        name_and_value(app, place, dial, slot, buffer);
+        slider(app, place, dial, track(slot), buffer);
         if slot.height >= 3 {
-            range(app, dial, slot, sheet);
+            range(app, dial, slot, buffer);
         }
         if slot.height >= 4 && slot.width + 4 >= WIDE {
-            typical(app, dial, slot, sheet);
+            typical(app, dial, slot, buffer);
         }
     }
     let used = app.choice.dials.len() as u16 * rows_each(areas);
     if inner.height > used + 3 {
-        let rest = with_rows(inner, inner.y + used + 1, inner.height - used - 1);
-        speeds::speeds(app, rest, sheet);
+        speeds::speeds(app, rows_from(inner, used + 1), buffer);
     }
 }
 
@@ -74,31 +77,27 @@ fn fraction(track: Rect, column: u16) -> f64 {
 const WIDE: u16 = 60;
 
 /// `3 0.10 micropitting_rig`: the digits, where they go, and what that is typical of.
-fn typical(app: &App, dial: &Dial, slot: Rect, sheet: &mut Sheet<'_>) {
+fn typical(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let unit = dial.unit(app.view.units);
-    let mut spans = vec![Span::raw(" ")];
-    let mut used = 1;
+    let room = columns_from(slot, 1);
+    let mut line = Line::default();
     for (n, (value, of)) in dial.typical.iter().enumerate() {
+        let digit = theme.span((n + 1).to_string(), Role::Key);
         let shown = figure(dial, unit.of(*value), 2);
-        let words = if of.is_empty() {
-            format!(" {shown}  ")
-        } else {
-            format!(" {shown} {of}  ")
-        };
-        used += 1 + words.chars().count();
-        if used > usize::from(slot.width) {
+        let of = if of.is_empty() { "" } else { &format!(" {of}") };
+        let words = theme.span(format!(" {shown}{of}  "), Role::Dim);
+        if line.width() + 1 + words.width() > usize::from(room.width) {
             break;
         }
-        spans.push(theme.span((n + 1).to_string(), Role::Key));
-        spans.push(theme.span(words, Role::Dim));
+        line.extend([digit, words]);
     }
-    sheet.line(slot, 3, &Line::from(spans));
+    put(room, 3, &line, buffer);
 }
 
 fn rows_each(areas: &Areas) -> u16 {
     // Three rows are enough; the fourth is air, where there is plenty.
-    let height = inside(areas, areas.knobs).height;
+    let height = areas.inside(PanelKind::Knobs).height;
     let enlarged = areas.knobs.width >= WIDE;
     let most = if height >= 44 || enlarged { 4 } else { 3 };
     (height / 5).clamp(2, most)
@@ -110,35 +109,32 @@ fn slot(areas: &Areas, place: usize) -> Rect {
         PanelSpacing::Compact => 0,
         PanelSpacing::Full => 1,
     };
-    let frame = inside(areas, areas.knobs);
-    let inner = with_columns(
-        frame,
-        frame.x + margin,
-        frame.width.saturating_sub(2 * margin),
-    );
-    let rows = rows_each(areas);
-    with_rows(inner, inner.y + place as u16 * rows, rows).intersection(inner)
+    let inner = areas.inside(PanelKind::Knobs).inner(Margin::new(margin, 0));
+    let each = rows_each(areas);
+    rows(inner, place as u16 * each, each)
 }
 
 fn track(slot: Rect) -> Rect {
-    with_rows(slot, slot.y + 1, slot.height.saturating_sub(1).min(1))
+    rows(slot, 1, 1)
 }
 
-fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, sheet: &mut Sheet<'_>) {
+fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let value = value_line(app, dial);
     let chosen = place == app.choice.chosen;
     let room = slot.width.saturating_sub(value.width() as u16 + 1);
     let mark = if chosen { theme.pick("▸", ">") } else { " " };
     let role = if chosen { Role::Chosen } else { Role::Text };
-    let whole = dial.label.chars().count() < usize::from(room);
-    let label = if whole { dial.label } else { dial.name() };
+    let name = fitting(
+        [dial.label, dial.name()],
+        usize::from(room).saturating_sub(1),
+    );
     let name = Line::from(vec![
         theme.span(mark, Role::Chosen),
-        theme.span(label, role),
+        theme.span(name.unwrap_or(dial.name()), role),
     ]);
-    sheet.line(with_columns(slot, slot.x, room), 0, &name);
-    sheet.line_right(slot, 0, &value);
+    put(columns(slot, 0, room), 0, &name, buffer);
+    put_right(slot, 0, &value, buffer);
 }
 
 /// `0.30 → 0.50` on the way, `0.50` there.
@@ -150,16 +146,20 @@ fn value_line(app: &App, dial: &Dial) -> Line<'static> {
     let unit = dial.unit(app.view.units);
     let digits = if dial.knob == Knob::SlideRoll { 2 } else { 3 };
     let target = figure(dial, unit.of(dial.target), digits);
-    let mut spans = Vec::new();
+    let mut line = Line::default();
     if dial.is_moving() {
         let now = figure(dial, unit.of(dial.now), digits);
-        spans.push(theme.span(format!("{now}{}", theme.pick("→", ">")), Role::Warn));
+        let arrow = theme.pick("→", ">");
+        line.push_span(Span::styled(
+            format!("{now}{arrow}"),
+            theme.style(Role::Warn),
+        ));
     }
-    spans.push(theme.span(target, Role::Strong));
+    line.push_span(theme.span(target, Role::Strong));
     if !unit.name.is_empty() {
-        spans.push(theme.span(format!(" {}", theme.text(unit.name)), Role::Dim));
+        line.push_span(theme.span(format!(" {}", unit.name), Role::Dim));
     }
-    Line::from(spans)
+    line
 }
 
 /// S and the heights keep their two decimals, so that they do not jump about.
@@ -170,7 +170,7 @@ fn figure(dial: &Dial, value: f64, digits: i32) -> String {
     }
 }
 
-fn slider(app: &App, place: usize, dial: &Dial, track: Rect, sheet: &mut Sheet<'_>) {
+fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer) {
     if track.is_empty() {
         return;
     }
@@ -186,51 +186,31 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, sheet: &mut Sheet<'
     } else {
         Role::Film
     };
-    for offset in 0..track.width {
-        let within = offset >= root.min(now) && offset <= root.max(now) && !dead;
-        let (symbol, role) = if within {
-            (theme.pick("━", "="), filled)
+    let mut paint = |column: u16, unicode, ascii, role| {
+        Symbol::new(theme, unicode, ascii, role).draw((track.x + column, track.y), buffer);
+    };
+    for column in 0..track.width {
+        if (root.min(now)..=root.max(now)).contains(&column) && !dead {
+            paint(column, "━", "=", filled);
         } else {
-            (theme.pick("─", "-"), Role::Border)
-        };
-        paint(track, offset, symbol, theme.style(role), sheet);
+            paint(column, "─", "-", Role::Border);
+        }
     }
     if dead {
         return;
     }
     if root > 0 {
-        paint(
-            track,
-            root,
-            theme.pick("┼", "+"),
-            theme.style(Role::Border),
-            sheet,
-        );
+        paint(root, "┼", "+", Role::Border);
     }
     if now != target {
-        paint(track, now, theme.pick("◆", "|"), theme.style(filled), sheet);
+        paint(now, "◆", "|", filled);
     }
-    paint(
-        track,
-        target,
-        theme.pick("●", "O"),
-        theme.style(Role::Strong),
-        sheet,
-    );
-}
-
-fn paint(
-    track: Rect,
-    offset: u16,
-    symbol: &str,
-    style: ratatui::style::Style,
-    sheet: &mut Sheet<'_>,
-) {
-    sheet.cell(track.x + offset, track.y, symbol, style);
+    paint(target, "●", "O", Role::Strong);
 }
 
 /// Range of the slider; for the load the Hertz pressure, as that is what one thinks in.
-fn range(app: &App, dial: &Dial, slot: Rect, sheet: &mut Sheet<'_>) {
+fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
+    let theme = app.view.theme;
     let unit = dial.unit(app.view.units);
     if dial.state != DialState::Live {
         return;
@@ -240,34 +220,27 @@ fn range(app: &App, dial: &Dial, slot: Rect, sheet: &mut Sheet<'_>) {
     if let Some(body) = stands {
         let left_out = app.run.setup.scene.life.as_ref();
         let left_out = left_out.is_some_and(|life| life.cycles != CycleBasis::Damage);
-        let more = if left_out && slot.width >= 28 {
-            ": not in the life"
-        } else {
-            ""
+        let more = match slot.width {
+            28.. if left_out => ": not in the life",
+            _ => "",
         };
         let text = format!("body {body} stands{more}");
-        sheet.text(slot, 2, text, Role::Warn);
+        put(slot, 2, &theme.line(text, Role::Warn), buffer);
         return;
     }
     if !is_load || slot.width >= 24 {
-        sheet.text(slot, 2, tick(unit.of(dial.min)), Role::Dim);
-        sheet.text_right(slot, 2, tick(unit.of(dial.max)), Role::Dim);
+        let [from, to] = [dial.min, dial.max].map(|end| theme.line(tick(unit.of(end)), Role::Dim));
+        put(slot, 2, &from, buffer);
+        put_right(slot, 2, &to, buffer);
     }
     if is_load {
-        let text = format!(
-            "p_h {}",
-            app.view
-                .units
-                .pressure()
-                .show(app.lives.estimate.p_hertz_pa, 3)
-        );
-        let width = text.len() as u16;
-        let middle = with_columns(
-            slot,
-            slot.x + slot.width.saturating_sub(width) / 2,
-            width.min(slot.width),
-        );
-        sheet.text(middle, 2, text, Role::Pressure);
+        let p_hertz = app
+            .view
+            .units
+            .pressure()
+            .show(app.lives.estimate.p_hertz_pa, 3);
+        let text = theme.line(format!("p_h {p_hertz}"), Role::Pressure);
+        put_middle(slot, 2, &text, buffer);
     }
 }
 

@@ -7,48 +7,44 @@ mod chart;
 mod curve;
 mod digits;
 mod footer;
-mod forms;
 mod header;
 mod knobs;
-mod lesson_list;
 mod life;
 mod map;
 mod overlay;
+mod panel;
+mod place;
 mod point;
-mod sheet;
 mod status;
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Style};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, Overlay, PanelKind};
 use crate::tui::event::{Pointer, PointerAct};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
-use sheet::{Sheet, with_rows};
-
-pub use areas::{Areas, Banner, MIN_NARROW_SIZE, MIN_SIZE, PanelSpacing};
+pub use areas::{Areas, MIN_NARROW_SCREEN, MIN_SCREEN, PanelSpacing};
+use place::rows;
 
 /// The panels of the screen as it is now.
 fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
-    let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
-    let areas = areas.with_picture(app.view.focus);
-    let areas = if app.why().is_some() {
-        areas.with_a_line()
-    } else {
-        areas
-    };
-    let areas = match app.view.enlarged {
-        Some(panel) => areas.enlarged(panel),
-        None => areas,
-    };
-    Some(match &app.view.frozen {
-        Some(_) => areas.with_two_maps(),
-        None => areas,
-    })
+    let caption_rows = caption::of(app).map_or(0, |caption| caption.rows(screen.width));
+    let mut areas = Areas::of(screen, caption_rows)?.with_picture(app.view.focus);
+    if app.why().is_some() {
+        areas = areas.with_a_line();
+    }
+    if let Some(panel) = app.view.enlarged {
+        areas = areas.enlarged(panel);
+    }
+    if app.view.frozen.is_some() {
+        areas = areas.with_two_maps();
+    }
+    Some(areas)
 }
 
 /// Draws the whole screen.
@@ -59,9 +55,8 @@ pub fn draw(app: &App, frame: &mut Frame<'_>) {
 
 /// Draws the whole screen into a buffer; gives the curves that it leaves to a page, which draws them as lines.
 pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
-    let theme = app.view.theme;
-    let plots = draw_panels(app, screen, &mut Sheet { theme, buffer });
-    if let Some(page) = theme.page() {
+    let plots = draw_panels(app, screen, buffer);
+    if let Some(page) = app.view.theme.page() {
         on_page(page, screen, buffer);
     }
     plots
@@ -80,70 +75,66 @@ fn on_page(page: Style, screen: Rect, buffer: &mut Buffer) {
     }
 }
 
-fn draw_panels(app: &App, screen: Rect, sheet: &mut Sheet<'_>) -> Vec<PixelPlot> {
+fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
     let Some(areas) = areas_of(app, screen) else {
-        too_small(screen, sheet);
+        too_small(app, screen, buffer);
         return Vec::new();
     };
     let mut plots = Vec::new();
-    header::render(app, areas.header, sheet);
+    header::render(app, areas.header, buffer);
     for panel in PanelKind::ALL {
         if areas.of_panel(panel).is_empty() {
             continue;
         }
         match panel {
-            PanelKind::Knobs => knobs::render(app, &areas, sheet),
-            PanelKind::Map => plots.extend(map::render(app, &areas, sheet)),
-            PanelKind::CentreLine => plots.extend(centre_line::render(app, &areas, sheet)),
-            PanelKind::Life => plots.extend(life::render(app, &areas, sheet).1),
-            PanelKind::Point => plots.extend(point::render(app, &areas, sheet)),
+            PanelKind::Knobs => knobs::render(app, &areas, buffer),
+            PanelKind::Map => plots.extend(map::render(app, &areas, buffer)),
+            PanelKind::CentreLine => plots.extend(centre_line::render(app, &areas, buffer)),
+            PanelKind::Life => plots.extend(life::render(app, &areas, buffer).1),
+            PanelKind::Point => plots.extend(point::render(app, &areas, buffer)),
         }
     }
-    if let Some(frozen) = &app.view.frozen
-        && !areas.frozen.is_empty()
+    if let Some(ghost) = app
+        .view
+        .frozen
+        .as_ref()
+        .filter(|_| !areas.frozen.is_empty())
     {
         let map = areas.frozen;
-        map::render(frozen, &Areas { map, ..areas }, sheet);
+        map::render(ghost, &Areas { map, ..areas }, buffer);
     }
-    status::render(app, &areas, sheet);
+    status::render(app, &areas, buffer);
     if let Some(caption) = caption::of(app) {
-        caption::render(app, &caption, areas.caption, sheet);
+        caption::render(app, &caption, areas.caption, buffer);
     }
-    let height = screen.height - areas.status.height - 1;
-    let body = with_rows(screen, screen.y + 1, height);
+    let body = rows(screen, 1, screen.height - areas.status.height - 1);
     match (app.fault(), app.view.overlay) {
-        (Some(reason), _) => overlay::fault(app, reason, body, sheet),
-        (None, Overlay::Help) => overlay::help(app, body, sheet),
-        (None, Overlay::Plan) => overlay::plan(app, body, sheet),
-        (None, Overlay::Scene) => forms::scene(app, body, sheet),
-        (None, Overlay::Lessons) => lesson_list::lessons(app, body, sheet),
+        (Some(reason), _) => overlay::fault(app, reason, body, buffer),
+        (None, Overlay::Help) => overlay::help(app, body, buffer),
+        (None, Overlay::Plan) => overlay::plan(app, body, buffer),
+        (None, Overlay::Scene) => overlay::scene(app, body, buffer),
+        (None, Overlay::Lessons) => overlay::lessons(app, body, buffer),
         (None, Overlay::None) => {}
     }
-    if let Some(over) = status::message(app, &areas, screen, sheet) {
+    if let Some(over) = status::message(app, &areas, screen, buffer) {
         plots.retain(|plot| !plot.area.intersects(over));
     }
     plots
 }
 
-/// The cells that a page's pixels fill; `None`: none, or something lies over them.
+/// The cells that the terminal's own pixels fill; `None`: none, or something lies over them.
 pub fn picture_area(app: &App, screen: Rect) -> Option<Rect> {
     map::room(app, &picture_areas(app, screen)?)
 }
 
 /// The picture for them, with cells of so many pixels.
-pub fn picture(app: &App, screen: Rect, cell: Size) -> Option<Bitmap> {
+pub fn picture(app: &App, screen: Rect, cell: (u16, u16)) -> Option<Bitmap> {
     map::pixels(app, &picture_areas(app, screen)?, cell)
 }
 
 fn picture_areas(app: &App, screen: Rect) -> Option<Areas> {
     let areas = areas_of(app, screen)?;
     (app.is_in_pixels() && !areas.map.is_empty()).then_some(areas)
-}
-
-fn banner(caption: Option<&caption::Caption>, screen: Rect) -> Banner {
-    caption.map_or(Banner::None, |caption| {
-        Banner::Caption(caption.rows(screen.width))
-    })
 }
 
 /// What the pointer asks for on a screen of that size.
@@ -187,13 +178,20 @@ fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
     })
 }
 
-fn too_small(screen: Rect, sheet: &mut Sheet<'_>) {
+fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
     let text = format!(
         "{} x {} is too small: {} x {} shows the explorer, {} x {} a part of it. q quits.",
-        screen.width, screen.height, MIN_SIZE.0, MIN_SIZE.1, MIN_NARROW_SIZE.0, MIN_NARROW_SIZE.1
+        screen.width,
+        screen.height,
+        MIN_SCREEN.0,
+        MIN_SCREEN.1,
+        MIN_NARROW_SCREEN.0,
+        MIN_NARROW_SCREEN.1
     );
-    let line = sheet.theme.line(text, Role::Warn);
-    sheet.paragraph(screen, line);
+    Paragraph::new(text)
+        .style(app.view.theme.style(Role::Warn))
+        .wrap(Wrap { trim: true })
+        .render(screen, buffer);
 }
 
 #[cfg(test)]
@@ -202,26 +200,23 @@ mod tests {
 
     #[test]
     fn panels_fill_the_screen_and_never_overlap() {
-        for width in 60..=300 {
+        for width in (60..=300).step_by(7) {
             for height in 20..=100 {
                 let screen = Rect::new(0, 0, width, height);
-                panels_at(screen, Banner::None);
-                panels_at(screen, Banner::Caption(5));
+                panels_at(screen, 0);
+                panels_at(screen, 5);
             }
         }
         for (width, height) in [(59, 29), (60, 19), (39, 100)] {
-            assert_eq!(
-                Areas::of(Rect::new(0, 0, width, height), Banner::None),
-                None
-            );
+            assert_eq!(Areas::of(Rect::new(0, 0, width, height), 0), None);
         }
     }
 
     #[test]
     fn a_narrow_screen_has_one_picture_life_and_knobs() {
         for (width, height) in [(40, 30), (59, 30), (48, 44), (40, 100)] {
-            for banner in [Banner::None, Banner::Caption(6)] {
-                let Some(areas) = Areas::of(Rect::new(0, 0, width, height), banner) else {
+            for caption_rows in [0, 6] {
+                let Some(areas) = Areas::of(Rect::new(0, 0, width, height), caption_rows) else {
                     panic!("{width} x {height} is large enough")
                 };
                 for picture in [PanelKind::Map, PanelKind::CentreLine, PanelKind::Point] {
@@ -247,8 +242,8 @@ mod tests {
         }
     }
 
-    fn panels_at(screen: Rect, banner: Banner) {
-        let Some(areas) = Areas::of(screen, banner) else {
+    fn panels_at(screen: Rect, caption_rows: u16) {
+        let Some(areas) = Areas::of(screen, caption_rows) else {
             panic!("{screen} is large enough")
         };
         let all = [

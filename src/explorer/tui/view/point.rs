@@ -1,6 +1,7 @@
 //! Bottom: the stress history of one material point while it crosses the contact, each peak counted as it
 //! passes. At S = 0 one cycle, at S = 0.5 a comb.
 
+use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::Line;
 
@@ -11,12 +12,13 @@ use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
 use crate::tui::units::{nice_ceiling, sig_or_dash, tick};
 use crate::tui::view::areas::{Areas, PanelSpacing};
-use crate::tui::view::chart::{CurvePanel, Pen, PlotFrame};
-use crate::tui::view::sheet::{Sheet, inside, panel, title, with_columns};
+use crate::tui::view::chart::{CurvePanel, Pen, Plot, Symbol};
+use crate::tui::view::panel::{panel, title};
+use crate::tui::view::place::{Entry, columns, columns_from, put, put_right, rows, table};
 use asperity_engine::sim::{Frame, Stage};
 
-pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
-    let inner = panel(app, areas, PanelKind::Point, heading(app), sheet);
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
+    let inner = panel(app, areas, PanelKind::Point, heading(app), buffer);
     let frame = app.frame()?;
     let Some(point) = app.point_now() else {
         let text = match (frame.stage, &app.run.setup.scene.stress) {
@@ -24,33 +26,26 @@ pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) -> Option<
             (Stage::StartUp, _) => "followed once the passage begins",
             (Stage::Passage, _) => "no material point is followed",
         };
-        sheet.text(inner, 0, text, Role::Dim);
+        put(inner, 0, &app.view.theme.line(text, Role::Dim), buffer);
         return None;
     };
-    let words = words(areas);
-    let left = with_columns(inner, inner.x, words.min(inner.width));
-    numbers(app, frame, &point, left, sheet);
+    let left = columns(inner, 0, words(areas));
+    table(app.view.theme, left, &numbers(app, frame, &point), buffer);
     let area = plot(areas);
     if area.is_empty() {
         return None;
     }
-    draw(app, frame, area, X_RANGE, sheet)
+    over(app, area, X_RANGE, buffer)
 }
 
-/// The trace over these x/a, with its ticks and axis; nothing where no point is followed.
-pub(super) fn draw(
-    app: &App,
-    frame: &Frame,
-    area: Rect,
-    x: [f64; 2],
-    sheet: &mut Sheet<'_>,
-) -> Option<PixelPlot> {
-    let point = app.point_now()?;
+/// The trace alone over some x/a: under the profile those of the picture above it.
+pub(super) fn over(app: &App, area: Rect, x: [f64; 2], buffer: &mut Buffer) -> Option<PixelPlot> {
+    let (frame, point) = (app.frame()?, app.point_now()?);
     let y = range(app, frame);
-    let plot = PlotFrame { area, x, y };
-    let curves = trace(app, frame, &plot, sheet);
-    peaks_ticked(app, frame, &plot, sheet);
-    axis(app, &plot, point.depth_m, sheet);
+    let plot = Plot { area, x, y };
+    let curves = trace(app, frame, plot, buffer);
+    peaks_ticked(app, frame, &plot, buffer);
+    axis(app, &plot, point.depth_m, buffer);
     curves
 }
 
@@ -67,15 +62,10 @@ fn words(areas: &Areas) -> u16 {
 
 /// Where the trace is drawn; empty where there is no room for it.
 fn plot(areas: &Areas) -> Rect {
-    let inner = inside(areas, areas.point);
-    let words = words(areas);
-    let left = words.min(inner.width);
-    let plot = Rect {
-        x: inner.x + left + 6,
-        width: inner.width.saturating_sub(words + 7),
-        height: inner.height.saturating_sub(1),
-        ..inner
-    };
+    let inner = areas.inside(PanelKind::Point);
+    let right = columns_from(inner, words(areas) + 6);
+    let plot = columns(right, 0, right.width.saturating_sub(1));
+    let plot = rows(plot, 0, plot.height.saturating_sub(1));
     if plot.width < 8 || plot.height < 2 {
         return Rect::default();
     }
@@ -90,15 +80,9 @@ pub(super) fn pressed(areas: &Areas, at: Position) -> Option<Action> {
 
 /// A drag along the trace takes the point with it.
 pub(super) fn dragged(areas: &Areas, at: Position) -> Option<Action> {
-    let plot = plot(areas);
-    plot.contains(at).then(|| {
-        let plot = PlotFrame {
-            area: plot,
-            x: X_RANGE,
-            y: [0.0, 1.0],
-        };
-        Action::PutPoint(plot.x_at(at.x))
-    })
+    let (area, x) = (plot(areas), X_RANGE);
+    let plot = Plot { area, x, y: x };
+    area.contains(at).then(|| Action::PutPoint(plot.x_at(at.x)))
 }
 
 fn heading(app: &App) -> Line<'static> {
@@ -113,62 +97,41 @@ fn heading(app: &App) -> Line<'static> {
     if let Some(point) = app.point_now() {
         let depth = app.view.units.length().show(point.depth_m, 2);
         let note = format!("body {}, {depth} deep ", point.body);
-        let note = theme.text(&note);
         line.push_span(theme.span("P ", Role::Key));
         line.push_span(theme.span(note, Role::Dim));
     }
     line
 }
 
-fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, sheet: &mut Sheet<'_>) {
-    let role = if point.body == 2 {
-        Role::Body2
-    } else {
-        Role::Body1
-    };
+fn numbers(app: &App, frame: &Frame, point: &PointNow) -> [Entry; 8] {
     let pressure = app.view.units.pressure();
     let sample = point.sample;
-    let crossing = if app.replay.playing.is_some() {
-        "in this crossing"
-    } else {
-        "crossing before"
+    let body = match point.body {
+        2 => Role::Body2,
+        _ => Role::Body1,
+    };
+    let crossing = match app.replay.playing {
+        Some(_) => "in this crossing",
+        None => "crossing before",
     };
     let count = |value: f64| format!("{value:.0}");
-    let lines = [
-        ("peaks so far", count(sample.cycles), Role::Cycles),
-        (
-            crossing,
-            point.closed.map_or_else(|| "–".to_owned(), count),
-            Role::Strong,
-        ),
-        (
-            "counted on average",
-            sig_or_dash(point.average, 3),
-            Role::Strong,
-        ),
-        (
-            "expected on average",
-            sig_or_dash(point.expected, 3),
-            Role::Formula,
-        ),
-        ("x", format!("{:.2} a", sample.x_m / frame.a_m), role),
-        (
-            "pressure",
-            pressure.show(sample.pressure_pa, 3),
-            Role::Pressure,
-        ),
-        ("shear τxz", pressure.show(sample.tau_xz_pa, 2), Role::Shear),
-        (
-            "effective",
-            pressure.show(sample.effective_pa, 3),
-            Role::Text,
-        ),
-    ];
-    for (row, (name, value, role)) in lines.into_iter().enumerate() {
-        let row = row as u16;
-        sheet.text(area, row, name, Role::Dim);
-        sheet.text_right(area, row, &value, role);
-    }
+    let closed = point.closed.map_or_else(|| "–".to_owned(), count);
+    let (average, expected) = (
+        sig_or_dash(point.average, 3),
+        sig_or_dash(point.expected, 3),
+    );
+    let x = format!("{:.2} a", sample.x_m / frame.a_m);
+    let shown = |value_pa: f64, digits: i32| pressure.show(value_pa, digits);
+    [
+        Entry::new("peaks so far", count(sample.cycles), Role::Cycles),
+        Entry::new(crossing, closed, Role::Strong),
+        Entry::new("counted on average", average, Role::Strong),
+        Entry::new("expected on average", expected, Role::Formula),
+        Entry::new("x", x, body),
+        Entry::new("pressure", shown(sample.pressure_pa, 3), Role::Pressure),
+        Entry::new("shear τxz", shown(sample.tau_xz_pa, 2), Role::Shear),
+        Entry::new("effective", shown(sample.effective_pa, 3), Role::Text),
+    ]
 }
 
 fn value(quantity: PointQuantity, sample: &TraceSample, frame: &Frame) -> f64 {
@@ -185,57 +148,45 @@ fn hertz_pa(x: f64, frame: &Frame) -> f64 {
     frame.p_hertz_pa * (1.0 - x * x).max(0.0).sqrt()
 }
 
-fn trace(app: &App, frame: &Frame, plot: &PlotFrame, sheet: &mut Sheet<'_>) -> Option<PixelPlot> {
-    let theme = app.view.theme;
-    let mut chart = CurvePanel::of(app, *plot);
-    let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
+fn trace(app: &App, frame: &Frame, plot: Plot, buffer: &mut Buffer) -> Option<PixelPlot> {
+    let mut chart = CurvePanel::new(plot);
+    let pen = |role: Role, letter: char| Pen::new(app.view.theme, role, letter);
     let quantity = app.view.point_quantity;
-    let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
-        samples
-            .iter()
-            .map(|sample| (sample.x_m / frame.a_m, value(quantity, sample, frame)))
-            .collect()
+    let points = |samples: &[TraceSample], frame: &Frame| -> Vec<(f64, f64)> {
+        let place = |sample: TraceSample| (sample.x_m / frame.a_m, value(quantity, &sample, frame));
+        samples.iter().copied().map(place).collect()
     };
-    let fine = 2 * usize::from(plot.area.width);
-    let hertz = (0..=fine).filter_map(|i| {
-        let x = plot.x[0] + (plot.x[1] - plot.x[0]) * i as f64 / fine as f64;
-        let p = match quantity {
-            PointQuantity::Pressure => hertz_pa(x, frame),
-            PointQuantity::Excess => 0.0,
-            PointQuantity::Shear | PointQuantity::Effective => return None,
-        };
-        (x.abs() < 1.0).then_some((x, p))
-    });
-    chart.scatter(hertz, pen(Role::Hertz, '.'));
-    if let Some((samples, frozen)) = frozen(app) {
-        let frozen_points = samples.iter().map(|sample| {
-            let y = value(quantity, sample, frozen);
-            (sample.x_m / frozen.a_m, y)
-        });
-        chart.line(frozen_points, pen(Role::Formula, ','));
+    let (role, hertz) = match quantity {
+        PointQuantity::Pressure => (Role::Pressure, Some(frame.p_hertz_pa)),
+        PointQuantity::Excess => (Role::Pressure, Some(0.0)),
+        PointQuantity::Shear => (Role::Shear, None),
+        PointQuantity::Effective => (Role::Peaks, None),
+    };
+    if let Some(p_hertz_pa) = hertz {
+        chart.hertz(p_hertz_pa, pen(Role::Hertz, '.'));
     }
-    chart.line(points(app.replay.trace.before()), pen(Role::Border, '.'));
-    let role = match quantity {
-        PointQuantity::Pressure | PointQuantity::Excess => Role::Pressure,
-        PointQuantity::Shear => Role::Shear,
-        PointQuantity::Effective => Role::Peaks,
-    };
-    chart.line(points(app.replay.trace.current()), pen(role, '*'));
-    let curves = chart.render(sheet);
+    if let Some((ghost, frozen)) = ghost(app) {
+        chart.line(points(ghost, frozen), pen(Role::Formula, ','));
+    }
+    chart.line(
+        points(app.replay.trace.before(), frame),
+        pen(Role::Border, '.'),
+    );
+    chart.line(points(app.replay.trace.current(), frame), pen(role, '*'));
+    let curves = chart.render(app, buffer);
     if let Some(last) = app.replay.trace.current().last() {
-        let row = plot.row(value(quantity, last, frame));
-        let symbol = theme.pick("◆", "X");
-        plot.mark(last.x_m / frame.a_m, row, symbol, Role::Strong, sheet);
+        let y = value(quantity, last, frame).clamp(plot.y[0], plot.y[1]);
+        let here = Symbol::new(app.view.theme, "◆", "X", Role::Strong);
+        plot.mark(last.x_m / frame.a_m, y, here, buffer);
     }
     curves
 }
 
 /// The crossing that was frozen, and the frame beside it.
-fn frozen(app: &App) -> Option<(&[TraceSample], &Frame)> {
-    let frozen = app.view.frozen.as_ref()?;
-    let frame = frozen.frame()?;
-    let trace = &frozen.replay.trace;
-    let (before, current) = (trace.before(), trace.current());
+fn ghost(app: &App) -> Option<(&[TraceSample], &Frame)> {
+    let ghost = app.view.frozen.as_ref()?;
+    let frame = ghost.frame()?;
+    let (before, current) = (ghost.replay.trace.before(), ghost.replay.trace.current());
     let whole = if before.is_empty() { current } else { before };
     Some((whole, frame))
 }
@@ -252,7 +203,7 @@ fn range(app: &App, frame: &Frame) -> [f64; 2] {
         .iter()
         .chain(app.replay.trace.current());
     let values = samples.map(|sample| value(app.view.point_quantity, sample, frame).abs());
-    let frozen = frozen(app).into_iter().flat_map(|(samples, frame)| {
+    let frozen = ghost(app).into_iter().flat_map(|(samples, frame)| {
         let frozen = samples.iter();
         frozen.map(|sample| value(app.view.point_quantity, sample, frame).abs())
     });
@@ -267,30 +218,32 @@ fn range(app: &App, frame: &Frame) -> [f64; 2] {
 }
 
 /// A tick under the trace for each peak that has passed, and its number on the curve where there is room.
-fn peaks_ticked(app: &App, frame: &Frame, plot: &PlotFrame, sheet: &mut Sheet<'_>) {
-    let area = plot.area;
+fn peaks_ticked(app: &App, frame: &Frame, plot: &Plot, buffer: &mut Buffer) {
     let mut free_from = 0;
+    let symbol = Symbol::new(app.view.theme, "╿", "|", Role::Cycles);
     for tick in app.replay.trace.ticks() {
-        let x = tick.x_m / frame.a_m;
-        let Some(column) = plot.column(x) else {
+        let Some(column) = plot.column(tick.x_m / frame.a_m) else {
             continue;
         };
-        let symbol = sheet.theme.pick("╿", "|");
-        plot.mark(x, area.height, symbol, Role::Cycles, sheet);
+        symbol.draw((column, plot.area.bottom()), buffer);
         let number = tick.number.to_string();
         let width = number.len() as u16;
-        let first = (column.saturating_sub((width - 1) / 2)).min(area.right() - width);
+        let first = (column.saturating_sub((width - 1) / 2)).min(plot.area.right() - width);
         let Some(sample) = nearest(app.replay.trace.current(), tick.x_m) else {
             continue;
         };
         if first < free_from {
             continue;
         }
-        // Above the curve, or on it where it touches the top.
-        let y = value(app.view.point_quantity, sample, frame);
-        let row = plot.row(y).saturating_sub(1);
-        let cells = with_columns(area, first, width);
-        sheet.text(cells, row, number, Role::Cycles);
+        // Above the curve, or on it where it reaches the top.
+        let row = plot.row(value(app.view.point_quantity, sample, frame));
+        let row = row.saturating_sub(1).max(plot.area.y);
+        buffer.set_line(
+            first,
+            row,
+            &app.view.theme.line(number, Role::Cycles),
+            width,
+        );
         free_from = first + width + 1;
     }
 }
@@ -301,20 +254,14 @@ fn nearest(samples: &[TraceSample], x_m: f64) -> Option<&TraceSample> {
     all.min_by(|one, two| away(one).total_cmp(&away(two)))
 }
 
-fn axis(app: &App, plot: &PlotFrame, depth_m: f64, sheet: &mut Sheet<'_>) {
-    let (plot, range) = (plot.area, plot.y);
+fn axis(app: &App, plot: &Plot, depth_m: f64, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let pressure = app.view.units.pressure();
-    let left = with_columns(plot, plot.x.saturating_sub(6), 5);
-    sheet.text_right(left, 0, tick(pressure.of(range[1])), Role::Dim);
-    let foot = tick(pressure.of(range[0]));
-    sheet.text_right(left, plot.height - 1, foot, Role::Dim);
-    if plot.height >= 4 {
-        sheet.text_right(left, 1, pressure.name, Role::Dim);
-    }
-    if app.view.point_quantity != PointQuantity::Pressure && plot.height >= 5 {
+    let ends = plot.y.map(|value| tick(pressure.of(value)));
+    plot.y_ends(theme, &ends, pressure.name, buffer);
+    if app.view.point_quantity != PointQuantity::Pressure && plot.area.height >= 5 {
         let depth = app.view.units.length().show(depth_m, 2);
-        let text = theme.text(&format!("at depth {depth}"));
-        sheet.text_right(plot, 0, text, Role::Dim);
+        let text = theme.line(format!("at depth {depth}"), Role::Dim);
+        put_right(plot.area, 0, &text, buffer);
     }
 }

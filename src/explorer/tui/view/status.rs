@@ -1,16 +1,17 @@
 //! Last lines: where the run is, how well it converges, what is left out, what is recorded.
 
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Span;
 
-use crate::tui::app::{App, Leading, Trouble, WhyUnconverged};
+use crate::tui::app::{App, Trouble, WhyUnconverged};
 use crate::tui::theme::Role;
 use crate::tui::units::{seconds, sig};
 use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::footer::{hints_shown, recorder};
-use crate::tui::view::knobs;
-use crate::tui::view::overlay;
-use crate::tui::view::sheet::{Sheet, with_columns};
+use crate::tui::view::panel::led;
+use crate::tui::view::place::{columns, columns_from, fitted, put, put_right};
+use crate::tui::view::{knobs, overlay};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{
     CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named,
@@ -20,25 +21,20 @@ use asperity_session::sweep::Along;
 /// Words and their roles, in the order in which they are dropped from the right.
 type StatusWords = Vec<(String, Role)>;
 
-pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) {
+pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let area = areas.status;
     let mut row = 0;
     if let Some(why) = app.why() {
-        let text = app
-            .view
-            .theme
-            .text(&why.in_columns(usize::from(area.width) - 2));
-        let role = match why.of {
-            Leading::Simulated => Role::Strong,
-            Leading::Scaled | Leading::Formula => Role::Formula,
-        };
-        sheet.text(area, row, format!(" {text}"), role);
+        let text = why.in_columns(usize::from(area.width) - 2);
+        let role = led(why.of, Role::Strong);
+        let line = app.view.theme.line(format!(" {text}"), role);
+        put(area, row, &line, buffer);
         row += 1;
     }
     if let Some(frame) = app.frame() {
         let mut words = progress(app, frame);
         if areas.density == PanelSpacing::Full || area.height > row + 2 {
-            write(app, area, row, &words, sheet);
+            write(app, area, row, &words, buffer);
             row += 1;
             words = quality(app, frame);
         } else if app.trouble().is_none() {
@@ -47,46 +43,34 @@ pub(super) fn render(app: &App, areas: &Areas, sheet: &mut Sheet<'_>) {
             // What is wrong stands first: the rest may not fit.
             words = quality(app, frame).into_iter().chain(words).collect();
         }
-        write(app, area, row, &words, sheet);
+        write(app, area, row, &words, buffer);
         row += 1;
     }
     let last = area.height - 1;
     if row <= last {
-        last_line(app, area, last, sheet);
+        last_line(app, area, last, buffer);
     }
 }
 
-fn write(app: &App, area: Rect, row: u16, words: &StatusWords, sheet: &mut Sheet<'_>) {
-    let theme = app.view.theme;
-    let mut spans = vec![Span::raw(" ")];
-    let mut used = 1;
-    for (text, role) in words {
-        let text = theme.text(text);
-        let span = theme.span(text, *role);
-        if used + span.width() > usize::from(area.width) {
-            break;
-        }
-        used += span.width() + 2;
-        spans.push(span);
-        spans.push(Span::raw("  "));
-    }
-    sheet.line(area, row, &Line::from(spans));
+fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buffer) {
+    let gap = Span::raw("  ");
+    let words = words
+        .iter()
+        .flat_map(|(text, role)| [app.view.theme.span(text, *role), gap.clone()]);
+    let room = columns_from(area, 1);
+    put(room, row, &fitted(words, room.width), buffer);
 }
 
 fn progress(app: &App, frame: &Frame) -> StatusWords {
     if frame.stage == Stage::StartUp {
         let share = (100.0 * frame.start_up).floor();
-        return vec![
-            (format!("start-up {share:.0} %"), Role::Warn),
-            (
-                match app.run.setup.scene.lubricant {
-                    Some(_) => "smooth film on finer and finer grids, then roughness",
-                    None => "smooth contact on finer and finer grids, then roughness",
-                }
-                .to_owned(),
-                Role::Text,
-            ),
-        ];
+        let what = match app.run.setup.scene.lubricant {
+            Some(_) => "film",
+            None => "contact",
+        };
+        let how = format!("smooth {what} on finer and finer grids, then roughness");
+        let share = format!("start-up {share:.0} %");
+        return vec![(share, Role::Warn), (how, Role::Text)];
     }
     let mut words = vec![
         (format!("passage {:.2}", frame.passages), Role::Text),
@@ -95,7 +79,7 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
     if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
         let means = match app.run.setup.scene.life.as_ref().map(|life| life.cycles) {
             Some(CycleBasis::Damage) => ": its cycles never end",
-            Some(_) => ": its life is not counted",
+            Some(CycleBasis::Global | CycleBasis::Peaks) => ": its life is not counted",
             None => "",
         };
         words.push((format!("body {body} stands{means}"), Role::Warn));
@@ -117,10 +101,8 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         words.push((speed, Role::Text));
     }
     if let Some((done, all)) = app.lives.sweep {
-        words.push((
-            format!("sweeping {} {done}/{all}", swept(app.lives.sweeping)),
-            Role::Warn,
-        ));
+        let along = swept(app.lives.sweeping);
+        words.push((format!("sweeping {along} {done}/{all}"), Role::Warn));
     }
     words
 }
@@ -205,32 +187,43 @@ fn regime(metrics: &Metrics) -> (&'static str, Role) {
     (metrics.regime.name(), role)
 }
 
-fn last_line(app: &App, area: Rect, row: u16, sheet: &mut Sheet<'_>) {
+fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let recorder = recorder(app);
-    let room = with_columns(
+    let room = columns(
         area,
-        area.x,
+        0,
         area.width.saturating_sub(recorder.width() as u16 + 1),
     );
-    sheet.line_right(area, row, &recorder);
+    put_right(area, row, &recorder, buffer);
     if let Some(typed) = app.typing_line() {
-        sheet.text(room, row, format!(" {}", theme.text(&typed)), Role::Chosen);
+        put(
+            room,
+            row,
+            &theme.line(format!(" {typed}"), Role::Chosen),
+            buffer,
+        );
         return;
     }
     if let Some(message) = app.message() {
         // A longer one is laid over the panels above.
         if one_line(message, room.width) {
-            sheet.text(room, row, format!(" {message}"), Role::Warn);
+            put(
+                room,
+                row,
+                &theme.line(format!(" {message}"), Role::Warn),
+                buffer,
+            );
         }
         return;
     }
-    let mut spans = vec![Span::raw(" ")];
-    for hint in hints_shown(app, room) {
-        spans.push(theme.span(hint.key, Role::Key));
-        spans.push(theme.span(format!(" {}  ", theme.text(&hint.word)), Role::Dim));
-    }
-    sheet.line(room, row, &Line::from(spans));
+    let hints = hints_shown(app, room).into_iter();
+    let spans = hints.flat_map(|hint| {
+        let word = theme.span(format!(" {}  ", hint.word), Role::Dim);
+        [theme.span(hint.key, Role::Key), word]
+    });
+    let line = spans.collect();
+    put(columns_from(room, 1), row, &line, buffer);
 }
 
 fn one_line(message: &str, columns: u16) -> bool {
@@ -238,16 +231,11 @@ fn one_line(message: &str, columns: u16) -> bool {
 }
 
 /// A message that the last line cannot hold, whole, above it; gives the rows that it lies over.
-pub(super) fn message(
-    app: &App,
-    areas: &Areas,
-    screen: Rect,
-    sheet: &mut Sheet<'_>,
-) -> Option<Rect> {
+pub(super) fn message(app: &App, areas: &Areas, screen: Rect, buffer: &mut Buffer) -> Option<Rect> {
     let message = app.message()?;
     let recorder = recorder(app).width() as u16 + 1;
     if one_line(message, areas.status.width.saturating_sub(recorder)) {
         return None;
     }
-    Some(overlay::message(app, message, screen, sheet))
+    Some(overlay::message(app, message, screen, buffer))
 }

@@ -1,16 +1,17 @@
 //! Below the number, always: what to know before trusting it.
 
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::sig_or_dash;
-use crate::tui::view::sheet::Sheet;
+use crate::tui::view::place::{fitting, put, put_right};
 use asperity_engine::sim::{Caution, CautionCode};
 
 /// The weightiest caution, and how many more there are behind `i`: in its own words where they fit, else by its name.
-pub(super) fn line(app: &App, row: Rect, sheet: &mut Sheet<'_>) {
+pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let cautions = app.cautions();
     let Some(first) = cautions.first() else {
@@ -27,17 +28,13 @@ pub(super) fn line(app: &App, row: Rect, sheet: &mut Sheet<'_>) {
     };
     let taken = if row.width < BESIDE { FORMULA } else { 0 };
     let room = usize::from(row.width).saturating_sub(more.len() + 2 + taken);
-    let text = theme.text(&first.text);
-    let text = if text.chars().count() <= room {
-        text
-    } else {
-        name(first).to_owned()
-    };
+    let text = theme.words(&first.text);
+    let text = fitting([text.as_str(), name(first)], room).unwrap_or(name(first));
     let line = Line::from(vec![
         theme.span(format!("{mark}{text}"), role),
         theme.span(more, Role::Key),
     ]);
-    sheet.line(row, 0, &line);
+    put(row, 0, &line, buffer);
     // Where there was no room for the formula's number beside the simulation's, it stands here.
     if row.width < BESIDE && app.leading() == Leading::Simulated {
         let formula = format!(
@@ -46,7 +43,7 @@ pub(super) fn line(app: &App, row: Rect, sheet: &mut Sheet<'_>) {
         );
         let formula = theme.line(formula, Role::Formula);
         if line.width() + formula.width() < usize::from(row.width) {
-            sheet.line_right(row, 0, &formula);
+            put_right(row, 0, &formula, buffer);
         }
     }
 }

@@ -3,11 +3,12 @@
 use ratatui::text::Line;
 
 use super::profile;
-use crate::tui::app::{App, MapKind, Zoom};
+use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
 use crate::tui::view::areas::Areas;
-use crate::tui::view::sheet::{inside, title};
+use crate::tui::view::panel::title;
+use crate::tui::view::place::fitting;
 
 /// The map's name, and as many words about it as there is room for.
 pub(super) fn heading(app: &App, areas: &Areas) -> Line<'static> {
@@ -19,10 +20,9 @@ pub(super) fn heading(app: &App, areas: &Areas) -> Line<'static> {
     }
     let mut line = title(theme, "m", app.view.map.name());
     if app.view.map == MapKind::Profile {
-        let (area, _) = profile::rooms(inside(areas, areas.map));
+        let (area, _) = profile::rooms(areas.inside(PanelKind::Map));
         let times = profile::exaggeration(app, area);
         let note = format!("y = 0, heights × {} ", sig(times, 2));
-        let note = theme.text(&note);
         line.push_span(theme.span(note, Role::Dim));
         return line;
     }
@@ -38,8 +38,7 @@ pub(super) fn heading(app: &App, areas: &Areas) -> Line<'static> {
     };
     // As many words as there is room for, beside the key at the right.
     let room = usize::from(areas.map.width).saturating_sub(line.width() + 5);
-    let fits = |note: &&&str| note.chars().count() <= room;
-    let note = notes.iter().find(fits).copied().unwrap_or_default();
+    let note = fitting(notes.iter().copied(), room).unwrap_or_default();
     line.push_span(theme.span(note, Role::Dim));
     line
 }

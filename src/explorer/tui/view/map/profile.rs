@@ -1,15 +1,16 @@
-//! The map of the profile: [`SurfaceProfile`] in half blocks, characters or a page's pixels.
+//! The map of the profile: [`SurfaceProfile`] in half blocks, characters or the terminal's own pixels.
 
-use ratatui::layout::{Rect, Size};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 
-use super::paint::MapMark;
-use super::white_mark;
+use super::paint::{MapMark, half_blocks, letters, mark};
 use crate::tui::app::{App, Zoom};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
-use crate::tui::view::point;
-use crate::tui::view::sheet::{Sheet, with_columns, with_rows};
+use crate::tui::view::chart::Plot;
+use crate::tui::view::place::{columns_from, fitting, put, put_middle, put_right};
+use crate::tui::view::{place, point};
 use asperity_engine::sim::Frame;
 use asperity_picture::profile::{Matter, ProfileColumn, ProfileScale, SurfaceProfile};
 
@@ -59,19 +60,10 @@ pub(super) fn rooms(inner: Rect) -> (Rect, Option<Rect>) {
     } else {
         rows
     };
-    let profile = Rect {
-        x: inner.x + LEFT,
-        width: inner.width.saturating_sub(LEFT),
-        height: above,
-        ..inner
-    };
-    let below = with_rows(
-        profile,
-        profile.bottom() + 1,
-        rows.saturating_sub(above + 2),
-    );
+    let drawn = columns_from(inner, LEFT);
+    let below = place::rows(drawn, above + 1, rows.saturating_sub(above + 2));
     let trace = (below.height >= 3).then_some(below);
-    (profile, trace)
+    (place::rows(drawn, 0, above), trace)
 }
 
 /// Both surfaces with the oil between them, and below them the trace of the point that rides on one.
@@ -79,52 +71,35 @@ pub(super) fn side_view(
     app: &App,
     frame: &Frame,
     inner: Rect,
-    sheet: &mut Sheet<'_>,
+    buffer: &mut Buffer,
 ) -> Option<PixelPlot> {
     let profile = of(app, frame)?;
     let (area, below) = rooms(inner);
-    draw(app, &profile, frame, area, inner, sheet);
-    point::draw(app, frame, below?, profile.x, sheet)
+    draw(app, &profile, area, buffer);
+    if let Some(part) = point_part(app, &profile, frame).filter(|_| !app.is_in_pixels()) {
+        mark(app.view.theme, area, part, "◆", buffer);
+    }
+    point::over(app, below?, profile.x, buffer)
 }
 
-/// Draws the profile, where it is not left to a page's pixels, and its numbers.
-fn draw(
-    app: &App,
-    profile: &SurfaceProfile,
-    frame: &Frame,
-    area: Rect,
-    inner: Rect,
-    sheet: &mut Sheet<'_>,
-) {
+/// Draws the profile, where it is not left to the terminal's own pixels, and its numbers.
+fn draw(app: &App, profile: &SurfaceProfile, area: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
-    let rows = usize::from(area.height) * if theme.paints() { 2 } else { 1 };
-    let columns = if app.is_in_pixels() {
-        Vec::new()
-    } else {
-        profile.columns(usize::from(area.width)).collect()
-    };
-    for (x, column) in (area.x..).zip(&columns) {
-        for row in 0..area.height {
-            let Some(cell) = sheet.buffer.cell_mut((x, area.y + row)) else {
-                continue;
-            };
-            let row = usize::from(row);
-            if theme.paints() {
-                let color = |row: usize| theme.rgb(profile.rgb(profile.at(column, row, rows)));
-                cell.set_symbol("▀")
-                    .set_fg(color(2 * row))
-                    .set_bg(color(2 * row + 1));
-            } else {
-                cell.set_symbol(letter(profile.at(column, row, rows)));
-            }
-        }
+    numbers(app, profile, area, buffer);
+    if app.is_in_pixels() {
+        return;
     }
-    numbers(app, profile, area, inner, sheet);
-    if !app.is_in_pixels()
-        && let Some(part) = point_part(app, profile, frame)
-    {
-        white_mark(area, part, "◆", sheet);
+    let columns: Vec<ProfileColumn> = profile.columns(usize::from(area.width)).collect();
+    let rows = usize::from(area.height);
+    if theme.paints() {
+        half_blocks(area, buffer, |column, row| {
+            theme.rgb(profile.rgb(profile.at(&columns[column], row, 2 * rows)))
+        });
+        return;
     }
+    letters(area, buffer, |column, row| {
+        letter(profile.at(&columns[column], row, rows))
+    });
 }
 
 /// The followed point, riding on its body: parts of the picture along and down.
@@ -140,58 +115,60 @@ fn point_part(app: &App, profile: &SurfaceProfile, frame: &Frame) -> Option<[f64
 }
 
 /// Heights at the left, x/a and what is what below.
-fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, sheet: &mut Sheet<'_>) {
+fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
     let unit = app.view.units.film();
-    let left = with_columns(area, inner.x, area.x - inner.x - 1);
-    let last = area.height.saturating_sub(1);
-    let height = |value: f64| theme.line(tick(unit.of(value)), Role::Dim);
-    sheet.line_right(left, 0, &height(profile.half_m()));
-    sheet.line_right(left, last, &height(-profile.half_m()));
-    if area.height >= 5 {
-        sheet.text_right(left, 1, unit.name, Role::Dim);
-        sheet.text_right(left, area.height / 2, "0", Role::Dim);
-    }
-    let foot = with_rows(area, area.bottom(), 1);
-    let [from, to] = profile.x.map(|x| format!("{} a", sig(x, 2)));
-    sheet.text(foot, 0, &from, Role::Dim);
-    sheet.text_right(foot, 0, to, Role::Dim);
+    let y = [-profile.half_m(), profile.half_m()];
+    let plot = Plot {
+        area,
+        x: profile.x,
+        y,
+    };
+    plot.y_ends(
+        theme,
+        &y.map(|height| tick(unit.of(height))),
+        unit.name,
+        buffer,
+    );
+    let foot = Rect {
+        y: area.bottom(),
+        height: 1,
+        ..area
+    };
+    let [from, to] = profile
+        .x
+        .map(|x| theme.line(format!("{} a", sig(x, 2)), Role::Dim));
+    put(foot, 0, &from, buffer);
+    put_right(foot, 0, &to, buffer);
     let words = if theme.paints() {
         [
-            "body 2 above, body 1 below, lit by their stress; oil by its pressure; cyan: asperity contact",
+            "body 2 above, body 1 below, lit by their stress; oil by its pressure; cyan: contact",
             "bodies by stress, oil by pressure; cyan: contact",
             "cyan: contact",
         ]
     } else {
         [
-            "+ body 2 above, : body 1 below, oil between them; # asperity contact",
+            "+ body 2 above, : body 1 below, oil between them; # contact",
             "+ body 2, : body 1; # contact",
             "# contact",
         ]
     };
-    let room = usize::from(foot.width).saturating_sub(16);
-    if let Some(words) = words.iter().find(|words| words.len() <= room) {
-        let start = (usize::from(foot.width) - words.len()) / 2;
-        let middle = with_columns(foot, foot.x + start as u16, words.len() as u16);
-        sheet.text(middle, 0, *words, Role::Dim);
+    if let Some(words) = fitting(words, usize::from(foot.width).saturating_sub(16)) {
+        put_middle(foot, 0, &theme.line(words, Role::Dim), buffer);
     }
 }
 
-/// The profile with the followed point in a page's pixels, so many for a cell.
-pub(super) fn in_pixels(app: &App, frame: &Frame, area: Rect, cell: Size) -> Option<Bitmap> {
+/// The profile with the followed point in the terminal's own pixels, so many for a cell.
+pub(super) fn in_pixels(app: &App, frame: &Frame, area: Rect, cell: (u16, u16)) -> Option<Bitmap> {
     let profile = of(app, frame)?;
-    let mut picture = Bitmap::blank(area, cell);
-    let (width, height) = (picture.width, picture.height);
+    let (width, height) = Bitmap::size(area, cell);
     let columns: Vec<ProfileColumn> = profile.columns(width).collect();
-    picture.rgba = (0..height)
-        .flat_map(|row| columns.iter().map(move |column| (column, row)))
-        .flat_map(|(column, row)| {
-            let [r, g, b] = profile.rgb(profile.at(column, row, height));
-            [r, g, b, 255]
-        })
-        .collect();
+    let mut picture = Bitmap::of(area, cell, |column, row| {
+        let [r, g, b] = profile.rgb(profile.at(&columns[column], row, height));
+        [r, g, b, 255]
+    });
     if let Some(part) = point_part(app, &profile, frame) {
-        MapMark::Diamond.draw(&mut picture, part, 0.6 * f64::from(cell.width));
+        MapMark::Diamond.draw(&mut picture, part, 0.6 * f64::from(cell.0));
     }
     Some(picture)
 }

@@ -18,17 +18,17 @@ pub(super) struct MapWindow {
 }
 
 impl MapWindow {
-    /// Parts of the width and height (0 to 1) at which a place is; `None`: outside.
-    pub(super) fn part(&self, x: f64, y: f64) -> Option<[f64; 2]> {
-        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
-        let parts = [part(x, self.x), part(y, self.y)];
-        let is_inside = parts.iter().all(|part| (0.0..1.0).contains(part));
-        is_inside.then_some(parts)
-    }
-
     /// x at a part (0 to 1) of the width.
     pub(super) fn x_at(&self, part: f64) -> f64 {
         self.x[0] + (self.x[1] - self.x[0]) * part
+    }
+
+    /// Parts of the width and of the height from the left upper corner; `None` outside.
+    pub(super) fn part(&self, x: f64, y: f64) -> Option<[f64; 2]> {
+        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
+        let parts = [part(x, self.x), part(y, self.y)];
+        let inside = parts.iter().all(|part| (0.0..1.0).contains(part));
+        inside.then_some(parts)
     }
 
     /// y (or depth) at a part of the height.
@@ -112,8 +112,7 @@ impl PixelSpan {
 pub(super) fn rasterize(
     picture: &Picture,
     window: &MapWindow,
-    columns: usize,
-    rows: usize,
+    (columns, rows): (usize, usize),
 ) -> Option<Raster> {
     let (kind, [a_m, b_m]) = picture.hertz;
     let half_m = if picture.is_below { a_m } else { b_m };
@@ -129,7 +128,7 @@ pub(super) fn rasterize(
         }
     }
     let spots = if picture.look.marks_contact {
-        touching(picture, &along, &down)
+        contacts(picture, &along, &down)
     } else {
         Vec::new()
     };
@@ -147,8 +146,7 @@ pub(super) fn rasterize(
 pub(super) fn rasterize_lines<'a>(
     picture: &Picture,
     window: &MapWindow,
-    columns: usize,
-    rows: usize,
+    (columns, rows): (usize, usize),
     line: impl Fn(f64) -> Option<CentreValues<'a>>,
 ) -> Option<Raster> {
     let along = along(picture, window, columns)?;
@@ -268,8 +266,8 @@ fn over(span: &PixelSpan, at: impl Fn(usize) -> f32) -> f32 {
     }
 }
 
-/// Which pixels touch.
-fn touching(picture: &Picture, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
+/// Which pixels hold asperity contact.
+fn contacts(picture: &Picture, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
     let rows = down.iter().flat_map(|vertical| {
         along.iter().map(move |horizontal| {
             vertical
@@ -317,7 +315,7 @@ mod tests {
         let frame = ramp();
         let picture = Picture::of(&frame, Subject::Pressure, &Ranges::default()).unwrap();
         for columns in [3, 8, 9, 40] {
-            let raster = rasterize(&picture, &ALL, columns, 4).unwrap();
+            let raster = rasterize(&picture, &ALL, (columns, 4)).unwrap();
             for column in 0..columns {
                 let centre = ALL.x_at((column as f64 + 0.5) / columns as f64) as f32;
                 // Means over nodes are off by at most half a node.
@@ -333,7 +331,7 @@ mod tests {
         frame.contact[2 * 9 + 4] = 1;
         for columns in [2, 3, 5, 9, 30] {
             let picture = Picture::of(&frame, Subject::Contact, &Ranges::default()).unwrap();
-            let raster = rasterize(&picture, &ALL, columns, 3).unwrap();
+            let raster = rasterize(&picture, &ALL, (columns, 3)).unwrap();
             let seen = (0..columns).any(|column| (0..3).any(|row| raster.spot(column, row)));
             assert!(seen, "{columns}");
         }

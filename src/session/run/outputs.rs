@@ -1,4 +1,4 @@
-//! An observer in a run: how often it gets a frame, whether it is switched on, what became of it.
+//! The outputs of a run: how often each gets a frame, whether it is switched on, what became of it.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -90,7 +90,7 @@ impl Watcher {
         self.switch.clone()
     }
 
-    pub(super) fn status(&self) -> WatcherStatus {
+    fn status(&self) -> WatcherStatus {
         let mut status = self.status.clone();
         status.skipped = self.observer.skipped();
         status.frames = self.observer.kept().unwrap_or(status.frames);
@@ -100,12 +100,12 @@ impl Watcher {
         status
     }
 
-    pub(super) fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
+    fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
         let begun = self.observer.begin(context);
         self.judge(begun)
     }
 
-    pub(super) fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
         let is_due = frame.step.is_multiple_of(self.every_steps);
         if !is_due || !self.switch.is_on() || self.has_failed() {
             return Ok(());
@@ -115,7 +115,7 @@ impl Watcher {
         self.judge(written)
     }
 
-    pub(super) fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
         if self.has_failed() {
             return Ok(());
         }
@@ -124,7 +124,7 @@ impl Watcher {
     }
 
     /// Closes the output; one that failed before has said so already.
-    pub(super) fn finish(&mut self) -> Result<Option<ObserverReport>, ObserveError> {
+    fn finish(&mut self) -> Result<Option<ObserverReport>, ObserveError> {
         let had_failed = self.has_failed();
         match self.observer.finish() {
             Ok(report) => Ok(Some(report)),
@@ -142,5 +142,55 @@ impl Watcher {
             self.status.activity = Activity::Failed;
         }
         result
+    }
+}
+
+/// All outputs of a run, and what went wrong with them.
+#[derive(Debug)]
+pub(super) struct Outputs {
+    watchers: Vec<Watcher>,
+    pub(super) errors: Vec<ObserveError>,
+}
+
+impl Outputs {
+    pub(super) fn new(watchers: Vec<Watcher>) -> Self {
+        Self {
+            watchers,
+            errors: Vec::new(),
+        }
+    }
+
+    pub(super) fn begin(&mut self, context: &RunContext) {
+        self.each(|watcher| watcher.begin(context));
+    }
+
+    pub(super) fn frame(&mut self, frame: &Arc<Frame>) {
+        self.each(|watcher| watcher.frame(frame));
+    }
+
+    pub(super) fn event(&mut self, event: &RunEvent) {
+        self.each(|watcher| watcher.event(event));
+    }
+
+    fn each(&mut self, call: impl Fn(&mut Watcher) -> Result<(), ObserveError>) {
+        for watcher in &mut self.watchers {
+            self.errors.extend(call(watcher).err());
+        }
+    }
+
+    pub(super) fn statuses(&self) -> impl Iterator<Item = WatcherStatus> {
+        self.watchers.iter().map(Watcher::status)
+    }
+
+    /// Closes all of them.
+    pub(super) fn finish(&mut self) -> Vec<ObserverReport> {
+        let mut reports = Vec::new();
+        for watcher in &mut self.watchers {
+            match watcher.finish() {
+                Ok(report) => reports.extend(report),
+                Err(error) => self.errors.push(error),
+            }
+        }
+        reports
     }
 }
