@@ -157,7 +157,7 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
         if knob.is_load()
             && let Ok(plan) = Plan::new(scene)
         {
-            dial.max = dial.max.min(plan.most_force_n());
+            dial.max = dial.max.min(plan.maximum_force_n());
             let (min, max) = (dial.min, dial.max);
             dial.typical
                 .retain(|(value, _)| (min..=max).contains(value));
