@@ -93,7 +93,7 @@ fn a_warm_step_allocates_nothing() {
     // A restored simulation has its room again.
     let mut again = warm(1, &[]);
     let state = again.save();
-    again.restore(state).unwrap();
+    again.restore(&state).unwrap();
     let n = calls(&mut again, steps, |_, _| {});
     println!("restored: {n} calls");
     assert_eq!(n, 0);
@@ -143,11 +143,11 @@ fn a_session_that_has_ended_holds_nothing() {
             ending: Ending::OnStop,
         })
         .unwrap();
-        while session.status().steps < 3 {
+        while session.handle.status().steps < 3 {
             assert!(!session.is_finished());
             std::thread::sleep(Duration::from_millis(1));
         }
-        session.send(Command::Stop);
+        session.handle.send(Command::Stop);
         let outcome = session.join().unwrap();
         assert!(outcome.checkpoint.is_some());
         drop(outcome);

@@ -11,7 +11,7 @@
 //! business on a machine that others use, which is why this is a bench.
 #![expect(clippy::unwrap_used, reason = "a bench, which may end in a panic")]
 
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::num::NonZero;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,8 +22,9 @@ use asperity_engine::scene::{Scene, presets};
 use asperity_engine::sim::Stage;
 use asperity_explorer::tui::app::App;
 use asperity_explorer::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-use asperity_explorer::tui::{RunStatus, Setup, TerminalLine, view};
+use asperity_explorer::tui::{RunStatus, Setup, view};
 use asperity_session::run::{Command, Ending, Request, Session};
+use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Rect;
 use ratatui::{Terminal, TerminalOptions, Viewport};
 
@@ -53,7 +54,7 @@ impl Write for Sink {
 struct Show {
     session: Session,
     app: App,
-    terminal: Terminal<TerminalLine<Sink>>,
+    terminal: Terminal<CrosstermBackend<BufWriter<Sink>>>,
     bytes: Arc<AtomicUsize>,
     start: Instant,
     drawings: u32,
@@ -90,11 +91,11 @@ impl Show {
             viewport: Viewport::Fixed(screen),
         };
         let bytes = Arc::default();
-        let line = TerminalLine::new(Sink(Arc::clone(&bytes)), screen.as_size());
+        let out = BufWriter::with_capacity(1 << 18, Sink(Arc::clone(&bytes)));
         Self {
             session: Session::start(request).unwrap(),
             app: App::new(setup, Vec::new(), theme),
-            terminal: Terminal::with_options(line, options).unwrap(),
+            terminal: Terminal::with_options(CrosstermBackend::new(out), options).unwrap(),
             bytes,
             start: Instant::now(),
             drawings: 0,
@@ -107,7 +108,7 @@ impl Show {
         let began = Instant::now();
         self.app.tick(self.start.elapsed());
         self.app.take_status(RunStatus::default());
-        let frames = self.session.latest();
+        let frames = self.session.handle.latest();
         if let Some(frame) = frames.take() {
             let mut points = Vec::new();
             frames.take_points(&mut points);
@@ -124,9 +125,9 @@ impl Show {
 
     /// Waits for a step to end: when, and how many there are.
     fn step_end(&self) -> (Instant, u64) {
-        let before = self.session.status().steps;
+        let before = self.session.handle.status().steps;
         loop {
-            let steps = self.session.status().steps;
+            let steps = self.session.handle.status().steps;
             if steps > before {
                 return (Instant::now(), steps);
             }
@@ -151,7 +152,7 @@ impl Show {
 
 fn measure(screen: Rect) {
     let mut show = Show::new(screen);
-    while show.session.status().stage == Stage::StartUp {
+    while show.session.handle.status().stage == Stage::StartUp {
         std::thread::sleep(FRAME_TIME);
     }
     let mut ratios = Vec::new();
@@ -163,7 +164,7 @@ fn measure(screen: Rect) {
         sums = [sums[0] + with, sums[1] + without];
         ratios.push(with / without);
     }
-    show.session.send(Command::Stop);
+    show.session.handle.send(Command::Stop);
     ratios.sort_by(f64::total_cmp);
     let Rect { width, height, .. } = screen;
     let drawings = f64::from(show.drawings.max(1));

@@ -119,7 +119,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     std::fs::remove_file(cases.join("0000003.json")).unwrap();
     std::fs::write(
         place.join("chains").join("0000000-0000002.state"),
-        "asperity state 3 0\n{}",
+        "asperity state 4 0\n{}",
     )
     .unwrap();
     assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 4);
@@ -344,7 +344,7 @@ fn hostile_files_are_refused_by_key_value_and_range() {
         ),
         (
             "[chain]\npassages = nan\n[vary]\nmotion.slide_roll = [1.0]",
-            &["chain.passages", "0.25 to 1e4"],
+            &["chain.passages", "0.25 to 10000"],
         ),
         (
             "[gear]\nteeth = [16, 24]\n[vary]\nmotion.slide_roll = [1.0]",

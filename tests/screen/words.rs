@@ -64,7 +64,7 @@ fn a_long_message_is_whole_on_every_screen() {
 
 #[test]
 fn the_light_contrast_brings_its_own_paper() {
-    for depth in [ColorDepth::True, ColorDepth::Indexed, ColorDepth::Basic] {
+    for depth in [ColorDepth::True, ColorDepth::Indexed] {
         let mut light = theme(depth, Glyphs::Unicode);
         light.contrast = Contrast::Light;
         for app in [app(light), running(light)] {
@@ -153,7 +153,7 @@ fn what_a_standing_body_means_follows_the_count() {
     }
 }
 
-/// A factor of 28 between the choices of count and integral is no small print.
+/// A factor of 28 between the choices of count is no small print.
 #[test]
 fn the_range_of_the_choices_is_on_the_screen() {
     let mut app = running(plain());

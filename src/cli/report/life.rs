@@ -76,13 +76,8 @@ fn add_models(lines: &mut Lines, s: &Summary) {
     let spread = s.life_models_low.zip(s.life_models_high);
     if let (Some((low, high)), Some(count @ 2..)) = (spread, s.life_models) {
         let (low, high) = (four(low), four(high));
-        let what =
-            format!("{low} to {high} over {count} choices of cycle basis, integral and model");
+        let what = format!("{low} to {high} over {count} choices of cycle basis and model");
         lines.add("model spread", what);
-    }
-    if let (Some(snapshot), Some(swept)) = (s.life_snapshot, s.life_swept) {
-        let what = format!("snapshot {}, swept {} (bound)", four(snapshot), four(swept));
-        lines.add("integrals", what);
     }
 }
 

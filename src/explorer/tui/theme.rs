@@ -7,6 +7,7 @@
 mod ramp;
 
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
 
 use asperity_picture::Ramp;
 use ramp::{map_index, nearest_index};
@@ -18,8 +19,6 @@ pub enum ColorDepth {
     True,
     /// 256 colours.
     Indexed,
-    /// The 16 colours of the terminal's own palette.
-    Basic,
     /// None: weight and shape only.
     Mono,
 }
@@ -80,34 +79,27 @@ impl Capabilities {
         } else {
             Glyphs::Unicode
         };
+        let (colors, program) = (filled("COLORTERM"), filled("TERM_PROGRAM"));
         let depth = if filled("NO_COLOR").is_some() || term == "dumb" {
             ColorDepth::Mono
         } else {
-            depth_of(
-                &term,
-                filled("COLORTERM").as_deref(),
-                filled("TERM_PROGRAM").as_deref(),
-            )
+            depth_of(&term, colors.as_deref(), program.as_deref())
         };
         Self { depth, glyphs }
     }
 }
 
+/// 24 bits where the terminal says so or is known for it; 256 colours are known to all others, which bring them to their own.
 fn depth_of(term: &str, colorterm: Option<&str>, program: Option<&str>) -> ColorDepth {
-    let declared = matches!(colorterm, Some("truecolor" | "24bit"));
-    let known = ["kitty", "alacritty", "ghostty", "wezterm", "foot", "direct"]
-        .iter()
-        .any(|name| term.contains(name));
-    let hosted = matches!(
-        program,
-        Some("iTerm.app" | "WezTerm" | "ghostty" | "vscode")
-    );
-    if declared || known || hosted {
+    const NAMES: [&str; 6] = ["kitty", "alacritty", "ghostty", "wezterm", "foot", "direct"];
+    const PROGRAMS: [&str; 4] = ["iTerm.app", "WezTerm", "ghostty", "vscode"];
+    let is_declared = matches!(colorterm, Some("truecolor" | "24bit"));
+    let is_known = NAMES.iter().any(|name| term.contains(name));
+    let is_hosted = program.is_some_and(|program| PROGRAMS.contains(&program));
+    if is_declared || is_known || is_hosted {
         ColorDepth::True
-    } else if term.contains("256color") {
-        ColorDepth::Indexed
     } else {
-        ColorDepth::Basic
+        ColorDepth::Indexed
     }
 }
 
@@ -197,15 +189,32 @@ impl Theme {
     /// would not be read.
     pub fn page(self) -> Option<Style> {
         let light = self.contrast == Contrast::Light && !self.is_mono();
-        light.then(|| match self.capabilities.depth {
-            ColorDepth::Basic => Style::new().bg(Color::White).fg(Color::Black),
-            _ => Style::new().bg(self.rgb(PAPER)).fg(self.rgb(INK)),
-        })
+        light.then(|| Style::new().bg(self.rgb(PAPER)).fg(self.rgb(INK)))
     }
 
     /// `unicode`, or `ascii` where only that may be drawn.
     pub fn pick(self, unicode: &'static str, ascii: &'static str) -> &'static str {
         if self.is_ascii() { ascii } else { unicode }
+    }
+
+    /// Words as they are, in ASCII where only that may be drawn.
+    pub(crate) fn words(self, text: impl AsRef<str>) -> String {
+        let text = text.as_ref();
+        if self.is_ascii() {
+            in_ascii(text)
+        } else {
+            text.to_owned()
+        }
+    }
+
+    /// Words in the look of a role, as a part of a line.
+    pub(crate) fn span(self, text: impl AsRef<str>, role: Role) -> Span<'static> {
+        Span::styled(self.words(text), self.style(role))
+    }
+
+    /// Words in the look of a role, as a line.
+    pub(crate) fn line(self, text: impl AsRef<str>, role: Role) -> Line<'static> {
+        Line::styled(self.words(text), self.style(role))
     }
 
     /// Whether maps are drawn in half blocks of colour (else in characters of growing ink).
@@ -251,15 +260,13 @@ impl Theme {
         match self.capabilities.depth {
             ColorDepth::True => Color::Rgb(r, g, b),
             ColorDepth::Indexed => Color::Indexed(nearest_index([r, g, b])),
-            ColorDepth::Basic | ColorDepth::Mono => Color::Reset,
+            ColorDepth::Mono => Color::Reset,
         }
     }
 
     fn role_color(self, role: Role) -> Option<Color> {
         match self.capabilities.depth {
             ColorDepth::Mono => None,
-            ColorDepth::Basic if self.contrast == Contrast::Light => Some(basic_on_white(role)),
-            ColorDepth::Basic => Some(basic(role)),
             ColorDepth::True | ColorDepth::Indexed => {
                 let rgb = match (role, self.contrast) {
                     (Role::Text | Role::Strong | Role::Title, Contrast::Light) => INK,
@@ -271,8 +278,9 @@ impl Theme {
                     (Role::Title, _) | (Role::Dim | Role::Border, Contrast::High) => {
                         return Some(Color::Reset);
                     }
-                    (other, Contrast::Light) => darkened(okabe_ito(other)),
-                    (other, _) => okabe_ito(other),
+                    // The same hue for a light background.
+                    (_, Contrast::Light) => okabe_ito(role).map(|c| (f32::from(c) * 0.55) as u8),
+                    _ => okabe_ito(role),
                 };
                 Some(self.rgb(rgb))
             }
@@ -280,14 +288,41 @@ impl Theme {
     }
 }
 
+/// What only Unicode terminals show, in letters for those that do not.
+fn in_ascii(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '∞' => plain.push_str("inf"),
+            'λ' => plain.push_str("lambda"),
+            'ζ' => plain.push_str("zeta"),
+            'µ' | 'μ' => plain.push('u'),
+            'σ' => plain.push_str("sigma"),
+            'τ' => plain.push_str("tau"),
+            '₁' => plain.push('1'),
+            '₂' => plain.push('2'),
+            '×' => plain.push('x'),
+            '→' => plain.push_str("->"),
+            '–' | '−' => plain.push('-'),
+            '≈' => plain.push('~'),
+            '≥' => plain.push_str(">="),
+            '≤' => plain.push_str("<="),
+            '±' => plain.push_str("+-"),
+            '·' => plain.push('.'),
+            '…' => plain.push_str("..."),
+            '⏎' => plain.push_str("CR"),
+            '◂' => plain.push('<'),
+            '▸' => plain.push('>'),
+            other if other.is_ascii() => plain.push(other),
+            _ => plain.push('?'),
+        }
+    }
+    plain
+}
+
 /// Of the light contrast.
 const PAPER: [u8; 3] = [250, 250, 247];
 const INK: [u8; 3] = [24, 26, 32];
-
-/// The same hue for a light background.
-fn darkened(rgb: [u8; 3]) -> [u8; 3] {
-    rgb.map(|c| (f32::from(c) * 0.55) as u8)
-}
 
 fn weight(role: Role) -> Modifier {
     match role {
@@ -297,6 +332,7 @@ fn weight(role: Role) -> Modifier {
     }
 }
 
+/// Of Okabe & Ito, made lighter for a dark background.
 fn okabe_ito(role: Role) -> [u8; 3] {
     match role {
         Role::Text | Role::Strong | Role::Title | Role::Dim | Role::Border => [222, 226, 235],
@@ -308,32 +344,6 @@ fn okabe_ito(role: Role) -> [u8; 3] {
         Role::Cycles => [230, 170, 20],
         Role::Traction | Role::Good => [20, 176, 130],
         Role::Bad => [255, 82, 82],
-    }
-}
-
-fn basic(role: Role) -> Color {
-    match role {
-        Role::Text | Role::Strong | Role::Title => Color::Reset,
-        Role::Dim | Role::Border | Role::Hertz => Color::DarkGray,
-        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Yellow,
-        Role::Body2 | Role::Shear => Color::Magenta,
-        Role::Pressure | Role::Peaks => Color::LightRed,
-        Role::Film | Role::Formula => Color::Cyan,
-        Role::Traction | Role::Good => Color::Green,
-        Role::Bad => Color::Red,
-    }
-}
-
-/// The dark ones of the sixteen.
-fn basic_on_white(role: Role) -> Color {
-    match role {
-        Role::Text | Role::Strong | Role::Title => Color::Black,
-        Role::Dim | Role::Border | Role::Hertz => Color::DarkGray,
-        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Blue,
-        Role::Body2 | Role::Shear => Color::Magenta,
-        Role::Pressure | Role::Peaks | Role::Bad => Color::Red,
-        Role::Film | Role::Formula => Color::Cyan,
-        Role::Traction | Role::Good => Color::Green,
     }
 }
 
@@ -358,7 +368,7 @@ mod tests {
             from(&[("TERM", "tmux-256color")]).depth,
             ColorDepth::Indexed
         );
-        assert_eq!(from(&[("TERM", "linux")]).depth, ColorDepth::Basic);
+        assert_eq!(from(&[("TERM", "linux")]).depth, ColorDepth::Indexed);
         let none = from(&[("TERM", "xterm-256color"), ("NO_COLOR", "1")]);
         assert_eq!(none.depth, ColorDepth::Mono);
         // An empty NO_COLOR counts as unset (no-color.org).

@@ -1,14 +1,15 @@
 //! The keys of the last line: what can be done now.
 
 use ratatui::layout::{Position, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, ErrandKind, Overlay, PanelKind, RunPace};
 use crate::tui::choice::Form;
 use crate::tui::theme::Role;
 use crate::tui::units::bytes;
-use crate::tui::view::{Areas, ascii_text};
+use crate::tui::view::areas::Areas;
+use crate::tui::view::place::{columns, rows_from};
 use crate::tui::wiring::RecorderActivity;
 
 /// A key of the last line: what it is called, and what it asks for.
@@ -34,7 +35,7 @@ impl FooterKey {
 pub(super) fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
     let mut hints = hints(app);
     let taken: usize = hints.iter().map(FooterKey::width).sum();
-    if !app.setup.left_out.is_empty() && app.typing.is_none() {
+    if !app.run.setup.left_out.is_empty() && app.choice.typing.is_none() {
         let free = usize::from(room.width).saturating_sub(taken);
         hints.push(FooterKey::new("i", &left_out(app, free), Action::Plan));
     }
@@ -51,12 +52,8 @@ pub(super) fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
 /// A press on a key of the last line is that key.
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let recorder = recorder(app).width() as u16 + 1;
-    let room = Rect {
-        y: areas.status.bottom().saturating_sub(1),
-        height: 1,
-        width: areas.status.width.saturating_sub(recorder),
-        ..areas.status
-    };
+    let last = rows_from(areas.status, areas.status.height.saturating_sub(1));
+    let room = columns(last, 0, last.width.saturating_sub(recorder));
     if app.message().is_some() || !room.contains(at) {
         return None;
     }
@@ -71,9 +68,12 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 
 /// What the plan leaves out: all of it where it fits, else how much.
 fn left_out(app: &App, room: usize) -> String {
-    let left_out = &app.setup.left_out;
+    let left_out = &app.run.setup.left_out;
     let stages: Vec<&str> = left_out.iter().map(|left| left.stage).collect();
-    let all = ascii_text(app.theme, &format!("not computed: {}", stages.join(", ")));
+    let all = app
+        .view
+        .theme
+        .words(&format!("not computed: {}", stages.join(", ")));
     if all.chars().count() + 4 <= room {
         all
     } else {
@@ -84,22 +84,22 @@ fn left_out(app: &App, room: usize) -> String {
 /// What can be done now: by what is open, asked, typed or large, and then by the panel that the keys speak of.
 fn hints(app: &App) -> Vec<FooterKey> {
     let key = FooterKey::new;
-    let enter = app.theme.pick("⏎", "Enter");
+    let enter = app.view.theme.pick("⏎", "Enter");
     if app.is_typing() {
-        return vec![
-            key(enter, "set", Action::Enter),
-            key("Esc", "leave it", Action::Close),
-        ];
+        let leave = key("Esc", "leave it", Action::Close);
+        return vec![key(enter, "set", Action::Enter), leave];
     }
-    match app.overlay {
+    match app.view.overlay {
         Overlay::Lessons => {
-            return vec![
-                key(enter, "begin", Action::Enter),
-                key("t", "close", Action::Lessons),
-            ];
+            let close = key("t", "close", Action::Lessons);
+            return vec![key(enter, "begin", Action::Enter), close];
         }
         Overlay::Scene => {
-            let is_point = app.draft.as_ref().is_some_and(|d| d.form == Form::Point);
+            let is_point = app
+                .choice
+                .draft
+                .as_ref()
+                .is_some_and(|d| d.form == Form::Point);
             let (own, other) = (key("e", "scene", Action::Scene), Action::OperatingPoint);
             let other = key("E", "operating point", other);
             return vec![
@@ -112,29 +112,26 @@ fn hints(app: &App) -> Vec<FooterKey> {
         Overlay::Help | Overlay::Plan => return vec![key("Esc", "close", Action::Close)],
         Overlay::None => {}
     }
-    let mut hints = vec![
-        key("?", "keys", Action::Help),
-        key("q", "quit", Action::Quit),
-    ];
-    if app.tour.is_some() {
+    let quit = key("q", "quit", Action::Quit);
+    let mut hints = vec![key("?", "keys", Action::Help), quit];
+    if app.lesson.tour.is_some() {
         hints.push(key("n", "go on", Action::NextBeat));
         hints.push(key("N", "back", Action::PreviousBeat));
         hints.push(key("T", "end lesson", Action::EndTour));
     }
-    if app.enlarged.is_some() {
+    if app.view.enlarged.is_some() {
         hints.push(key("Esc", "all panels", Action::Close));
     }
-    let pause = match (&app.replay, app.pace) {
+    let pause = match (&app.replay.playing, app.run.pace) {
         (Some(_), _) => key("o", "live", Action::Replay),
         (None, RunPace::Paused) => key("space", "go on", Action::TogglePause),
         (None, RunPace::Running) => key("space", "pause", Action::TogglePause),
     };
-    let pin = if app.pinned.is_some() {
-        "release"
-    } else {
-        "freeze"
+    let pin = match app.view.pinned {
+        Some(_) => "release",
+        None => "freeze",
     };
-    let own = match app.focus {
+    let own = match app.view.focus {
         PanelKind::Knobs => key("=", "type", Action::Type),
         PanelKind::Map => key("m", "map", Action::NextMap),
         PanelKind::CentreLine => key("z", "zoom", Action::Zoom),
@@ -142,7 +139,7 @@ fn hints(app: &App) -> Vec<FooterKey> {
         PanelKind::Point => key("p", "trace", Action::PointQuantity),
     };
     hints.extend([pause, key("b", pin, Action::Pin), own]);
-    if app.tour.is_none() {
+    if app.lesson.tour.is_none() {
         hints.push(key("t", "lessons", Action::Lessons));
         hints.push(key("e", "scene", Action::Scene));
     }
@@ -153,10 +150,9 @@ fn hints(app: &App) -> Vec<FooterKey> {
 }
 
 pub(super) fn recorder(app: &App) -> Line<'static> {
-    let theme = app.theme;
-    let dim = theme.style(Role::Dim);
-    let Some(recorder) = &app.status.recorder else {
-        return Line::styled("not recording ", dim);
+    let theme = app.view.theme;
+    let Some(recorder) = &app.run.status.recorder else {
+        return theme.line("not recording ", Role::Dim);
     };
     let (word, role) = match recorder.activity {
         RecorderActivity::Recording => (theme.pick("● rec ", "* rec "), Role::Pressure),
@@ -167,15 +163,7 @@ pub(super) fn recorder(app: &App) -> Line<'static> {
         0 => String::new(),
         skipped => format!("{skipped} skipped "),
     };
-    Line::from(vec![
-        Span::styled(word, theme.style(role)),
-        Span::styled(
-            format!(
-                "{} {} frames {skipped}",
-                bytes(recorder.bytes),
-                recorder.frames
-            ),
-            dim,
-        ),
-    ])
+    let written = bytes(recorder.bytes);
+    let words = format!("{written} {} frames {skipped}", recorder.frames);
+    Line::from(vec![theme.span(word, role), theme.span(words, Role::Dim)])
 }

@@ -2,42 +2,31 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::app::{App, RunPace};
 use crate::tui::dial::Dial;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::place::{columns, put, put_right, whole_words};
 use crate::tui::wiring::Health;
 use asperity_engine::physics::estimate::speed_ratios;
 use asperity_engine::sim::{LubricationRegime, Stage, named};
 
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let numbers = numbers(app, area.width);
     put_right(area, 0, &numbers, buffer);
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
     let (mark, word, role) = state(app);
     let mut left = Line::from(vec![
-        Span::styled(" asperity ", theme.style(Role::Title)),
-        Span::styled(format!("{mark}{word} "), theme.style(role)),
+        theme.span(" asperity ", Role::Title),
+        theme.span(format!("{mark}{word} "), role),
     ]);
-    let title = ascii_text(theme, &title(app));
-    let title = whole_words(&title, usize::from(room).saturating_sub(left.width() + 1));
-    left.push_span(Span::styled(
-        ascii_text(theme, &title),
-        theme.style(Role::Dim),
-    ));
-    put(
-        Rect {
-            width: room,
-            ..area
-        },
-        0,
-        &left,
-        buffer,
-    );
+    let free = usize::from(room).saturating_sub(left.width() + 1);
+    let title = whole_words(&theme.words(title(app)), free);
+    left.push_span(theme.span(title, Role::Dim));
+    put(columns(area, 0, room), 0, &left, buffer);
 }
 
 /// The scene's title, which may hold numbers; where knobs are no longer what they were, by a key, the scene's script or in what
@@ -45,45 +34,25 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 fn title(app: &App) -> String {
     let away = |dial: &&Dial| (dial.target - dial.home).abs() > 1e-6 * dial.home.abs();
     let changed = app
+        .choice
         .dials
         .iter()
         .filter(|dial| away(dial) || dial.is_moving());
     let changed: Vec<&str> = changed.map(Dial::name).collect();
     if changed.is_empty() {
-        return app.setup.scene.title.clone();
+        return app.run.setup.scene.title.clone();
     }
-    format!("{}, changed: {}", app.setup.name, changed.join(", "))
-}
-
-/// As many whole words as fit, and a sign that there are more.
-fn whole_words(text: &str, room: usize) -> String {
-    if text.chars().count() <= room {
-        return text.to_owned();
-    }
-    let mut kept = String::new();
-    for word in text.split_inclusive(' ') {
-        // Three columns for the dots where there are no others.
-        if kept.chars().count() + word.trim_end().chars().count() + 3 > room {
-            break;
-        }
-        kept.push_str(word);
-    }
-    let kept = kept.trim_end_matches([' ', ',', ':']);
-    if kept.is_empty() {
-        String::new()
-    } else {
-        format!("{kept}…")
-    }
+    format!("{}, changed: {}", app.run.setup.name, changed.join(", "))
 }
 
 /// What the run does, as a shape, a word and a colour.
 fn state(app: &App) -> (&'static str, String, Role) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let (back, _) = app.rewound();
     if back > 0 {
         return (theme.pick("◀ ", "< "), format!("{back} back"), Role::Warn);
     }
-    if app.replay.is_some() && app.status.health == Health::Running {
+    if app.replay.playing.is_some() && app.run.status.health == Health::Running {
         let word = if app.replay_stands() {
             "replay, held"
         } else {
@@ -91,7 +60,7 @@ fn state(app: &App) -> (&'static str, String, Role) {
         };
         return (theme.pick("↻ ", "@ "), word.into(), Role::Good);
     }
-    match (&app.status.health, app.pace) {
+    match (&app.run.status.health, app.run.pace) {
         (Health::Failed(_), _) => (theme.pick("✖ ", "! "), "failed".into(), Role::Bad),
         (Health::Finished, _) => (theme.pick("■ ", "# "), "done".into(), Role::Good),
         (Health::Running, RunPace::Paused) => (theme.pick("‖ ", "= "), "paused".into(), Role::Warn),
@@ -105,13 +74,13 @@ fn state(app: &App) -> (&'static str, String, Role) {
 /// Columns from which specific sliding has room, too.
 const ROOMY: u16 = 76;
 
-fn numbers(app: &App, columns: u16) -> Line<'static> {
-    let theme = app.theme;
+fn numbers(app: &App, width: u16) -> Line<'static> {
+    let theme = app.view.theme;
     let Some(frame) = app.frame() else {
         return Line::default();
     };
     let metrics = &frame.metrics;
-    let p_hertz = app.units.show(const { named("p_hertz_pa") }, frame, 3);
+    let p_hertz = app.view.units.show(const { named("p_hertz_pa") }, frame, 3);
     let n = match (metrics.n_body_1, metrics.n_body_2) {
         (Some(first), Some(second)) => sig(first.max(second), 3),
         _ => theme.pick("∞", "inf").to_owned(),
@@ -122,46 +91,19 @@ fn numbers(app: &App, columns: u16) -> Line<'static> {
         sig_or_dash(metrics.lambda_ratio, 2)
     };
     let mut pairs = vec![
-        ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
-        ("p_h", p_hertz, Role::Strong),
-        ("λ", lambda, Role::Strong),
-        ("n", n, Role::Strong),
+        ("S", format!("{:.2}", metrics.slide_roll)),
+        ("p_h", p_hertz),
+        ("λ", lambda),
+        ("n", n),
     ];
-    if columns >= ROOMY {
+    if width >= ROOMY {
         let (u1, u2) = speed_ratios(metrics.slide_roll);
         let specific = [u1, u2].map(|own| sig((u2 - u1).abs() / own.abs(), 2));
-        pairs.insert(1, ("ζ", specific.join(" "), Role::Strong));
+        pairs.insert(1, ("ζ", specific.join(" ")));
     }
-    let mut spans = Vec::new();
-    for (name, value, role) in pairs {
-        spans.push(Span::styled(
-            format!("{} ", ascii_text(theme, name)),
-            theme.style(Role::Dim),
-        ));
-        spans.push(Span::styled(
-            format!("{}  ", ascii_text(theme, &value)),
-            theme.style(role),
-        ));
-    }
-    Line::from(spans)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn titles_are_cut_between_words() {
-        let title = "Two rough rollers, sliding";
-        let table = [
-            (26, title),
-            (25, "Two rough rollers…"),
-            (14, "Two rough…"),
-            (6, "Two…"),
-            (4, ""),
-        ];
-        for (room, cut) in table {
-            assert_eq!(whole_words(title, room), cut, "{room}");
-        }
-    }
+    let pairs = pairs.into_iter().flat_map(|(name, value)| {
+        let name = theme.span(format!("{name} "), Role::Dim);
+        [name, theme.span(format!("{value}  "), Role::Strong)]
+    });
+    pairs.collect()
 }
