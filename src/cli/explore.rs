@@ -208,22 +208,13 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         outputs,
     } = run;
     let recording = outputs.recording.clone();
-    let plan = &prepared.plan;
     let [status, settled, ground] = [(); 3].map(|()| session.handle.clone());
     let scene = prepared.scene.clone();
     let recorded = recording.clone();
     let shown = recording.clone();
     let name = prepared.name.clone();
     Wiring {
-        setup: Setup {
-            scene: prepared.scene.clone(),
-            name: prepared.name.clone(),
-            load_n: plan.force_n,
-            half_width_m: plan.hertz.a_m,
-            p_hertz_pa: plan.hertz.p_max_pa,
-            plan_text: plan.to_string(),
-            left_out: plan.left_out.clone(),
-        },
+        setup: Setup::of(prepared.scene.clone(), &prepared.name, &prepared.plan),
         frames: session.handle.latest(),
         commands: session.handle.commands(),
         status: Box::new(move || run_status(&status.status(), recorded.as_ref())),

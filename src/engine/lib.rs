@@ -71,11 +71,13 @@ macro_rules! dispatched {
     };
 }
 
+mod closed_set;
 pub mod files;
 pub mod math;
 pub mod observe;
 pub mod physics;
 pub mod plan;
+mod saved;
 pub mod scene;
 pub mod sim;
 pub mod solve;

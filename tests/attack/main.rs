@@ -7,7 +7,7 @@
 //! tests/attack/fuzz/fuzz.sh scene 600                                  coverage-guided, on one parser (`fuzz/runs.md`)
 //! ```
 //! `ASPERITY_PROGRAM` names another build to attack. Inputs are made from a few seeds and from `corpus/` by a generator that is seeded with the input's number, so that
-//! each can be made again. Every one is given to a process of its own, in a folder of its own, with 20 seconds and
+//! each can be made again. Every one is given to a process of its own, in a folder of its own, with a minute and
 //! 2 GB of address space.
 #![cfg(all(unix, feature = "rerun"))]
 #![expect(clippy::unwrap_used, reason = "tests")]

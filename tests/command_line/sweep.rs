@@ -86,19 +86,25 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     let root = tempfile::tempdir().unwrap();
     let (one, _) = fill(&sweep, &root.path().join("one"), Shard::WHOLE, 2);
     let single = table(&sweep, &[one]);
-    let place = root.path().join("broken");
-    let folder = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
-    // Stopped as soon as two cases are there: in the middle of a chain.
-    let progress = Progress::default();
-    std::thread::scope(|scope| {
-        scope.spawn(|| run(&sweep, &folder, Shard::WHOLE, 1, &progress).unwrap());
-        while progress.done.load(Ordering::Relaxed) < 2 {
-            std::thread::yield_now();
-        }
-        progress.stop.store(true, Ordering::Relaxed);
+    // Stopped as soon as two cases are there: in the middle of a chain. On a busy machine the rest may be made before this
+    // thread sees them: then once more.
+    let mut stopped = (0..20).map(|attempt| {
+        let place = root.path().join(format!("broken-{attempt}"));
+        let folder = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
+        let progress = Progress::default();
+        std::thread::scope(|scope| {
+            scope.spawn(|| run(&sweep, &folder, Shard::WHOLE, 1, &progress).unwrap());
+            while progress.done.load(Ordering::Relaxed) < 2 {
+                std::thread::yield_now();
+            }
+            progress.stop.store(true, Ordering::Relaxed);
+        });
+        let kept = (0..8).filter(|k| folder.read_case(*k).is_some()).count();
+        assert!(kept >= 2, "{kept}");
+        (place, folder, kept)
     });
-    let kept = (0..8).filter(|k| folder.read_case(*k).is_some()).count();
-    assert!((2..8).contains(&kept), "{kept}");
+    let stopped = stopped.find(|(_, _, kept)| *kept < 8);
+    let (place, folder, kept) = stopped.expect("a sweep that was stopped on its way");
     // What a kill in the middle of a write would leave: a temporary file, and on a bad disk half a record.
     std::fs::write(place.join("temporary-elsewhere-1-0"), "asperity case").unwrap();
     let last = place.join("cases").join(format!("{:07}.json", kept - 1));
@@ -113,7 +119,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     std::fs::remove_file(cases.join("0000003.json")).unwrap();
     std::fs::write(
         place.join("chains").join("0000000-0000002.state"),
-        "asperity state 3 0\n{}",
+        "asperity state 4 0\n{}",
     )
     .unwrap();
     assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 4);

@@ -54,7 +54,7 @@ const SETTINGS: [&[&str]; 20] = [
     &["lubricant.rheology=newtonian"],
     &["lubricant=none"],
     &["life=none"],
-    &["life.cycles=depth", "life.volume=swept"],
+    &["life.cycles=peaks"],
     &["body_2.young_pa=7e10", "body_2.poisson=0.22"],
 ];
 

@@ -72,7 +72,7 @@ fn converged_means_converged() {
         let (mut one, mut exact) = (Frame::default(), Frame::default());
         let (mut worst_p, mut worst_h) = (0.0_f64, 0.0_f64);
         for _ in 0..STEPS {
-            tight.restore(loose.save()).unwrap();
+            tight.restore(&loose.save()).unwrap();
             loose.step().unwrap();
             tight.step().unwrap();
             assert!(

@@ -60,7 +60,7 @@ fn from_the_same_start(extra: &[&str]) -> (Simulation, Vec<[f64; 2]>) {
     });
     let sets = [&SWELL[..], &["time.passages=0.6"], extra].concat();
     let mut sim = simulation(&sets);
-    sim.restore(start.clone()).unwrap();
+    sim.restore(&start).unwrap();
     let end_s = 0.6 * 4.0 * sim.summary().a_m / 2.0;
     let mut films = Vec::new();
     while sim.time_s() < end_s {
@@ -183,7 +183,7 @@ fn adaptive_steps_are_deterministic_and_go_on_from_a_saved_state() {
         first.step().unwrap();
     }
     let mut second = simulation(&sets);
-    second.restore(first.save()).unwrap();
+    second.restore(&first.save()).unwrap();
     second.count_from(*first.stats()).unwrap();
     while !second.is_done() {
         second.step().unwrap();

@@ -273,7 +273,7 @@ fn a_run_goes_on_from_what_has_yielded() {
             let saved = serde_json::to_string(&parts.save()).unwrap();
             parts = simulation("demonstration_quick", &sets);
             parts
-                .restore(serde_json::from_str(&saved).unwrap())
+                .restore(&serde_json::from_str(&saved).unwrap())
                 .unwrap();
         }
         whole.fill(&mut one);
@@ -285,7 +285,7 @@ fn a_run_goes_on_from_what_has_yielded() {
     assert!(whole.metrics().yielded_m3.unwrap()[0] > 0.0);
     // Of other bodies it is refused.
     let mut elastic = simulation("demonstration_quick", &sets[..2]);
-    assert!(elastic.restore(whole.save()).is_err());
+    assert!(elastic.restore(&whole.save()).is_err());
 }
 
 #[test]

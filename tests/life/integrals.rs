@@ -7,8 +7,7 @@ use asperity_engine::physics::life_models::{CycleProfile, DEPTH_EXPONENT, LifeEq
 use asperity_engine::scene::StressMeasure;
 use asperity_engine::solve::critical::shares_of_slice;
 use asperity_engine::solve::life::{Shares, factors};
-use asperity_engine::solve::material::DamageBasis;
-use asperity_engine::solve::material::{Line, MaterialTracker, TrackerSpec};
+use asperity_engine::solve::material::{CycleCount, Line, MaterialTracker, TrackerSpec};
 use asperity_engine::solve::stress::{
     LineStress, Loading, SliceOut, StressEngine, StressLaw, StressSpec, Symmetry, VolumeOut,
 };
@@ -443,14 +442,15 @@ fn peaks_and_ranges_count_less_than_one_n_for_the_volume() {
                 .copy_from_slice(sums.layers(loading, 0));
         }
         let n = 1.0 + passage.crests();
-        let (mut counted, mut equivalent) = (vec![0.0; 24], vec![0.0; 24]);
-        let mut damage = |basis: DamageBasis| {
-            assert!(tracker.cycles_by_depth(basis, &mut counted, &mut equivalent));
+        let damage = |cycles: &dyn Fn(usize) -> Option<CycleCount>| {
+            let by_depth = |k| cycles(k).expect("crossed").equivalent.max(1.0);
+            let equivalent: Vec<f64> = (0..24).map(by_depth).collect();
             let profile = CycleProfile::Counted(&equivalent);
-            let f = factors(law, &shares, BodyId::One, 0.0, profile, &spec.depths);
+            let f = factors(law, &shares, BodyId::One, 0.0, profile);
             f.cycle.powf(-law.weibull_slope)
         };
-        let (peaks, ranges) = (damage(DamageBasis::Peaks), damage(DamageBasis::Ranges));
+        let peaks = damage(&|k| tracker.effective_cycles(k));
+        let ranges = damage(&|k| tracker.shear_cycles(k));
         println!(
             "ripples of {part}: damage factor global {:.1}, peaks {peaks:.2} (study {by_peaks}), ranges {ranges:.2}",
             n.powf(law.weibull_slope)

@@ -92,7 +92,7 @@ fn turn(base: &Scene, from: &State, knob: Knob, value: f64) -> Turn {
     let mut there = base.clone();
     put(&mut there, knob, value);
     let mut sim = simulation(base);
-    sim.restore(from.clone()).unwrap();
+    sim.restore(from).unwrap();
     let before = sim.passage_steps();
     sim.set(knob, value).unwrap();
     let first = settle(&mut sim);

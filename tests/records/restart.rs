@@ -33,7 +33,7 @@ fn every_frame_after_a_restart_is_the_uninterrupted_one() {
     for step in 0..400 {
         if [3, 70, 180, 270].contains(&step) {
             let mut next = simulation(&scene);
-            next.restore(through_json(&whole.save())).unwrap();
+            next.restore(&through_json(&whole.save())).unwrap();
             next.count_from(*whole.stats()).unwrap();
             let mut again = Frame::default();
             whole.fill(&mut frame);
@@ -69,7 +69,7 @@ fn dry_and_line_contacts_go_on_bit_for_bit_too() {
             whole.step().unwrap();
         }
         let mut cut = simulation(&scene);
-        cut.restore(through_json(&whole.save())).unwrap();
+        cut.restore(&through_json(&whole.save())).unwrap();
         let (mut one, mut two) = (Frame::default(), Frame::default());
         for _ in 0..6 {
             whole.fill(&mut one);
@@ -173,7 +173,7 @@ fn a_spoiled_or_foreign_state_is_refused() {
     assert!(matches!(refused.end, End::NotStarted(_)));
     // The engine itself refuses what would not fit its memory.
     let finer = self::scene(&["grid.nodes=129", "record=none", "life=none"]);
-    let error = simulation(&finer).restore(checkpoint.sim).unwrap_err();
+    let error = simulation(&finer).restore(&checkpoint.sim).unwrap_err();
     println!("{error}");
 }
 
@@ -188,7 +188,7 @@ fn crafted_states_are_refused_in_words() {
     }
     let good = serde_json::to_value(sim.save()).unwrap();
     simulation(&scene)
-        .restore(serde_json::from_value(good.clone()).unwrap())
+        .restore(&serde_json::from_value(good.clone()).unwrap())
         .unwrap();
     let shorter = |pointer: &str| {
         let mut list = good.pointer(pointer).unwrap().as_array().unwrap().clone();
@@ -196,6 +196,7 @@ fn crafted_states_are_refused_in_words() {
         Value::Array(list)
     };
     let huge = json!(1_000_000_000_u64);
+    let shares = good["life"]["variants"][0]["meter"]["mean"].clone();
     let first_history = "/counting/trackers/0/points/0/pressure/flow/capacity";
     let crafted = [
         ("/nodes", huge.clone()),
@@ -220,7 +221,11 @@ fn crafted_states_are_refused_in_words() {
         ("/wanted/settings/4/now", json!(-1.0)),
         ("/life/variants/0/meter/capacity", huge.clone()),
         ("/life/variants/0/meter/window/period", json!(0.0)),
-        ("/life/variants/0/meter/spare", json!([])),
+        (
+            "/life/variants/0/meter/phases",
+            json!([{"span": -1.0, "shares": shares}]),
+        ),
+        ("/life/variants/0/meter/mean/logs", json!([])),
         ("/life/variants/0/reference", json!([1.0])),
         ("/life/wavelengths", json!([1e-3, 1e-3])),
         ("/life/law/stress_exponent", json!(1.0)),
@@ -242,7 +247,7 @@ fn crafted_states_are_refused_in_words() {
         let state: State = serde_json::from_value(state).unwrap();
         let mut fresh = simulation(&scene);
         let before = format!("{:?}", fresh.save());
-        let error = fresh.restore(state).expect_err(pointer);
+        let error = fresh.restore(&state).expect_err(pointer);
         let value: String = value.to_string().chars().take(40).collect();
         println!("{pointer} = {value}: {error}");
         assert!(
@@ -288,7 +293,8 @@ fn a_step_that_fails_leaves_the_state_as_it_was() {
             *mass = spoiled.into();
         }
     }
-    sim.restore(serde_json::from_value(state).unwrap()).unwrap();
+    sim.restore(&serde_json::from_value(state).unwrap())
+        .unwrap();
     let mut frames = [Frame::default(), Frame::default()];
     let before = serde_json::to_value(sim.save()).unwrap();
     sim.fill(&mut frames[0]);
@@ -312,7 +318,7 @@ fn devices_pipes_and_folders_are_no_states() {
     let digest = body.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     });
-    std::fs::write(&spoiled, format!("asperity state 3 {digest:016x}\n{body}")).unwrap();
+    std::fs::write(&spoiled, format!("asperity state 4 {digest:016x}\n{body}")).unwrap();
     let began = std::time::Instant::now();
     for path in [
         std::path::Path::new("/dev/zero"),
@@ -335,7 +341,8 @@ fn devices_pipes_and_folders_are_no_states() {
         assert_eq!(output.status.code(), Some(1), "{words}");
         println!("{}", words.trim());
     }
-    assert!(began.elapsed().as_secs() < 10);
+    // At once each, alone; a busy machine takes its time.
+    assert!(began.elapsed().as_secs() < 60);
 }
 
 /// Where all has been done there is no further step, and the summary is the run's in every field but its time.

@@ -318,7 +318,7 @@ fn states_of_all_presets_load() {
                 "{preset}"
             );
             let mut next = made();
-            next.restore(state).unwrap();
+            next.restore(&state).unwrap();
             whole.step().unwrap();
             next.step().unwrap();
             let (mut one, mut two) = (Frame::default(), Frame::default());

@@ -153,7 +153,7 @@ fn what_a_standing_body_means_follows_the_count() {
     }
 }
 
-/// A factor of 28 between the choices of count and integral is no small print.
+/// A factor of 28 between the choices of count is no small print.
 #[test]
 fn the_range_of_the_choices_is_on_the_screen() {
     let mut app = running(plain());

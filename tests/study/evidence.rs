@@ -10,7 +10,6 @@ use asperity_engine::scene::{CycleBasis, Scene, presets};
 use asperity_study::Extent;
 use asperity_study::evidence::{
     Comparison, Evidence, EvidenceSet, Grade, evidence, evidence_table, evidence_text, planned,
-    word,
 };
 
 fn set() -> EvidenceSet {
@@ -79,7 +78,7 @@ fn every_experiment_says_what_can_be_compared_and_its_points_plan_by_every_count
         for point in &experiment.point {
             for basis in CycleBasis::ALL {
                 let mut sets = point.set.clone();
-                sets.push(format!("life.cycles={}", word(basis)));
+                sets.push(format!("life.cycles={}", basis.key()));
                 if let Err(reason) = planned(&point.scene, &sets) {
                     panic!("{name}, {}: {reason}", point.label);
                 }

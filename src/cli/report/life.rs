@@ -78,14 +78,8 @@ fn push_life_beside(text: &mut String, s: &Summary) {
         && count > 1
     {
         let (low, high) = (four(low), four(high));
-        let what =
-            format!("{low} to {high} over {count} choices of cycle basis, integral and model");
+        let what = format!("{low} to {high} over {count} choices of cycle basis and model");
         line(text, "model spread", &what);
-    }
-    if let (Some(snapshot), Some(swept)) = (s.life_snapshot, s.life_swept) {
-        let (snapshot, swept) = (four(snapshot), four(swept));
-        let what = format!("snapshot {snapshot}, swept {swept} (bound)");
-        line(text, "integrals", &what);
     }
     if let (Some(cycles), Some(low), Some(high)) =
         (s.life_cycles, s.life_cycles_low, s.life_cycles_high)

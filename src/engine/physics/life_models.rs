@@ -10,7 +10,7 @@
 //! ```
 //! | symbol | meaning | default |
 //! |---|---|---|
-//! | τ0, z0 | greatest half range of the orthogonal shear along x, and its depth | |
+//! | τ0, z0 | maximum half range of the orthogonal shear along x, and its depth | |
 //! | h | depth exponent | 7/3 |
 //! | σ_u | fatigue limit of the effective stress | 0: none; ISO 281:2007 takes 900 MPa of von Mises |
 //! | z_c | depth above which z^{−h} no longer grows: at a rough surface it would diverge | 0.05 a |
@@ -33,7 +33,7 @@ use super::fatigue::LifeLaw;
 pub enum LifeEquation {
     /// Volume integral of σ^{c e}.
     Zaretsky,
-    /// Greatest orthogonal shear and its depth.
+    /// Maximum orthogonal shear and its depth.
     LundbergPalmgren {
         /// h.
         depth_exponent: f64,
@@ -54,7 +54,7 @@ pub enum LifeEquation {
         /// α.
         hydrostatic: f64,
     },
-    /// Shear amplitude and greatest normal stress of the worst plane.
+    /// Shear amplitude and maximum normal stress of the worst plane.
     Findley {
         /// k.
         normal: f64,
@@ -82,7 +82,10 @@ impl LifeEquation {
                 cut_off,
                 ..
             } => -depth_exponent * z.max(cut_off).ln(),
-            _ => 0.0,
+            Self::Zaretsky
+            | Self::LundbergPalmgren { .. }
+            | Self::DangVan { .. }
+            | Self::Findley { .. } => 0.0,
         }
     }
 
@@ -93,7 +96,10 @@ impl LifeEquation {
                 depth_exponent,
                 cut_off,
             } => law.stress_exponent * stress.ln() + (1.0 - depth_exponent) * z.max(cut_off).ln(),
-            _ => law.integral_exponent() * stress.ln(),
+            Self::Zaretsky
+            | Self::IoannidesHarris { .. }
+            | Self::DangVan { .. }
+            | Self::Findley { .. } => law.integral_exponent() * stress.ln(),
         }
     }
 
@@ -120,14 +126,23 @@ impl LifeEquation {
     pub fn width(self, sides: f64) -> f64 {
         match self {
             Self::LundbergPalmgren { .. } => sides - 1.0,
-            _ => 0.0,
+            Self::Zaretsky
+            | Self::IoannidesHarris { .. }
+            | Self::DangVan { .. }
+            | Self::Findley { .. } => 0.0,
         }
     }
 
     /// Exponent s of life against the Hertz pressure of the smooth contact with the same radii, `N ∝ p_h^{−s}`;
     /// `None` where a limit breaks the power law. `sides` as in [`LifeEquation::growth`].
     pub fn pressure_exponent(self, law: LifeLaw, sides: f64) -> Option<f64> {
-        let limited = matches!(self, Self::IoannidesHarris { limit, .. } if limit != 0.0);
+        let limited = match self {
+            Self::IoannidesHarris { limit, .. } => limit != 0.0,
+            Self::Zaretsky
+            | Self::LundbergPalmgren { .. }
+            | Self::DangVan { .. }
+            | Self::Findley { .. } => false,
+        };
         let exponent = (self.growth(law, sides, false) + self.width(sides)) / law.weibull_slope;
         (!limited).then_some(exponent)
     }
@@ -137,41 +152,24 @@ impl LifeEquation {
 ///
 /// ```text
 /// global   n                                                  everywhere (the paper; an upper bound on damage)
-/// depth    1 + (n − 1) w(z)     w = 1 for z ≤ W/2, falling to 0 at z = 2 W
 /// counted  n(z) from the histories of material points
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CycleProfile<'a> {
     /// One n.
     Global(f64),
-    /// Full n near the surface only.
-    Depth {
-        /// n by formula.
-        n: f64,
-        /// W of the mating crests, in the unit of the depths.
-        wavelength: f64,
-    },
     /// Counted at every depth.
     Counted(&'a [f64]),
 }
 
 impl CycleProfile<'_> {
-    /// n at the `k`-th depth, `z`.
-    pub fn at(&self, k: usize, z: f64) -> f64 {
+    /// n at the `k`-th depth.
+    pub fn at(&self, k: usize) -> f64 {
         match *self {
             Self::Global(n) => n,
-            Self::Depth { n, wavelength } => 1.0 + (n - 1.0) * near_surface(z, wavelength),
             Self::Counted(n) => n.get(k).copied().unwrap_or(1.0),
         }
     }
-}
-
-/// 1 for z ≤ W/2, 0 from 2 W on, linear between.
-fn near_surface(z: f64, wavelength: f64) -> f64 {
-    if !wavelength.is_finite() || wavelength <= 0.0 {
-        return 0.0;
-    }
-    ((2.0 - z / wavelength) / 1.5).clamp(0.0, 1.0)
 }
 
 /// Life by a calibration point: the smooth, frictionless contact lives `cycles` loading cycles at the Hertz
@@ -217,20 +215,9 @@ mod tests {
     }
 
     #[test]
-    fn micro_cycles_live_near_the_surface() {
-        let profile = CycleProfile::Depth {
-            n: 9.0,
-            wavelength: 0.2,
-        };
-        for (z, n) in [(0.0, 9.0), (0.1, 9.0), (0.25, 5.0), (0.4, 1.0), (2.0, 1.0)] {
-            assert_relative_eq!(profile.at(0, z), n, max_relative = 1e-12);
-        }
-        let ridges = CycleProfile::Depth {
-            n: 1.0,
-            wavelength: f64::INFINITY,
-        };
-        assert_eq!(ridges.at(0, 0.1), 1.0);
-        assert_eq!(CycleProfile::Counted(&[3.0]).at(1, 0.1), 1.0);
+    fn a_depth_that_was_not_counted_is_one_cycle() {
+        assert_eq!(CycleProfile::Counted(&[3.0]).at(0), 3.0);
+        assert_eq!(CycleProfile::Counted(&[3.0]).at(1), 1.0);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //!                    Y starts the history: count ½ for Y, drop its first point;  else count 1, drop its two.
 //!                    At the end: ½ for every range that is left.
 //! repeating (§5.4.5): a range that is no greater than both neighbours closes: count 1, drop its two points.
-//!                    At the end the ranges left are read as a ring from the greatest value, and all close.
+//!                    At the end the ranges left are read as a ring from the maximum value, and all close.
 //! ```
 //! A history that happens once leaves half cycles; one that is repeated again and again (a material point
 //! that crosses the contact at every turn) closes every cycle.
@@ -22,11 +22,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::turning::{Turn, Turning};
+use crate::saved::saved;
 
 /// A counted cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cycle {
-    /// Greatest minus least value.
+    /// Maximum minus minimum value.
     pub range: f64,
     /// Mean of the two.
     pub mean: f64,
@@ -56,6 +57,10 @@ pub struct Rainflow {
     forced: u64,
 }
 
+saved! {
+    Rainflow { same: ends, capacity; parts: turning; room: stack, ring; free: forced; }
+}
+
 impl Rainflow {
     /// Counter of cycles with a range of at least `gate`, with memory for `capacity` open reversals
     /// (at least 4).
@@ -71,30 +76,13 @@ impl Rainflow {
         }
     }
 
-    /// Whether a counter that was saved is of the same make as this one, and holds no more than it can.
-    pub fn fits(&self, saved: &Self) -> bool {
-        self.turning.gate() == saved.turning.gate()
-            && (self.ends, self.capacity) == (saved.ends, saved.capacity)
-            && saved.stack.len() <= self.capacity + 2
-            && saved.ring.len() <= self.capacity + 3
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub fn make_room(&mut self) {
-        let room = |list: &mut Vec<f64>, most: usize| {
-            list.reserve_exact(most.saturating_sub(list.len()));
-        };
-        room(&mut self.stack, self.capacity + 2);
-        room(&mut self.ring, self.capacity + 3);
-    }
-
     /// Starts a new history.
     pub fn reset(&mut self) {
         self.stack.clear();
         self.turning.reset();
     }
 
-    /// Least and greatest of the reversals that are not counted yet; (∞, −∞) for none.
+    /// Minimum and maximum of the reversals that are not counted yet; (∞, −∞) for none.
     pub fn open_ends(&self) -> (f64, f64) {
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let wider = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
@@ -132,7 +120,7 @@ impl Rainflow {
         self.reset();
     }
 
-    /// Closes what is left as a ring, from its greatest value round to the same: every range in between
+    /// Closes what is left as a ring, from its maximum value round to the same: every range in between
     /// finds its partner.
     fn close_ring(&mut self, sink: &mut impl FnMut(Cycle)) {
         self.open_ring();

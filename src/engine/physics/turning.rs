@@ -6,6 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::saved::saved;
+
 /// A history as it runs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Turning {
@@ -13,6 +15,10 @@ pub struct Turning {
     /// Extreme since the last reversal, and the direction that led to it.
     candidate: f64,
     heading: Trend,
+}
+
+saved! {
+    Turning { same: gate; free: candidate, heading; }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,11 +52,6 @@ impl Turning {
             candidate: 0.0,
             heading: Trend::Empty,
         }
-    }
-
-    /// The gate.
-    pub fn gate(&self) -> f64 {
-        self.gate
     }
 
     /// Starts a new history.
@@ -96,7 +97,7 @@ impl Turning {
         matches!(self.heading, Trend::Up | Trend::Down).then_some(self.candidate)
     }
 
-    /// Whether `value`, the last one, is the greatest since the last trough.
+    /// Whether `value`, the last one, is the highest since the last trough.
     fn is_summit(&self, value: f64) -> bool {
         self.heading == Trend::Up && self.candidate == value
     }
@@ -115,10 +116,14 @@ pub struct PassedMaximum {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Peaks {
     turning: Turning,
-    /// Greatest value since the last trough.
+    /// Maximum value since the last trough.
     summit: PassedMaximum,
     passed: u32,
     last: Option<PassedMaximum>,
+}
+
+saved! {
+    Peaks { parts: turning; free: summit, passed, last; }
 }
 
 impl Peaks {

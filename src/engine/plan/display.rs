@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{LINE_ROWS, LifePlan, OtherFilms, Plan, Symmetry, TimeDependence, WavePlan};
-use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread, VolumeIntegral};
+use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -253,10 +253,9 @@ fn life_lines(life: &LifePlan, kind: ContactKind) -> Vec<String> {
             asked.model.name(),
             asked.measure.name(),
             cycles_text(asked.cycles),
-            match asked.volume {
-                VolumeIntegral::Material => "greatest stress that each material point meets",
-                VolumeIntegral::Snapshot => "mean of snapshots",
-                VolumeIntegral::Swept => "swept: greatest stress of every track",
+            match asked.cycles {
+                CycleBasis::Damage => "greatest stress that each material point meets",
+                CycleBasis::Global | CycleBasis::Peaks => "mean of snapshots",
             }
         ),
     ];
@@ -312,9 +311,7 @@ fn cycles_text(cycles: CycleBasis) -> &'static str {
     match cycles {
         CycleBasis::Damage => "counted by depth, each by its damage, in those of the faster body",
         CycleBasis::Global => "one n for the volume, an upper bound on damage",
-        CycleBasis::Depth => "n by depth",
         CycleBasis::Peaks => "counted by depth, by peaks",
-        CycleBasis::Ranges => "counted by depth, by ranges",
     }
 }
 

@@ -1,9 +1,7 @@
 //! What the plan tells about fatigue life.
 
 use super::Plan;
-use crate::scene::{
-    ContactKind, CycleBasis, Life, LifeModel, Spread, StressMeasure, VolumeIntegral,
-};
+use crate::scene::{ContactKind, CycleBasis, Life, LifeModel, Spread, StressMeasure};
 
 /// Volume integrals that a length of 4 a wants at least: every step of 129 nodes. Fewer save 4 % of a run and
 /// miss crests that meet: against all phases 32 err by 0.3 % of the life in the default scene, by 8 % in the twin
@@ -32,8 +30,6 @@ pub struct LifeAsked {
     pub measure: StressMeasure,
     /// Cycle basis.
     pub cycles: CycleBasis,
-    /// Volume integral.
-    pub volume: VolumeIntegral,
     /// Spread over models.
     pub spread: Spread,
     /// Damage maps of body 1 and body 2.
@@ -45,8 +41,10 @@ pub struct LifeAsked {
 impl LifeAsked {
     /// Whether a model integrates stress over the volume.
     pub fn volumes(&self) -> bool {
-        let integrates = matches!(self.model, LifeModel::Zaretsky | LifeModel::IoannidesHarris);
-        integrates || self.spread == Spread::Models
+        match self.spread {
+            Spread::Models => true,
+            Spread::Off | Spread::Cycles => self.model.integrates(),
+        }
     }
 }
 
@@ -79,7 +77,6 @@ impl Plan {
                 model: life.model,
                 measure,
                 cycles: life.cycles,
-                volume: life.integral(),
                 spread: life.spread,
                 maps: life.maps(),
                 calibration: life.calibration(),

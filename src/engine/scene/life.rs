@@ -3,151 +3,92 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::SceneError;
+use crate::closed_set;
 
-/// Life model; equations and sources: [`crate::physics::life_models`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LifeModel {
-    /// Zaretsky 1987: `ln(1/Ps) = C M^e int sigma^(c e) dV`.
-    Zaretsky,
-    /// Lundberg and Palmgren 1947: greatest orthogonal shear and its depth.
-    LundbergPalmgren,
-    /// Ioannides and Harris 1985: what exceeds a limit, over z^h.
-    IoannidesHarris,
-    /// Dang Van: mesoscopic shear and hydrostatic stress; no volume effect.
-    DangVan,
-    /// Findley: critical plane; no volume effect.
-    Findley,
+closed_set! {
+    /// Life model; equations and sources: [`crate::physics::life_models`].
+    pub enum LifeModel {
+        /// Zaretsky 1987: `ln(1/Ps) = C M^e int sigma^(c e) dV`.
+        Zaretsky = "zaretsky" "Zaretsky",
+        /// Lundberg and Palmgren 1947: maximum orthogonal shear and its depth.
+        LundbergPalmgren = "lundberg_palmgren" "Lundberg-Palmgren",
+        /// Ioannides and Harris 1985: what exceeds a limit, over z^h.
+        IoannidesHarris = "ioannides_harris" "Ioannides-Harris",
+        /// Dang Van: mesoscopic shear and hydrostatic stress; no volume effect.
+        DangVan = "dang_van" "Dang Van",
+        /// Findley: critical plane; no volume effect.
+        Findley = "findley" "Findley",
+    }
+}
+
+closed_set! {
+    /// How cycles enter the life.
+    pub enum CycleBasis {
+        /// Counted by depth, each cycle by the damage it does, in loading cycles of the faster body.
+        Damage = "damage" "counted by damage",
+        /// One global n for the whole volume (the paper's form; an upper bound on damage).
+        Global = "global" "the paper's count",
+        /// Counted by depth; a cycle of effective stress counts by its peak.
+        Peaks = "peaks" "counted by peaks",
+    }
 }
 
 impl LifeModel {
-    /// Every model.
-    pub const ALL: [Self; 5] = [
-        Self::Zaretsky,
-        Self::LundbergPalmgren,
-        Self::IoannidesHarris,
-        Self::DangVan,
-        Self::Findley,
-    ];
-
-    /// Name for people.
-    pub fn name(self) -> &'static str {
+    /// Whether it integrates stress over the volume; the others look at one depth.
+    pub fn integrates(self) -> bool {
         match self {
-            Self::Zaretsky => "Zaretsky",
-            Self::LundbergPalmgren => "Lundberg-Palmgren",
-            Self::IoannidesHarris => "Ioannides-Harris",
-            Self::DangVan => "Dang Van",
-            Self::Findley => "Findley",
+            Self::Zaretsky | Self::IoannidesHarris => true,
+            Self::LundbergPalmgren | Self::DangVan | Self::Findley => false,
         }
     }
-}
-
-/// How cycles enter the life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum CycleBasis {
-    /// Counted by depth, each cycle by the damage it does, in loading cycles of the faster body.
-    Damage,
-    /// One global n for the whole volume (the paper's form; an upper bound on damage).
-    Global,
-    /// n(z): the formula's down to half a wavelength, falling to 1 at two.
-    Depth,
-    /// Counted by depth; a cycle of effective stress counts by its peak.
-    Peaks,
-    /// Counted by depth; a cycle of signed shear counts by its range.
-    Ranges,
 }
 
 impl CycleBasis {
-    /// Every basis.
-    pub const ALL: [Self; 5] = [
-        Self::Damage,
-        Self::Global,
-        Self::Depth,
-        Self::Peaks,
-        Self::Ranges,
-    ];
-
-    /// The volume integral that belongs to it, where the scene names none.
-    pub fn integral(self) -> VolumeIntegral {
-        match self {
-            Self::Damage => VolumeIntegral::Material,
-            Self::Global | Self::Depth | Self::Peaks | Self::Ranges => VolumeIntegral::Snapshot,
-        }
-    }
-
     /// Of whose loading cycles its lives are.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Damage => "loading cycles of the faster body",
-            Self::Global | Self::Depth | Self::Peaks | Self::Ranges => "own loading cycles",
-        }
-    }
-
-    /// Name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Damage => "counted by damage",
-            Self::Global => "the paper's count",
-            Self::Depth => "n by depth",
-            Self::Peaks => "counted by peaks",
-            Self::Ranges => "counted by ranges",
+            Self::Global | Self::Peaks => "own loading cycles",
         }
     }
 }
 
-/// Which volume integral is taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum VolumeIntegral {
-    /// Mean over material points of the greatest stress that each meets.
-    Material,
-    /// Mean of the integral over the phases of a passage.
-    Snapshot,
-    /// Greatest stress of every track over the passage: the bound.
-    Swept,
+closed_set! {
+    /// Whose life is the scene's.
+    pub enum BodyChoice {
+        /// The body with the shorter life in own loading cycles.
+        Weaker = "weaker",
+        /// Body 1.
+        Body1 = "body_1",
+        /// Body 2.
+        Body2 = "body_2",
+    }
 }
 
-/// Whose life is the scene's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BodyChoice {
-    /// The body with the shorter life in own loading cycles.
-    Weaker,
-    /// Body 1.
-    #[serde(rename = "body_1")]
-    Body1,
-    /// Body 2.
-    #[serde(rename = "body_2")]
-    Body2,
+closed_set! {
+    /// How far the spread over the choice of model reaches.
+    pub enum Spread {
+        /// No spread.
+        Off = "off",
+        /// Over the cycle bases, with the scene's model: costs nothing more.
+        Cycles = "cycles",
+        /// Over all models too.
+        Models = "models",
+    }
 }
 
-/// How far the spread over the choice of model reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Spread {
-    /// No spread.
-    Off,
-    /// Over the cycle bases and both integrals of the scene's model: costs nothing more.
-    Cycles,
-    /// Over all models too.
-    Models,
-}
-
-/// Bodies for which damage is mapped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DamageMaps {
-    /// None.
-    Off,
-    /// Body 1.
-    #[serde(rename = "body_1")]
-    Body1,
-    /// Body 2.
-    #[serde(rename = "body_2")]
-    Body2,
-    /// Both.
-    Both,
+closed_set! {
+    /// Bodies for which damage is mapped.
+    pub enum DamageMaps {
+        /// None.
+        Off = "off",
+        /// Body 1.
+        Body1 = "body_1",
+        /// Body 2.
+        Body2 = "body_2",
+        /// Both.
+        Both = "both",
+    }
 }
 
 /// `[life]`
@@ -164,9 +105,6 @@ pub struct Life {
     pub survival: f64,
     /// Cycle basis.
     pub cycles: CycleBasis,
-    /// Volume integral; `None`: the one that belongs to `cycles`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub volume: Option<VolumeIntegral>,
     /// Whose life it is.
     pub body: BodyChoice,
     /// h of Lundberg-Palmgren and Ioannides-Harris.
@@ -202,7 +140,6 @@ impl Default for Life {
             weibull_slope: 10.0 / 9.0,
             survival: 0.5,
             cycles: CycleBasis::Damage,
-            volume: None,
             body: BodyChoice::Weaker,
             depth_exponent: 7.0 / 3.0,
             cut_off_a: 0.05,
@@ -224,16 +161,14 @@ impl Life {
         self.calibration_cycles.zip(self.calibration_pressure_pa)
     }
 
-    /// The volume integral that is taken.
-    pub fn integral(&self) -> VolumeIntegral {
-        self.volume.unwrap_or(self.cycles.integral())
-    }
-
     /// Whether damage is mapped for body 1 and body 2.
     pub fn maps(&self) -> [bool; 2] {
-        let one = matches!(self.damage_map, DamageMaps::Body1 | DamageMaps::Both);
-        let two = matches!(self.damage_map, DamageMaps::Body2 | DamageMaps::Both);
-        [one, two]
+        match self.damage_map {
+            DamageMaps::Off => [false, false],
+            DamageMaps::Body1 => [true, false],
+            DamageMaps::Body2 => [false, true],
+            DamageMaps::Both => [true, true],
+        }
     }
 }
 
@@ -242,7 +177,7 @@ pub(super) fn check_calibration(life: &Life) -> Result<(), SceneError> {
     let missing = match (life.calibration_cycles, life.calibration_pressure_pa) {
         (Some(_), None) => "calibration_pressure_pa",
         (None, Some(_)) => "calibration_cycles",
-        _ => return Ok(()),
+        (None, None) | (Some(_), Some(_)) => return Ok(()),
     };
     Err(SceneError::Missing {
         key: format!("life.{missing}"),

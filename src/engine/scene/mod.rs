@@ -24,15 +24,15 @@ mod tooth;
 
 pub use error::SceneError;
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
-pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread, VolumeIntegral};
+pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread};
 pub use load::Override;
 pub use lubricant::{
     Cavitation, DensityLaw, EyringFlow, Friction, Lubricant, Rheology, ViscosityLaw,
 };
 pub use model::{
     Body, Contact, ContactKind, Event, GridAsked, Load, MapEdge, Motion, Record, Scene, Stress,
-    StressMeasure, Surface,
+    StressMeasure, Surface, SurfaceKind,
 };
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
-pub use shape::LEAST_HARDNESS;
+pub use shape::MINIMUM_HARDNESS;
 pub use tooth::Tooth;

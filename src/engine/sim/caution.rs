@@ -249,7 +249,7 @@ fn model_range(life: Option<&LifeEstimate>) -> Option<String> {
     let factor = high / low;
     (detail.variants > 1 && factor >= RANGE_WORTH_A_WORD).then(|| {
         format!(
-            "the choice of cycle basis, integral and model moves the life from {} to {}, a factor of {}",
+            "the choice of cycle basis and model moves the life from {} to {}, a factor of {}",
             sig(low, 2),
             sig(high, 2),
             sig(factor, 2)

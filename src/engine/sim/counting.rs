@@ -8,9 +8,10 @@ use crate::math::grid::Grid;
 use crate::physics::cycles::{BodyId, Kinematics};
 use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
+use crate::saved::saved;
 use crate::scene::CycleBasis;
 use crate::solve::damage::{BlockSpec, DamageMap, Pit};
-use crate::solve::material::{DamageBasis, Line, MaterialTracker, Sample, TrackerSpec};
+use crate::solve::material::{Line, MaterialTracker, Sample, TrackerSpec};
 use crate::solve::stress::StressLaw;
 
 /// Depth, in a, at which the shown material point lies: shallow enough to feel single asperities.
@@ -26,25 +27,39 @@ pub(super) struct Counting {
     shown_body: BodyId,
     /// The shown point.
     pub(super) shown: Option<Sample>,
-    profiles: [[Profile; 2]; 2],
-    /// Greatest damage of one passage of the smooth contact, by ranges and by peaks.
-    reference: [f64; 2],
+    profiles: [Profile; 2],
+    /// Maximum damage of one passage of the smooth contact.
+    reference: f64,
     /// Size of that contact over the scene's.
     reference_size: f64,
     /// c: damage grows as its power with the size, and with it the pressure.
     exponent: f64,
-    basis: DamageBasis,
     /// Cycles by their damage, where a life is asked for.
     by_damage: Option<DamageCount>,
 }
 
-/// Counted and equivalent cycles of a body by depth, on one basis.
+saved! {
+    Counting {
+        same: exponent;
+        parts: trackers, profiles, by_damage;
+        free: shown_depth, shown_body, shown, reference, reference_size;
+    }
+    holds |own, saved| saved.shown_depth < own.profiles[0].shear.len().max(1)
+}
+
+/// Cycles of a body by depth.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 struct Profile {
     /// Whether a crossing has been counted.
     is_known: bool,
-    counted: Vec<f64>,
-    equivalent: Vec<f64>,
+    /// Cycles of signed shear.
+    shear: Vec<f64>,
+    /// Cycles of effective stress, each by its peak, in cycles of the maximum.
+    by_peaks: Vec<f64>,
+}
+
+saved! {
+    Profile { parts: shear, by_peaks; free: is_known; }
 }
 
 /// What is counted.
@@ -53,8 +68,6 @@ pub(super) struct CountingSpec {
     pub(super) depths: usize,
     /// c.
     pub(super) exponent: f64,
-    /// What damage is taken from.
-    pub(super) basis: DamageBasis,
     /// Blocks of both bodies for which damage is mapped: length and distance from a crest, a.
     pub(super) blocks: [Option<(f64, f64)>; 2],
     /// How life integrates stress (models of one depth: not at all); `None`: no life is asked for.
@@ -80,26 +93,25 @@ impl Counting {
                     length,
                     offset,
                 };
-                tracker.map = Some((block, spec.basis));
+                tracker.map = Some(block);
                 tracker.points = TrackerSpec::MAP_POINTS;
             }
             MaterialTracker::new(tracker)
         };
         let profile = Profile {
             is_known: false,
-            counted: vec![1.0; spec.depths],
-            equivalent: vec![1.0; spec.depths],
+            shear: vec![1.0; spec.depths],
+            by_peaks: vec![1.0; spec.depths],
         };
         Self {
             trackers: [tracker(0), tracker(1)],
             shown_depth,
             shown_body: BodyId::One,
             shown: None,
-            profiles: [0, 1].map(|_| [profile.clone(), profile.clone()]),
-            reference: [1.0; 2],
+            profiles: [profile.clone(), profile],
+            reference: 1.0,
             reference_size: 1.0,
             exponent: spec.exponent,
-            basis: spec.basis,
             by_damage: (spec.laws.as_ref())
                 .map(|laws| DamageCount::new(grid, spec.depths, laws, spec.waves)),
         }
@@ -107,15 +119,9 @@ impl Counting {
 
     /// Takes the smooth contact of `size` times the scene's: its worst point is the unit of damage.
     pub(super) fn set_reference(&mut self, stress: &StressStage, size: f64) {
-        let slice = stress.slice_in(BodyId::One);
-        let nx = stress.criterion().0;
-        let range = |row: &[f32]| {
-            let low = row.iter().fold(0.0_f32, |low, v| low.min(*v));
-            row.iter().fold(0.0_f32, |high, v| high.max(*v)) - low
-        };
-        let ranges = slice.sxz.chunks_exact(nx).map(range).fold(0.0, f32::max);
-        let peak = slice.effective.iter().fold(0.0, |a: f32, b| a.max(*b));
-        self.reference = [ranges, peak].map(|s| f64::from(s).powf(self.exponent));
+        let effective = &stress.slice_in(BodyId::One).effective;
+        let peak = effective.iter().fold(0.0, |a: f32, b| a.max(*b));
+        self.reference = f64::from(peak).powf(self.exponent);
         self.reference_size = size;
     }
 
@@ -124,35 +130,12 @@ impl Counting {
         (self.reference, self.reference_size) = (other.reference, other.reference_size);
     }
 
-    /// Makes the room again that a copy or a file does not keep.
-    pub(super) fn make_room(&mut self) {
-        for tracker in &mut self.trackers {
-            tracker.make_room();
-        }
-    }
-
-    /// Whether counts that were saved are of the same make, with so many depths, and nothing in them points astray.
-    pub(super) fn fits(&self, saved: &Self, depths: usize) -> bool {
-        let whole = |profile: &Profile| {
-            profile.counted.len() == depths && profile.equivalent.len() == depths
-        };
-        let mut trackers = self.trackers.iter().zip(&saved.trackers);
-        self.basis == saved.basis
-            && saved.shown_depth < depths.max(1)
-            && saved.profiles.iter().flatten().all(whole)
-            && trackers.all(|(own, saved)| own.fits(saved))
-            && match (&self.by_damage, &saved.by_damage) {
-                (Some(own), Some(saved)) => own.fits(saved),
-                (own, saved) => own.is_none() && saved.is_none(),
-            }
-    }
-
     /// Forgets all counts; the bodies have moved by `travelled` (in a).
     pub(super) fn restart(&mut self, travelled: [f64; 2]) {
         for (tracker, distance) in self.trackers.iter_mut().zip(travelled) {
             tracker.restart(distance);
         }
-        for profile in self.profiles.iter_mut().flatten() {
+        for profile in &mut self.profiles {
             profile.is_known = false;
         }
         if let Some(by_damage) = &mut self.by_damage {
@@ -183,11 +166,9 @@ impl Counting {
             if self.trackers[i].crossings() == before {
                 continue;
             }
-            for basis in [DamageBasis::Ranges, DamageBasis::Peaks] {
-                let profile = &mut self.profiles[i][basis_index(basis)];
-                let (counted, equivalent) = (&mut profile.counted, &mut profile.equivalent);
-                profile.is_known = self.trackers[i].cycles_by_depth(basis, counted, equivalent);
-            }
+            let profile = &mut self.profiles[i];
+            let (shear, by_peaks) = (&mut profile.shear, &mut profile.by_peaks);
+            profile.is_known = self.trackers[i].cycles_by_depth(shear, by_peaks);
         }
         if let Some(by_damage) = &mut self.by_damage {
             by_damage.take(travel, &self.trackers);
@@ -224,19 +205,15 @@ impl Counting {
 
     /// Cycles by depth on a counted basis; `None` for the others and until a crossing has been counted.
     pub(super) fn profile(&self, body: BodyId, basis: CycleBasis) -> Option<CycleProfile<'_>> {
-        let basis = match basis {
-            CycleBasis::Ranges => DamageBasis::Ranges,
-            CycleBasis::Peaks => DamageBasis::Peaks,
-            CycleBasis::Damage => {
-                let cycles = self.by_damage.as_ref()?.cycles(body)?;
-                return Some(CycleProfile::Counted(cycles));
+        let cycles = match basis {
+            CycleBasis::Damage => self.by_damage.as_ref()?.cycles(body),
+            CycleBasis::Global => None,
+            CycleBasis::Peaks => {
+                let profile = &self.profiles[body.index()];
+                profile.is_known.then_some(&profile.by_peaks[..])
             }
-            CycleBasis::Global | CycleBasis::Depth => return None,
         };
-        let profile = &self.profiles[body.index()][basis_index(basis)];
-        profile
-            .is_known
-            .then_some(CycleProfile::Counted(&profile.equivalent))
+        cycles.map(CycleProfile::Counted)
     }
 
     /// Part of a `period` (in a, at U) over which crossings by damage have finished; 1 where they are not followed.
@@ -252,14 +229,14 @@ impl Counting {
 
     /// Counts of signed shear by depth; `None` until a crossing has been counted.
     pub(super) fn shear_counts(&self, body: BodyId) -> Option<&[f64]> {
-        let profile = &self.profiles[body.index()][basis_index(DamageBasis::Ranges)];
-        profile.is_known.then_some(&profile.counted[..])
+        let profile = &self.profiles[body.index()];
+        profile.is_known.then_some(&profile.shear[..])
     }
 
     /// Damage map of a body, and the damage of the worst point of the smooth contact of `size` times the scene's.
     pub(super) fn map(&self, body: BodyId, size: f64) -> Option<(&DamageMap, f64)> {
         let growth = (size / self.reference_size).powf(self.exponent);
-        let unit = self.reference[basis_index(self.basis)] * growth;
+        let unit = self.reference * growth;
         let map = self.trackers[body.index()].map()?;
         (unit > 0.0).then_some((map, unit))
     }
@@ -272,13 +249,6 @@ impl Counting {
             damage: pit.damage / unit,
             ..pit
         })
-    }
-}
-
-fn basis_index(basis: DamageBasis) -> usize {
-    match basis {
-        DamageBasis::Ranges => 0,
-        DamageBasis::Peaks => 1,
     }
 }
 

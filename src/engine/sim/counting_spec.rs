@@ -3,10 +3,9 @@
 use super::counting::CountingSpec;
 use super::scaling::Heading;
 use crate::plan::Plan;
-use crate::scene::{CycleBasis, Scene};
-use crate::solve::material::DamageBasis;
+use crate::scene::Scene;
 
-/// What material points count: damage by ranges where the scene's life goes by ranges, else by peaks.
+/// What material points count.
 pub(super) fn counting_spec(
     scene: &Scene,
     plan: &Plan,
@@ -27,10 +26,6 @@ pub(super) fn counting_spec(
     CountingSpec {
         depths,
         exponent: life.map_or(9.0, |life| life.stress_exponent),
-        basis: match life.map(|life| life.cycles) {
-            Some(CycleBasis::Ranges) => DamageBasis::Ranges,
-            _ => DamageBasis::Peaks,
-        },
         blocks: [0, 1]
             .map(|body: usize| (maps[body] && surfaces[body].has_block()).then(|| block(body))),
         laws: None,

@@ -97,10 +97,6 @@ pub struct LifeDetail {
     /// Life with every cycle by the damage it does.
     #[serde(default)]
     pub life_damage: Option<f64>,
-    /// Same life by the mean of snapshots.
-    pub life_snapshot: Option<f64>,
-    /// Same life by the swept integral.
-    pub life_swept: Option<f64>,
     /// Least life over the choice of model (`life.spread`).
     pub spread_low: f64,
     /// Greatest.

@@ -16,12 +16,13 @@ use super::estimates::{LifeDetail, LifeEstimate, Repeat};
 use super::settling::Settling;
 use super::smooth::LoadAndSpeed;
 use super::stress_stage::StressStage;
-use super::variant::{Shared, Variant, models};
+use super::variant::{LifeIntegral, Shared, Variant, models};
 use crate::math::ln_sum::ln_sum;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
-use crate::scene::{ContactKind, CycleBasis, Life, Scene, Surface, VolumeIntegral};
+use crate::saved::saved;
+use crate::scene::{ContactKind, CycleBasis, Life, Scene, Surface};
 use crate::solve::life::{SweptRows, Window};
 use crate::solve::marks::Marks;
 use crate::solve::stress::{Loading, StressLaw};
@@ -61,8 +62,6 @@ pub(super) struct LifeStage {
     pub(super) laws: Vec<StressLaw>,
     sweep: SweptRows,
     depths: Vec<f64>,
-    /// Wavelength along x of the mating crests, a.
-    wavelengths: [Option<f64>; 2],
     is_smooth: bool,
     calibration: Option<Calibration>,
     /// Directions in which the contact grows with the pressure.
@@ -76,6 +75,14 @@ pub(super) struct LifeStage {
     settling: Settling,
     /// How far ln of the damage of both bodies moved, where cycles count by it.
     damage: Marks,
+}
+
+saved! {
+    LifeStage {
+        same: law, asked, laws, depths, is_smooth, calibration, sides;
+        parts: variants, sweep, damage;
+        free: reference_size, reference_at, reference_cycles, settling;
+    }
 }
 
 impl LifeStage {
@@ -104,10 +111,6 @@ impl LifeStage {
             pressure_ratio: p_pa / p_h,
             survival_ratio: law.survival_ratio(asked.survival, asked.calibration_survival),
         });
-        let wavelength = |body: BodyId| {
-            let wave = plan.waves[body.mate().index()].filter(|wave| wave.crests_per_m > 0.0);
-            wave.map(|wave| 1.0 / (wave.crests_per_m * plan.hertz.a_m))
-        };
         Some(Self {
             law,
             asked,
@@ -115,7 +118,6 @@ impl LifeStage {
             laws,
             sweep: SweptRows::new(stress.row_count()),
             depths,
-            wavelengths: BodyId::BOTH.map(wavelength),
             is_smooth: (scene.surfaces().iter()).all(|s| matches!(s, Surface::Smooth {})),
             calibration,
             sides: match scene.kind() {
@@ -178,37 +180,6 @@ impl LifeStage {
         format!("{}, in {}", basis.name(), basis.unit())
     }
 
-    /// Makes the room again that a copy or a file does not keep.
-    pub(super) fn make_room(&mut self) {
-        for variant in &mut self.variants {
-            variant.make_room();
-        }
-        self.damage.make_room();
-    }
-
-    /// Whether a stage that was saved is of the same make as this one.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        let rows = self.sweep.of(Loading::ALL[0]).len();
-        self.law == saved.law
-            && self.calibration == saved.calibration
-            && self.asked == saved.asked
-            && self.laws == saved.laws
-            && self.depths == saved.depths
-            && saved.sweep.is_sound(rows)
-            && saved.damage.is_sound()
-            && self.variants.len() == saved.variants.len()
-            && self
-                .variants
-                .iter()
-                .zip(&saved.variants)
-                .all(|(a, b)| a.fits(b))
-    }
-
-    /// Whether a stage that was saved was made for the same crests.
-    pub(super) fn same_waves(&self, saved: &Self) -> bool {
-        self.wavelengths == saved.wavelengths
-    }
-
     /// Takes the mean over `window` (in a) from now on.
     pub(super) fn set_window(&mut self, window: Window) {
         self.damage.forget();
@@ -258,16 +229,12 @@ impl LifeStage {
     fn ln_damage(&self, body: BodyId, counting: Option<&Counting>) -> f64 {
         let e = self.law.weibull_slope;
         let cycles = counting.and_then(|counting| counting.profile(body, CycleBasis::Damage));
-        let shares = self.variants[0].shares(VolumeIntegral::Material);
+        let shares = self.variants[0].shares(LifeIntegral::Material);
         let (Some(cycles), Some(shares)) = (cycles, shares) else {
             return f64::NEG_INFINITY;
         };
-        let shares = shares.of(Loading::Full(body)).iter().zip(&self.depths);
-        ln_sum(
-            shares
-                .enumerate()
-                .map(|(k, (ln, z))| (1.0, ln + e * cycles.at(k, *z).ln())),
-        )
+        let shares = shares.of(Loading::Full(body)).iter().enumerate();
+        ln_sum(shares.map(|(k, ln)| (1.0, ln + e * cycles.at(k).ln())))
     }
 
     /// Takes the surface loaded last, which stands for a `distance` (in a), and what has been counted up to it.
@@ -306,39 +273,31 @@ impl LifeStage {
 
     /// The estimate for the conditions of now.
     pub(super) fn estimate(&self, now: &Now, counting: Option<&Counting>) -> Option<LifeEstimate> {
-        let (basis, form) = (self.asked.cycles, self.asked.integral());
+        let basis = self.asked.cycles;
+        let integral = LifeIntegral::of(basis);
         let scene = &self.variants[0];
-        let lives = self.lives(scene, (basis, form), now, counting)?;
+        let lives = self.lives(scene, basis, now, counting)?;
         let (body, f) = self.governing(lives)?;
         let (low, high) = self.law.band(f.relative, now.stress_error);
         let wander = self.settling.wander().exp();
         let (low, high) = (low / wander, high * wander);
-        let other = |form| {
-            let lives = self.lives(scene, (basis, form), now, counting)?;
-            lives[body.index()].map(|f| f.relative)
-        };
         let by = |basis: CycleBasis| {
-            let lives = self.lives(scene, (basis, basis.integral()), now, counting)?;
+            let lives = self.lives(scene, basis, now, counting)?;
             Some(self.governing(lives)?.1.relative)
         };
         let spread = self.spread(now, counting, f.relative);
-        // What the load costs the smooth contact is the same whatever is counted of the rough one.
-        let smooth = match form {
-            VolumeIntegral::Material => VolumeIntegral::Snapshot,
-            form => form,
-        };
-        let shares = scene.shares(form)?;
-        let ln_unit = self.growth(scene, form) * now.size.ln();
+        let shares = scene.shares(integral)?;
+        let ln_unit = self.growth(scene, integral) * now.size.ln();
         let cycles_now = self.cycles_ratio(now.size / self.reference_size);
         Some(LifeEstimate {
-            i_ref: (self.ln_reference(scene, (body, form), now.size) - ln_unit).exp(),
+            i_ref: (self.ln_reference(scene, body, integral, now.size) - ln_unit).exp(),
             i_mean: (shares.ln(Loading::Full(body)) - ln_unit).exp(),
             phases: scene.meter().samples(),
             cycle_factor: f.cycle,
             stress_factor: f.stress,
             peak_factor: f.peak,
             traction_factor: f.traction,
-            load_factor: self.load_factor(scene, (body, smooth), now.size),
+            load_factor: self.load_factor(scene, body, now.size),
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
@@ -350,8 +309,6 @@ impl LifeStage {
                 life_system: self.system(lives, now.slide_roll),
                 life_global: by(CycleBasis::Global),
                 life_damage: by(CycleBasis::Damage),
-                life_snapshot: other(VolumeIntegral::Snapshot),
-                life_swept: other(VolumeIntegral::Swept),
                 spread_low: spread.0,
                 spread_high: spread.1,
                 variants: spread.2,

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::math::grid::Grid;
+use crate::saved::saved;
 
 /// Distances travelled and the time since the last disturbance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -15,6 +16,11 @@ pub(super) struct Travel {
     unsettled: f64,
     /// Distances that the surfaces still have to be led beyond their own, in a, and over which time (a/U).
     lead: ([f64; 2], f64),
+}
+
+saved! {
+    Travel { free: travelled, launched_at, unsettled, lead; }
+    holds |_, saved| saved.unsettled >= 0.0 && saved.lead.1 >= 0.0
 }
 
 /// How far a body has come, in a.
@@ -35,11 +41,6 @@ impl Travel {
             unsettled: 0.0,
             lead: ([0.0; 2], 0.0),
         }
-    }
-
-    /// Whether a motion that was read from a file can be kept.
-    pub(super) fn is_sound(&self) -> bool {
-        self.unsettled >= 0.0 && self.lead.1 >= 0.0
     }
 
     /// Moves both bodies by a step of `nodes` nodes at slide-to-roll ratio `s`.

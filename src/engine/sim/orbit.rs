@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Metrics;
 use super::estimates::{Repeat, Rhythm};
+use crate::saved::saved;
 use crate::solve::life::Window;
 
 /// Longest period that is looked for, in a.
@@ -38,6 +39,10 @@ struct OrbitStep {
     distance: f64,
     pressure: Vec<f32>,
     film: Vec<f32>,
+}
+
+saved! {
+    OrbitStep { parts: pressure, film; free: distance; }
 }
 
 impl OrbitStep {
@@ -96,6 +101,14 @@ pub(super) struct Orbit {
     drift: Option<f64>,
 }
 
+saved! {
+    Orbit {
+        parts: reference, ring;
+        free: frequencies, rhythm, period, span, taken, means, before, drift;
+    }
+    holds |_, saved| saved.period > 0.0
+}
+
 impl Orbit {
     /// For fields of `len` nodes and means over `passage` (in a).
     pub(super) fn new(len: usize, passage: f64) -> Self {
@@ -111,14 +124,6 @@ impl Orbit {
             before: None,
             drift: None,
         }
-    }
-
-    /// Whether every field has `len` nodes, and the period is one.
-    pub(super) fn fits(&self, len: usize) -> bool {
-        self.period > 0.0
-            && std::iter::once(&self.reference)
-                .chain(&self.ring)
-                .all(|s| s.pressure.len() == len && s.film.len() == len)
     }
 
     /// Begins anew: what was before belongs to other conditions.

@@ -17,6 +17,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::saved::saved;
+
 /// Error of the film in the centre over the mean that the formula gives.
 const CENTRE: f64 = 3.0;
 /// Shortest step, in nodes.
@@ -49,6 +51,11 @@ pub(super) struct Pace {
     nodes: f64,
     /// E of the last step over the tolerance.
     last: Option<f64>,
+}
+
+saved! {
+    Pace { free: nodes, last; }
+    holds |_, saved| saved.nodes > 0.0 && saved.last.is_none_or(|last| last > 0.0)
 }
 
 /// What a step's error says.
@@ -109,11 +116,6 @@ impl Pace {
             nodes: stepping.usual(),
             last: None,
         }
-    }
-
-    /// Whether a pace that was read from a file can be kept.
-    pub(super) fn is_sound(&self) -> bool {
-        self.nodes > 0.0 && self.last.is_none_or(|last| last > 0.0)
     }
 
     /// The next step, in nodes; `crest` is how many nodes of travel at U bring one crest past a material

@@ -8,25 +8,32 @@
 //! ```
 
 mod fill;
-mod fitness;
 mod follow;
 mod present;
-mod restart;
 mod smooth_reference;
 mod start_up;
+mod state_check;
+mod step;
 mod summary;
+mod view;
 mod watching;
 
 use std::sync::Arc;
 
 use super::sim_plan::{DEVELOP, SimPlan};
 use super::state::{Phase, State};
-use super::stepping::{Attempted, Mover};
+use super::stepping::Attempted;
 use super::work::{Work, thread_pool};
-use super::{Frame, Knob, Metrics, SimError, Stage, Stats, StepError};
+use super::{Follow, Frame, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
+use crate::physics::cycles::BodyId;
 use crate::plan::{Plan, TimeDependence};
+use crate::saved::Saved as _;
 use crate::scene::Scene;
 use crate::sim::pace::Stepping;
+use state_check::{check, check_course, check_stats};
+use step::{forget_passage, step};
+use view::View;
+use watching::{publish, see_again};
 
 /// The simulation of one scene.
 pub struct Simulation {
@@ -57,9 +64,9 @@ impl Simulation {
             work,
             stats,
         };
-        this.make_room();
-        let measured = this.see_again();
-        this.publish(&Attempted::default(), &measured);
+        let measured = see_again(&this.plan, &this.state, &mut this.work);
+        let untried = Attempted::default();
+        publish(&this.plan, &mut this.state, &this.work, &untried, &measured);
         Ok(this)
     }
 
@@ -68,7 +75,7 @@ impl Simulation {
     /// # Errors
     /// [`StepError`] when the step failed; nothing of it was kept.
     pub fn step(&mut self) -> Result<(), StepError> {
-        self.inside(Self::step_inside)
+        self.inside(|sim| step(&sim.plan, &mut sim.state, &mut sim.work, &mut sim.stats))
     }
 
     /// Does something on a thread of the simulation's pool. Handing work over to a pool takes a wake-up, and room in
@@ -76,183 +83,6 @@ impl Simulation {
     pub fn inside<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R {
         let pool = Arc::clone(&self.work.pool);
         pool.install(|| work(self))
-    }
-
-    fn step_inside(&mut self) -> Result<(), StepError> {
-        self.stats.steps += 1;
-        match self.state.phase {
-            Phase::Smooth { left: 0 } => self.refine_or_develop(),
-            Phase::Smooth { left } => {
-                self.advance()?;
-                self.state.phase = Phase::Smooth { left: left - 1 };
-                self.state.start_up_steps.0 += 1;
-                Ok(())
-            }
-            Phase::Settle { coarse: 0, fine: 0 } => {
-                self.state.phase = Phase::Develop { left: 0 };
-                self.stats.steps -= 1;
-                self.step_inside()
-            }
-            Phase::Settle { coarse, fine } => {
-                self.advance()?;
-                self.state.phase = Phase::Settle {
-                    coarse: coarse.saturating_sub(1),
-                    fine: fine - u64::from(coarse == 0),
-                };
-                self.state.start_up_steps.0 += 1;
-                Ok(())
-            }
-            Phase::Develop { left: 0 } => {
-                self.state.phase = Phase::Passage;
-                (self.state.time_s, self.state.distance) = (0.0, 0.0);
-                self.state.motion.launch();
-                self.forget_passage();
-                self.passage_step()
-            }
-            Phase::Develop { left } => {
-                self.step_smooth()?;
-                self.advance()?;
-                self.state.phase = Phase::Develop { left: left - 1 };
-                self.state.start_up_steps.0 += 1;
-                Ok(())
-            }
-            Phase::Passage => self.passage_step(),
-        }
-    }
-
-    /// Counts and phases seen so far belong to other conditions. The next step is looked at.
-    fn forget_passage(&mut self) {
-        self.state.orbit.restart();
-        let window = self.state.orbit.life_window(self.plan.decided.passage_a);
-        if let Some(life) = &mut self.state.life {
-            life.restart(window);
-        }
-        self.state.next_volume = self.state.distance;
-        if let Some(counting) = &mut self.state.counting {
-            counting.restart(self.state.watched);
-        }
-    }
-
-    /// What a step of the passage leaves to be averaged: while a knob walks, and until what entered meanwhile has
-    /// left the contact, nothing. What was seen of it so far is shown as under way, and forgotten here.
-    fn count_from_here(&mut self, walked: bool, was_flushed: bool) {
-        if self.state.phase != Phase::Passage {
-            return;
-        }
-        if walked {
-            self.state.motion.disturb(DEVELOP);
-        } else if !was_flushed && self.state.motion.is_flushed() {
-            self.forget_passage();
-            self.state.totals.restart();
-        }
-    }
-
-    fn passage_step(&mut self) -> Result<(), StepError> {
-        self.step_smooth()?;
-        let before = self.state.distance;
-        // Where a body yields at rest, what enters is flattened anew.
-        let held = matches!(
-            self.plan.decided.time_dependence,
-            TimeDependence::Steady { .. }
-        ) && self.state.motion.is_flushed()
-            && self.plan.scaling.p_from_pa(self.state.metrics.p_max_pa)
-                < self.plan.hardness * (1.0 - 1e-9);
-        if held {
-            let speed = self.state.drive.get(Knob::EntrainmentMS).now;
-            self.state.time_s +=
-                self.plan.stepping.usual() * self.work.solver.grid.dx * self.plan.scaling.a_m
-                    / speed;
-            let held = Attempted::held(&self.state.metrics, self.plan.stepping.usual());
-            // The contact rests, the bodies do not: material points cross it.
-            let s = self.state.drive.get(Knob::SlideRoll).now;
-            let grid = &self.work.solver.grid;
-            self.state.motion.travel(grid, held.nodes, s);
-            self.watch(&held);
-            self.state.distance += held.nodes * self.work.solver.grid.dx;
-        } else {
-            self.advance()?;
-        }
-        self.state.step += 1;
-        self.look_for_orbit(before);
-        self.state
-            .totals
-            .push(&self.state.metrics, self.state.distance, self.averaged());
-        Ok(())
-    }
-
-    /// One time step: solved, committed, measured.
-    fn advance(&mut self) -> Result<(), StepError> {
-        let (stepping, nodes) = self.next_step();
-        let (walked, was_flushed) = (
-            self.state.drive.is_walking(),
-            self.state.motion.is_flushed(),
-        );
-        let transforms = self.work.solver.transforms();
-        // The smooth contact that all lives are compared with is elastic.
-        let is_smooth = matches!(self.state.phase, Phase::Smooth { .. });
-        let yielded = self.state.yielded.as_mut().filter(|_| !is_smooth);
-        let attempted = self.work.pool.install(|| {
-            Mover {
-                state: &mut self.state.contact,
-                solver: &mut self.work.solver,
-                roughness: &mut self.work.roughness,
-                drive: &mut self.state.drive,
-                motion: &mut self.state.motion,
-                plan: &self.plan,
-                stepping,
-                yielded,
-            }
-            .advance(nodes)
-        });
-        let made = self.work.solver.transforms() - transforms;
-        self.stats.add(&attempted, made);
-        if let Some(error) = attempted.fatal(self.state.time_s) {
-            return Err(error);
-        }
-        self.state.time_s += attempted.dt_s;
-        self.count_from_here(walked, was_flushed);
-        self.watch(&attempted);
-        let dx = self.work.solver.grid.dx;
-        self.state.distance += attempted.nodes * dx;
-        self.state
-            .pace
-            .learn(stepping, attempted.path_error, attempted.nodes);
-        Ok(())
-    }
-
-    /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
-    fn next_step(&self) -> (Stepping, f64) {
-        if let Phase::Settle { coarse: 1.., .. } = self.state.phase {
-            let nodes = follow::COARSE * self.plan.stepping.usual();
-            return (Stepping::Fixed(nodes), nodes);
-        }
-        if self.state.phase != Phase::Passage {
-            return (
-                Stepping::Fixed(self.plan.stepping.usual()),
-                self.plan.stepping.usual(),
-            );
-        }
-        let crests = self
-            .plan
-            .decided
-            .waves
-            .iter()
-            .flatten()
-            .map(|wave| wave.crests_per_m);
-        let sliding = self.state.drive.get(Knob::SlideRoll).now.abs();
-        let crest = match &self.state.counting {
-            Some(_) => 1.0 / (crests.fold(0.0, f64::max) * sliding * self.plan.decided.dx_m),
-            None => f64::INFINITY,
-        };
-        (
-            self.plan.stepping,
-            self.state.pace.next(self.plan.stepping, crest),
-        )
-    }
-
-    /// Distance over which the summary averages, in a.
-    fn averaged(&self) -> f64 {
-        self.state.orbit.window(self.plan.decided.passage_a)
     }
 
     /// Moves a knob's target.
@@ -286,7 +116,7 @@ impl Simulation {
                 ));
             }
         }
-        let most = self.plan.decided.most_force_n();
+        let most = self.plan.decided.maximum_force_n();
         if knob == self.plan.scaling.load_knob() && value > most * (1.0 + 1e-9) {
             if self.plan.decided.carried_force_n() <= most {
                 return Err(refuse(format!(
@@ -309,18 +139,9 @@ impl Simulation {
         if !matches!(self.state.phase, Phase::Smooth { .. }) {
             self.state.drive.aim(knob, value);
             self.state.motion.disturb(DEVELOP);
-            self.forget_passage();
+            forget_passage(&self.plan, &mut self.state);
         }
         Ok(())
-    }
-
-    /// Part of the run that the last step belongs to.
-    pub fn stage(&self) -> Stage {
-        if self.state.phase == Phase::Passage && self.state.step > 0 {
-            Stage::Passage
-        } else {
-            Stage::StartUp
-        }
     }
 
     /// How much of the run is done, 0 to 1, start-up included.
@@ -334,27 +155,9 @@ impl Simulation {
         ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
     }
 
-    /// How much of the start-up is done, 0 to 1.
-    pub fn start_up_progress(&self) -> f64 {
-        let (done, all) = self.state.start_up_steps;
-        match self.stage() {
-            Stage::Passage => 1.0,
-            Stage::StartUp => (done as f64 / all.max(1) as f64).min(1.0),
-        }
-    }
-
     /// Time steps since the start-up.
     pub fn passage_steps(&self) -> u64 {
         self.state.step
-    }
-
-    /// Simulated time since the start-up, s.
-    pub fn time_s(&self) -> f64 {
-        if self.state.phase == Phase::Passage {
-            self.state.time_s
-        } else {
-            0.0
-        }
     }
 
     /// Whether the passages that the scene asks for are done.
@@ -382,12 +185,105 @@ impl Simulation {
         &self.stats
     }
 
-    fn contact_film_m(&self) -> f64 {
-        self.plan.scaling.m_from_h(self.plan.law.contact_film)
+    /// Part of the run that the last step belongs to.
+    pub fn stage(&self) -> Stage {
+        self.state.stage()
+    }
+
+    /// How much of the start-up is done, 0 to 1.
+    pub fn start_up_progress(&self) -> f64 {
+        self.state.start_up_progress()
+    }
+
+    /// Simulated time since the start-up, s.
+    pub fn time_s(&self) -> f64 {
+        self.state.time_of_passage_s()
+    }
+
+    fn view(&self) -> View<'_> {
+        View {
+            plan: &self.plan,
+            state: &self.state,
+            work: &self.work,
+        }
     }
 
     /// Writes the last step's fields and scalars into `frame`.
     pub fn fill(&self, frame: &mut Frame) {
-        fill::fill(self, frame);
+        fill::fill(self.view(), frame);
+    }
+
+    /// Result so far. What only its run knows (name, clock, steps planned, discretisation error) is left out.
+    pub fn summary(&self) -> Summary {
+        summary::summary(self.view(), &self.stats)
+    }
+
+    /// Shows another material point; nothing that is computed changes.
+    pub fn show_point(&mut self, follow: Follow) {
+        let Some(counting) = &mut self.state.counting else {
+            return;
+        };
+        let depths = self.work.stress.as_ref().map_or(&[][..], |s| s.depths());
+        let away = |k: usize| (self.plan.scaling.m_from_x(depths[k]) - follow.depth_m).abs();
+        let nearest = (0..depths.len()).min_by(|&one, &two| away(one).total_cmp(&away(two)));
+        let body = if follow.body == 2 {
+            BodyId::Two
+        } else {
+            BodyId::One
+        };
+        let x = follow
+            .x_m
+            .map(|x_m| self.plan.scaling.heading.sign() * x_m / self.plan.scaling.a_m);
+        counting.look_at(body, x, nearest.unwrap_or(0));
+    }
+
+    /// Starts from the end of `neighbour`, a run of the same scene but for the slide-to-roll ratio and the
+    /// amplitudes, in place of the start-up.
+    ///
+    /// # Errors
+    /// [`SimError::State`] when the neighbour's passage had not begun or its fields do not fit; the simulation
+    /// is as it was.
+    pub fn follow(&mut self, neighbour: &State) -> Result<(), SimError> {
+        follow::follow(&self.plan, &mut self.state, &mut self.work, neighbour)
+    }
+
+    /// What a restart needs, as it is between two steps.
+    pub fn save(&self) -> State {
+        self.state.clone()
+    }
+
+    /// Goes on from `state`, saved by a simulation of the same scene. Work is counted as before
+    /// ([`Simulation::count_from`]).
+    ///
+    /// # Errors
+    /// [`SimError::State`] when the state does not fit the scene; the simulation is as it was.
+    pub fn restore(&mut self, state: &State) -> Result<(), SimError> {
+        check(&self.plan, &self.state, &self.work, state)?;
+        check_course(&self.plan, &self.state, &self.work, state)?;
+        self.state.restore(state);
+        self.work.solve_on(&self.plan, self.state.nodes);
+        see_again(&self.plan, &self.state, &mut self.work);
+        Ok(())
+    }
+
+    /// Counts on from the work of the run that a restored state is from.
+    ///
+    /// # Errors
+    /// [`SimError::State`] when no run does so much.
+    pub fn count_from(&mut self, stats: Stats) -> Result<(), SimError> {
+        check_stats(&stats)?;
+        self.stats = stats;
+        Ok(())
+    }
+
+    /// Throws the workspace away and makes it anew, which may be done between any two steps: no result changes by a bit.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`], which has made one like it.
+    pub fn renew_work(&mut self) -> Result<(), SimError> {
+        let pool = Arc::clone(&self.work.pool);
+        self.work = Work::new(&self.plan, self.state.nodes, pool)?;
+        see_again(&self.plan, &self.state, &mut self.work);
+        Ok(())
     }
 }

@@ -36,10 +36,3 @@ pub(super) struct Smooth {
     /// Steps to go on this grid.
     pub(super) left: u64,
 }
-
-impl Smooth {
-    /// Whether its fields have `len` nodes; `unlike`: with deflection by traction.
-    pub(super) fn fits(&self, len: usize, unlike: bool) -> bool {
-        self.contact.fits(len, unlike) && self.contact.is_sound()
-    }
-}

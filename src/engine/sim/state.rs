@@ -21,7 +21,8 @@ use super::smooth::Smooth;
 use super::totals::Totals;
 use super::work::Work;
 use super::yielded::Yielded;
-use super::{Knob, MeshErrors, Metrics};
+use super::{Knob, MeshErrors, Metrics, Stage};
+use crate::saved::saved;
 use crate::solve::march;
 
 /// Where the run is.
@@ -35,6 +36,17 @@ pub(super) enum Phase {
     Develop { left: u64 },
     /// The passage.
     Passage,
+}
+
+impl Phase {
+    /// Whether the slice belongs to the present step: the smooth contact's is taken once, and while a contact
+    /// settles in the wake of a neighbour nobody looks.
+    pub(super) fn has_stress(self) -> bool {
+        match self {
+            Self::Smooth { .. } | Self::Settle { .. } => false,
+            Self::Develop { .. } | Self::Passage => true,
+        }
+    }
 }
 
 /// State of a simulation; opaque, made by [`super::Simulation::save`]. `serde(rename)` here and in what it holds: the names
@@ -77,6 +89,15 @@ pub struct State {
     pub(super) start_up_steps: (u64, u64),
 }
 
+saved! {
+    State {
+        parts: motion, yielded, counting, life, totals, orbit, pace;
+        free: nodes, contact, drive, targets, watched, smooth, phase, metrics, coarser, mesh_errors, distance,
+            next_volume, step, time_s, start_up_steps;
+    }
+    holds |_, saved| saved.distance >= 0.0 && saved.time_s >= 0.0
+}
+
 impl State {
     /// Before the first step: a Hertz contact of smooth bodies in pure rolling, on the first grid.
     pub(super) fn new(plan: &SimPlan, work: &mut Work) -> Self {
@@ -117,7 +138,7 @@ impl State {
                 left: plan.smooth_steps(nodes, decided.has_flow()),
             },
             metrics: Metrics::default(),
-            totals: Totals::default(),
+            totals: Totals::new(plan.most_steps()),
             coarser: None,
             mesh_errors: None,
             orbit: Orbit::new(fine.len(), decided.passage_a),
@@ -135,14 +156,29 @@ impl State {
         self.step
     }
 
-    /// Makes the room again that a copy or a file does not keep: a warm step allocates nothing.
-    pub(super) fn make_room(&mut self, plan: &SimPlan) {
-        self.totals.make_room(plan.most_steps());
-        if let Some(counting) = &mut self.counting {
-            counting.make_room();
+    /// Part of the run that the last step belongs to.
+    pub(super) fn stage(&self) -> Stage {
+        if self.phase == Phase::Passage && self.step > 0 {
+            Stage::Passage
+        } else {
+            Stage::StartUp
         }
-        if let Some(life) = &mut self.life {
-            life.make_room();
+    }
+
+    /// How much of the start-up is done, 0 to 1.
+    pub(super) fn start_up_progress(&self) -> f64 {
+        let (done, all) = self.start_up_steps;
+        match self.stage() {
+            Stage::Passage => 1.0,
+            Stage::StartUp => (done as f64 / all.max(1) as f64).min(1.0),
+        }
+    }
+
+    /// Simulated time since the start-up, s.
+    pub(super) fn time_of_passage_s(&self) -> f64 {
+        match self.phase {
+            Phase::Passage => self.time_s,
+            Phase::Smooth { .. } | Phase::Settle { .. } | Phase::Develop { .. } => 0.0,
         }
     }
 }

@@ -136,10 +136,6 @@ pub struct Summary {
     pub life_global: Option<f64>,
     /// Relative life with every cycle by the damage it does (`life.cycles = "damage"`).
     pub life_damage: Option<f64>,
-    /// Relative life by the mean of snapshots.
-    pub life_snapshot: Option<f64>,
-    /// Relative life by the swept integral, the bound.
-    pub life_swept: Option<f64>,
     /// Least relative life over the choice of model.
     pub life_models_low: Option<f64>,
     /// Greatest.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::frame::{SUMMED, summed, total};
 use super::{CATALOGUE, Grounds, Metrics, Over, Summary};
+use crate::saved::saved;
 
 /// One step.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -49,11 +50,17 @@ pub(super) struct Totals {
     not_converged: u64,
 }
 
+saved! {
+    Totals { free: recent, window, distance, not_converged; }
+}
+
 impl Totals {
-    /// Makes the memory for `most` steps, which a copy or a file does not keep.
-    pub(super) fn make_room(&mut self, most: usize) {
-        let room = (most + 2).saturating_sub(self.recent.len());
-        self.recent.reserve_exact(room);
+    /// None yet, with memory for `most` steps.
+    pub(super) fn new(most: usize) -> Self {
+        Self {
+            recent: VecDeque::with_capacity(most + 2),
+            ..Self::default()
+        }
     }
 
     /// Forgets the steps so far, but not those that failed.

@@ -1,4 +1,4 @@
-//! One life model as it runs: its mean over the phases, its greatest over the track, its reference.
+//! One life model as it runs: its mean over the phases, its maximum over the track, its reference.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,10 +8,30 @@ use crate::math::ln_sum::ln_list;
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeLaw;
 use crate::physics::life_models::LifeEquation;
-use crate::scene::{Life, LifeModel, Spread, VolumeIntegral};
+use crate::saved::saved;
+use crate::scene::{CycleBasis, Life, LifeModel, Spread};
 use crate::solve::critical::shares_of_slice;
 use crate::solve::life::{LifeMeter, Shares, SweptRows, Window};
 use crate::solve::stress::{Loading, StressLaw};
+
+/// Which volume integral is taken; what belongs to which count: `damage_count.rs`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LifeIntegral {
+    /// Mean of the integral over the phases of a passage.
+    Snapshot,
+    /// Mean over material points of the maximum stress that each meets.
+    Material,
+}
+
+impl LifeIntegral {
+    /// The one that belongs to a cycle basis.
+    pub(super) fn of(basis: CycleBasis) -> Self {
+        match basis {
+            CycleBasis::Damage => Self::Material,
+            CycleBasis::Global | CycleBasis::Peaks => Self::Snapshot,
+        }
+    }
+}
 
 /// A model with its accumulators: plain data, all of it state.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -20,11 +40,12 @@ pub(super) struct Variant {
     /// Place of its stress law in the volume pass; `None`: it reads slices.
     pub(super) law: Option<usize>,
     meter: LifeMeter,
-    /// Greatest shares over all samples (models of one depth), or the swept integral.
+    /// Maximum shares over all samples (models of one depth), or the swept integral.
     swept: Shares,
     /// The swept integral as the mean over material points, where it is counted; else as it is: the bound.
     material: Shares,
-    /// ln J of the reference of now, `[2 · body + form]`, in the scene's units.
+    /// ln J of the reference of now, `[2 · body + integral]`, in the scene's units; of a smooth contact all material
+    /// points meet the same.
     #[serde(with = "ln_list")]
     reference: Vec<f64>,
     /// Same of the base: the conditions that the scene began with.
@@ -32,6 +53,13 @@ pub(super) struct Variant {
     base: Vec<f64>,
     /// Half range of shear, or risk, by depth of each body in the last sample, p_h (models of one depth).
     by_depth: [Vec<f32>; 2],
+}
+
+saved! {
+    Variant {
+        same: model, law;
+        parts: meter, swept, material, reference, base, by_depth;
+    }
 }
 
 /// What every variant is computed with.
@@ -85,35 +113,18 @@ impl Variant {
     }
 
     /// ln J of the reference of now.
-    pub(super) fn ln_reference(&self, body: BodyId, form: VolumeIntegral) -> f64 {
-        self.reference[2 * body.index() + form_index(form)]
+    pub(super) fn ln_reference(&self, body: BodyId, integral: LifeIntegral) -> f64 {
+        self.reference[2 * body.index() + integral as usize]
     }
 
     /// ln J of the base.
-    pub(super) fn ln_base(&self, body: BodyId, form: VolumeIntegral) -> f64 {
-        self.base[2 * body.index() + form_index(form)]
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub(super) fn make_room(&mut self) {
-        self.meter.make_room();
+    pub(super) fn ln_base(&self, body: BodyId, integral: LifeIntegral) -> f64 {
+        self.base[2 * body.index() + integral as usize]
     }
 
     /// Takes the mean over `window` (in a) from now on.
     pub(super) fn set_window(&mut self, window: Window) {
         self.meter.set_window(window);
-    }
-
-    /// Whether a variant that was saved is of the same make as this one.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        let depths = self.by_depth[0].len();
-        self.model == saved.model
-            && self.law == saved.law
-            && self.meter.fits(&saved.meter)
-            && saved.swept.is_sound(depths)
-            && saved.material.is_sound(depths)
-            && [&saved.reference, &saved.base].map(Vec::len) == [4; 2]
-            && saved.by_depth.iter().all(|list| list.len() == depths)
     }
 
     /// Forgets all samples.
@@ -188,13 +199,12 @@ impl Variant {
         }
     }
 
-    /// Mean or swept shares; `None` before the first sample.
-    pub(super) fn shares(&self, form: VolumeIntegral) -> Option<&Shares> {
+    /// Shares of an integral; `None` before the first sample.
+    pub(super) fn shares(&self, integral: LifeIntegral) -> Option<&Shares> {
         let mean = self.meter.mean()?;
-        Some(match form {
-            VolumeIntegral::Snapshot => mean,
-            VolumeIntegral::Swept => &self.swept,
-            VolumeIntegral::Material => &self.material,
+        Some(match integral {
+            LifeIntegral::Snapshot => mean,
+            LifeIntegral::Material => &self.material,
         })
     }
 
@@ -205,14 +215,6 @@ impl Variant {
 
     pub(super) fn meter(&self) -> &LifeMeter {
         &self.meter
-    }
-}
-
-fn form_index(form: VolumeIntegral) -> usize {
-    match form {
-        VolumeIntegral::Snapshot => 0,
-        // Of a smooth contact all points meet the same.
-        VolumeIntegral::Swept | VolumeIntegral::Material => 1,
     }
 }
 
@@ -236,12 +238,14 @@ pub(super) fn models(asked: &Life, p_hertz_pa: f64) -> Vec<LifeEquation> {
             normal: asked.normal_weight,
         },
     };
-    let mut list = vec![make(asked.model)];
-    if asked.spread == Spread::Models {
-        let others = LifeModel::ALL
-            .into_iter()
-            .filter(|model| *model != asked.model);
-        list.extend(others.map(make));
+    let own = std::iter::once(asked.model);
+    match asked.spread {
+        Spread::Off | Spread::Cycles => own.map(make).collect(),
+        Spread::Models => {
+            let others = LifeModel::ALL
+                .into_iter()
+                .filter(|model| *model != asked.model);
+            own.chain(others).map(make).collect()
+        }
     }
-    list
 }

@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 use super::motion::BodyTravel;
 use crate::math::grid::Grid;
 use crate::physics::height_map::HeightMap;
+use crate::saved::saved;
 
 /// Longest ring, in domains.
 const LONGEST: f64 = 8.0;
@@ -33,6 +34,10 @@ const LONGEST: f64 = 8.0;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Yielded {
     skins: [Option<Skin>; 2],
+}
+
+saved! {
+    Yielded { parts: skins; }
 }
 
 /// One body's.
@@ -56,6 +61,17 @@ struct Skin {
     amplitude: f64,
 }
 
+saved! {
+    Skin {
+        same: length, returns, columns, share;
+        parts: depth;
+        free: volume, distance, amplitude;
+    }
+    holds |_, saved| {
+        saved.volume >= 0.0 && saved.amplitude >= 0.0 && saved.depth.iter().all(|w| *w >= 0.0)
+    }
+}
+
 impl Yielded {
     /// Nothing yet; `softer`: which bodies yield; `repeats`: length after which a relief repeats, in a (infinite: it is
     /// the same all along; `None`: it does not).
@@ -70,16 +86,6 @@ impl Yielded {
     pub(super) fn volumes(&self) -> [f64; 2] {
         let volume = |skin: &Option<Skin>| skin.as_ref().map_or(0.0, |skin| skin.volume);
         [volume(&self.skins[0]), volume(&self.skins[1])]
-    }
-
-    /// Whether a saved one is of the same make.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        let pairs = self.skins.iter().zip(&saved.skins);
-        pairs.into_iter().all(|pair| match pair {
-            (None, None) => true,
-            (Some(own), Some(saved)) => own.fits(saved),
-            _ => false,
-        })
     }
 
     /// Lowers the heights of body `body`, whose relief has an amplitude, by what has flowed.
@@ -163,25 +169,6 @@ impl Skin {
             self.depth.iter_mut().for_each(|w| *w *= scale);
         }
         self.amplitude = amplitude;
-    }
-
-    fn fits(&self, saved: &Self) -> bool {
-        let Self {
-            length,
-            returns,
-            columns,
-            depth,
-            share,
-            volume,
-            distance: _,
-            amplitude,
-        } = saved;
-        (*length, *returns, *columns, *share)
-            == (self.length, self.returns, self.columns, self.share)
-            && depth.len() == self.depth.len()
-            && *volume >= 0.0
-            && *amplitude >= 0.0
-            && depth.iter().all(|w| *w >= 0.0)
     }
 
     fn spacing(&self) -> f64 {

@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use super::axis::Line;
 use super::stress::StressLaw;
+use crate::saved::{any, saved};
 
 /// Places in the body's own wave that are told apart: of a cosine the highest lies within 1/32 of a wave of one of them, which is
 /// 2 % of the amplitude.
@@ -35,6 +36,8 @@ enum Followed {
     /// Counted: it is behind the contact.
     Done,
 }
+
+any!(Followed);
 
 /// Columns of one body; lengths in a, stress in p_h.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -60,6 +63,15 @@ pub struct Columns {
     laws: Vec<StressLaw>,
 }
 
+saved! {
+    Columns {
+        same: nx, depths, x_first, dx, laws;
+        parts: greatest, followed, row, tops, sums;
+        free: part, nodes, finished;
+    }
+    holds |_, saved| (0.0..=1.0).contains(&saved.part) && saved.nodes.unsigned_abs() < 1 << 53
+}
+
 impl Columns {
     /// Columns on `nx` nodes from `x_first`, `dx` apart, at so many `depths`; sums of `laws`.
     pub fn new((x_first, dx): (f64, f64), nx: usize, depths: usize, laws: &[StressLaw]) -> Self {
@@ -78,19 +90,6 @@ impl Columns {
             finished: 0,
             laws: laws.to_vec(),
         }
-    }
-
-    /// Whether columns that were saved are of the same make.
-    pub fn fits(&self, saved: &Self) -> bool {
-        let lengths = |c: &Self| {
-            let lists = [c.greatest.len(), c.row.len(), c.tops.len(), c.sums.len()];
-            (c.nx, c.depths, lists, c.followed.len())
-        };
-        lengths(self) == lengths(saved)
-            && (self.x_first, self.dx) == (saved.x_first, saved.dx)
-            && self.laws == saved.laws
-            && (0.0..=1.0).contains(&saved.part)
-            && saved.nodes.unsigned_abs() < 1 << 53
     }
 
     /// Forgets all that was met.

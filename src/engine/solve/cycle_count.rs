@@ -9,10 +9,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::physics::rainflow::{Cycle, HistoryEnds, Rainflow};
+use crate::saved::saved;
 
 /// What a cycle's damage is taken from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DamageBasis {
+pub(super) enum DamageBasis {
     /// Ranges of the signed orthogonal shear.
     Ranges,
     /// Peaks of the effective stress.
@@ -26,9 +27,9 @@ pub struct CycleCount {
     pub count: f64,
     /// Σ count · s^m, s the range (or, of effective stress, the peak) in p_h: damage by Miner's rule.
     pub damage: f64,
-    /// Greatest range (peak).
+    /// Maximum range (peak).
     pub range: f64,
-    /// `Σ count · (s/greatest)^m`: as many cycles of the greatest do the same damage.
+    /// `Σ count · (s/maximum)^m`: as many of the largest cycle do the same damage.
     pub equivalent: f64,
 }
 
@@ -44,7 +45,7 @@ impl CycleCount {
         self.equivalent = self.damage / self.range.powf(exponent);
     }
 
-    /// Damage without that of one greatest cycle.
+    /// Damage without that of one largest cycle.
     pub(super) fn small_damage(&self, exponent: f64) -> f64 {
         (self.damage - self.range.powf(exponent)).max(0.0)
     }
@@ -59,6 +60,10 @@ pub(super) struct CrossingHistory {
     pub(super) cycles: CycleCount,
     /// CycleCount of the last whole crossing.
     pub(super) last: Option<CycleCount>,
+}
+
+saved! {
+    CrossingHistory { same: basis; parts: flow; free: cycles, last; }
 }
 
 impl CrossingHistory {
@@ -77,16 +82,6 @@ impl CrossingHistory {
         }
     }
 
-    /// Whether a history that was saved is of the same make as this one.
-    pub(super) fn fits(&self, saved: &Self) -> bool {
-        self.basis == saved.basis && self.flow.fits(&saved.flow)
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub(super) fn make_room(&mut self) {
-        self.flow.make_room();
-    }
-
     pub(super) fn push(&mut self, value: f64, exponent: f64) {
         let Self {
             flow,
@@ -97,7 +92,7 @@ impl CrossingHistory {
         flow.push(value, &mut |cycle| cycles.add(cycle, *basis, exponent));
     }
 
-    /// Least and greatest value so far.
+    /// Minimum and maximum value so far.
     pub(super) fn ends(&self) -> (f64, f64) {
         self.flow.open_ends()
     }

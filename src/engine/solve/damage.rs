@@ -2,15 +2,17 @@
 //!
 //! ```text
 //! ξ = x − U t         place on the body, taken modulo the block's length (a wavelength, or the whole track)
-//! D(ξ, z) = mean over crossings of Σ_cycles count · (s/p_h)^c      Miner, s: range or peak of the cycle
+//! D(ξ, z) = mean over crossings of Σ_cycles count · (s/p_h)^c      Miner, s: peak of effective stress of the cycle
 //! ```
 //! Every material point of the line y = 0 that ends a whole crossing adds the damage of its own rainflow
-//! spectrum to the column of its place. A pit starts where D is greatest. Given relative to the greatest of
+//! spectrum to the column of its place. A pit starts where D is highest. Given relative to the maximum of
 //! the smooth contact in pure rolling, D says how many times sooner that place fails.
 //!
 //! Source: Miner (1945), J. Appl. Mech. 12, A159-A164. Ours: the sum by place on the body.
 
 use serde::{Deserialize, Serialize};
+
+use crate::saved::saved;
 
 /// Shape of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -33,6 +35,10 @@ pub struct DamageMap {
     sums: Vec<f64>,
     /// Crossings of each column.
     crossings: Vec<u32>,
+}
+
+saved! {
+    DamageMap { same: spec; parts: sums, crossings; }
 }
 
 /// Where a pit starts.
@@ -65,13 +71,6 @@ impl DamageMap {
         &self.spec
     }
 
-    /// Whether a map that was saved is of the same make as this one.
-    pub fn fits(&self, saved: &Self) -> bool {
-        self.spec == saved.spec
-            && self.crossings.len() == saved.crossings.len()
-            && self.sums.len() == saved.sums.len()
-    }
-
     /// Forgets all.
     pub fn clear(&mut self) {
         self.sums.fill(0.0);
@@ -100,7 +99,7 @@ impl DamageMap {
         self.crossings.iter().filter(|c| **c > 0).count()
     }
 
-    /// The place of greatest damage; `None` before the first crossing.
+    /// The place of maximum damage; `None` before the first crossing.
     pub fn pit(&self) -> Option<Pit> {
         let width = self.spec.length / self.spec.columns as f64;
         let mut worst: Option<Pit> = None;

@@ -29,6 +29,7 @@ use rayon::prelude::*;
 
 use super::shift::Shift;
 use crate::math::grid::Grid;
+use crate::saved::saved;
 use crate::scene::Order;
 
 /// Pressure below which ripples count as absolute, not relative. Enters the first guess of a step, and which
@@ -72,6 +73,19 @@ pub struct History {
     pub earlier_nodes: f64,
 }
 
+saved! {
+    History {
+        parts: mass_1, mass_2, mass_3, pressure_1, pressure_2, pressure_slow;
+        free: h0, last_nodes, earlier_nodes;
+    }
+    holds |_, saved| {
+        let pressures = [&saved.pressure_1, &saved.pressure_2, &saved.pressure_slow];
+        pressures.into_iter().flatten().all(|p| *p >= 0.0)
+            && saved.last_nodes >= 0.0
+            && saved.earlier_nodes >= 0.0
+    }
+}
+
 impl History {
     /// A steady past: the film `mass` and pressure `p` as they are.
     pub fn steady(mass: &[f64], p: &[f64], h0: f64) -> Self {
@@ -86,31 +100,6 @@ impl History {
             last_nodes: 0.0,
             earlier_nodes: 0.0,
         }
-    }
-
-    /// Whether every field has `len` nodes.
-    pub fn fits(&self, len: usize) -> bool {
-        let Self {
-            mass_1,
-            mass_2,
-            mass_3,
-            pressure_1,
-            pressure_2,
-            pressure_slow,
-            h0: _,
-            last_nodes: _,
-            earlier_nodes: _,
-        } = self;
-        [
-            mass_1,
-            mass_2,
-            mass_3,
-            pressure_1,
-            pressure_2,
-            pressure_slow,
-        ]
-        .iter()
-        .all(|field| field.len() == len)
     }
 
     /// Past of which a step of `nodes` nodes makes use for this order: of order 3 where the steps do not grow so fast that

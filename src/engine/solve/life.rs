@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! J_k   = Σ τ_s J_ks / Σ τ_s          share of depth k, over the samples s of the last full period (snapshot)
-//! J_k   = Σ_rows w max_s max_x σ^m    greatest of each row over all samples (swept)
+//! J_k   = Σ_rows w max_s max_x σ^m    maximum of each row over all samples (swept)
 //! cycle · peak · traction = (J/J_n)^{1/e} (J_ref/J_p)^{1/e} (J_p/J)^{1/e} = N/N_ref
 //! J = Σ_k J_k,   J_n = Σ_k n(z_k)^e J_k,   J_p: pressure alone
 //! ```
 //! The integral is averaged, not the life (the *snapshot* form of the literature); the *swept* form takes for
-//! every track the greatest stress that passes over it, which is what a material point sees once S ≠ 0, and is
+//! every track the maximum stress that passes over it, which is what a material point sees once S ≠ 0, and is
 //! the bound. Integrals are kept and added as logarithms. τ is the length of the step in whatever the period
 //! is given in (time, or distance at U); of the oldest sample counts what lies within the period, so that the mean
 //! of what repeats with the period stands still. What never repeats has no such period: an open window goes on from the
@@ -28,6 +28,7 @@ use crate::math::ln_sum::{ln_list, ln_sum};
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::{CyclePair, IntegralLogs, LifeFactors, LifeLaw};
 use crate::physics::life_models::CycleProfile;
+use crate::saved::{Saved, saved};
 
 /// ln of every depth's share of J, for each of the four loadings (`[loading · depths + k]`).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -35,6 +36,10 @@ pub struct Shares {
     depths: usize,
     #[serde(with = "ln_list")]
     logs: Vec<f64>,
+}
+
+saved! {
+    Shares { same: depths; parts: logs; }
 }
 
 impl Shares {
@@ -61,11 +66,6 @@ impl Shares {
         ln_sum(self.of(loading).iter().map(|ln| (1.0, *ln)))
     }
 
-    /// Whether shares that were read from a file are those of so many depths.
-    pub fn is_sound(&self, depths: usize) -> bool {
-        self.depths == depths && self.logs.len() == 4 * depths
-    }
-
     /// Nothing at any depth again.
     pub fn clear(&mut self) {
         self.logs.fill(f64::NEG_INFINITY);
@@ -77,6 +77,68 @@ impl Shares {
 struct MergedPhase {
     span: f64,
     shares: Shares,
+}
+
+saved! {
+    MergedPhase { parts: shares; free: span; }
+    holds |_, saved| saved.span > 0.0
+}
+
+/// Samples of a window, the oldest first, in memory that is made once.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+struct Phases {
+    list: VecDeque<MergedPhase>,
+    /// Not in use.
+    #[serde(skip)]
+    spare: Vec<MergedPhase>,
+}
+
+impl Phases {
+    /// Memory for so many of so many depths.
+    fn new(room: usize, depths: usize) -> Self {
+        let empty = MergedPhase {
+            span: 0.0,
+            shares: Shares::new(depths),
+        };
+        Self {
+            list: VecDeque::with_capacity(room),
+            spare: vec![empty; room],
+        }
+    }
+
+    fn clear(&mut self) {
+        self.spare.extend(self.list.drain(..));
+    }
+
+    /// Takes a sample; false: there is no memory left for it.
+    fn push(&mut self, span: f64, shares: &Shares) -> bool {
+        let Some(mut phase) = self.spare.pop() else {
+            return false;
+        };
+        phase.span = span;
+        phase.shares.logs.copy_from_slice(&shares.logs);
+        self.list.push_back(phase);
+        true
+    }
+}
+
+impl Saved for Phases {
+    fn check(&self, saved: &Self) -> Result<(), String> {
+        if saved.list.len() > self.list.len() + self.spare.len() {
+            return Err(String::new());
+        }
+        let own = self.list.iter().chain(&self.spare).cycle();
+        let mut pairs = own.zip(&saved.list);
+        pairs.try_for_each(|(own, saved)| own.check(saved))
+    }
+
+    fn restore(&mut self, saved: &Self) {
+        self.clear();
+        for phase in &saved.list {
+            self.push(phase.span, &phase.shares);
+        }
+    }
 }
 
 /// Which samples a mean is taken over.
@@ -110,9 +172,7 @@ impl Window {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LifeMeter {
     window: Window,
-    phases: VecDeque<MergedPhase>,
-    /// Phases that are not in use.
-    spare: Vec<MergedPhase>,
+    phases: Phases,
     capacity: usize,
     total: f64,
     samples: u32,
@@ -124,18 +184,22 @@ pub struct LifeMeter {
     marks: Marks,
 }
 
+saved! {
+    LifeMeter {
+        same: capacity;
+        parts: phases, mean, marks;
+        free: window, total, samples, distance;
+    }
+    holds |_, saved| saved.window.period > 0.0
+}
+
 impl LifeMeter {
     /// Meter of `depths` depths over `window`, with memory for `capacity` samples (at least 16).
     pub fn new(depths: usize, window: Window, capacity: usize) -> Self {
         let capacity = capacity.max(16);
-        let empty = MergedPhase {
-            span: 0.0,
-            shares: Shares::new(depths),
-        };
         Self {
             window,
-            phases: VecDeque::with_capacity(capacity + 1),
-            spare: vec![empty; capacity + 1],
+            phases: Phases::new(capacity + 1, depths),
             capacity,
             total: 0.0,
             samples: 0,
@@ -143,27 +207,6 @@ impl LifeMeter {
             distance: 0.0,
             marks: Marks::new(),
         }
-    }
-
-    /// Whether a meter that was saved is of the same make as this one, with as many depths everywhere.
-    pub fn fits(&self, saved: &Self) -> bool {
-        let depths = self.mean.depths;
-        let all = saved.phases.iter().chain(&saved.spare);
-        let mut shares = all.map(|p| &p.shares).chain([&saved.mean]);
-        self.capacity == saved.capacity
-            && saved.phases.len() + saved.spare.len() == self.capacity + 1
-            && saved.phases.iter().all(|phase| phase.span > 0.0)
-            && saved.window.period > 0.0
-            && shares.all(|shares| shares.is_sound(depths))
-            && saved.marks.is_sound()
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub fn make_room(&mut self) {
-        let room = |held: usize| (self.capacity + 1).saturating_sub(held);
-        self.phases.reserve_exact(room(self.phases.len()));
-        self.spare.reserve_exact(room(self.spare.len()));
-        self.marks.make_room();
     }
 
     /// Takes the mean over `window` from now on.
@@ -176,7 +219,7 @@ impl LifeMeter {
 
     /// Forgets the samples (after a change of load, speed or roughness).
     pub fn restart(&mut self) {
-        self.spare.extend(self.phases.drain(..));
+        self.phases.clear();
         (self.total, self.samples, self.distance) = (0.0, 0, 0.0);
         self.mean.clear();
         self.marks.forget();
@@ -184,26 +227,20 @@ impl LifeMeter {
 
     /// Takes the shares of a step of length `span`.
     pub fn push(&mut self, span: f64, shares: &Shares) {
-        if span <= 0.0 {
+        if span <= 0.0 || !self.phases.push(span, shares) {
             return;
         }
-        let Some(mut phase) = self.spare.pop() else {
-            return;
-        };
-        phase.span = span;
-        phase.shares.logs.copy_from_slice(&shares.logs);
-        self.phases.push_back(phase);
         self.total += span;
         self.distance += span;
         self.samples = self.samples.saturating_add(1);
         while !self.window.is_open
-            && let Some(first) = self.phases.front()
+            && let Some(first) = self.phases.list.front()
             && self.total - first.span >= self.window.period * (1.0 - 1e-9)
         {
             self.total -= first.span;
-            self.spare.extend(self.phases.pop_front());
+            self.phases.spare.extend(self.phases.list.pop_front());
         }
-        if self.phases.len() > self.capacity {
+        if self.phases.list.len() > self.capacity {
             self.merge_pairs();
         }
         self.take_mean();
@@ -224,30 +261,30 @@ impl LifeMeter {
     }
 
     fn merge_pairs(&mut self) {
-        let pairs = self.phases.len() / 2;
+        let pairs = self.phases.list.len() / 2;
         for pair in 0..pairs {
-            let Some(other) = self.phases.remove(pair + 1) else {
+            let Some(other) = self.phases.list.remove(pair + 1) else {
                 break;
             };
-            let one = &mut self.phases[pair];
+            let one = &mut self.phases.list[pair];
             let span = one.span + other.span;
             for (a, b) in one.shares.logs.iter_mut().zip(&other.shares.logs) {
                 *a = ln_sum([(one.span, *a), (other.span, *b)]) - span.ln();
             }
             one.span = span;
-            self.spare.push(other);
+            self.phases.spare.push(other);
         }
     }
 
     fn take_mean(&mut self) {
-        let all: f64 = self.phases.iter().map(|p| p.span).sum();
+        let all: f64 = self.phases.list.iter().map(|p| p.span).sum();
         let beyond = if self.window.is_open {
             0.0
         } else {
             (all - self.window.period).max(0.0)
         };
         for (i, mean) in self.mean.logs.iter_mut().enumerate() {
-            let terms = self.phases.iter().enumerate().map(|(k, phase)| {
+            let terms = self.phases.list.iter().enumerate().map(|(k, phase)| {
                 let outside = if k == 0 { beyond } else { 0.0 };
                 (phase.span - outside, phase.shares.logs[i])
             });
@@ -257,7 +294,7 @@ impl LifeMeter {
 
     /// Mean shares over the window; `None` before the first sample.
     pub fn mean(&self) -> Option<&Shares> {
-        (!self.phases.is_empty()).then_some(&self.mean)
+        (!self.phases.list.is_empty()).then_some(&self.mean)
     }
 
     /// Samples since the last restart.
@@ -267,15 +304,19 @@ impl LifeMeter {
 
     /// Whether the mean covers a period.
     pub fn covers(&self) -> bool {
-        let span: f64 = self.phases.iter().map(|p| p.span).sum();
+        let span: f64 = self.phases.list.iter().map(|p| p.span).sum();
         span >= self.window.period * (1.0 - 1e-9)
     }
 }
 
-/// The greatest of every row, or of every depth, over all samples since the last restart.
+/// The maximum of every row, or of every depth, over all samples since the last restart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweptRows {
     tops: [Vec<f32>; 4],
+}
+
+saved! {
+    SweptRows { parts: tops; }
 }
 
 impl SweptRows {
@@ -291,11 +332,6 @@ impl SweptRows {
         self.tops.iter_mut().for_each(|tops| tops.fill(0.0));
     }
 
-    /// Whether a sweep that was read from a file has so many rows.
-    pub fn is_sound(&self, rows: usize) -> bool {
-        self.tops.iter().all(|tops| tops.len() == rows)
-    }
-
     /// Takes the rows of one surface.
     pub fn push(&mut self, loading: Loading, tops: &[f32]) {
         for (most, &top) in self.tops[loading.index()].iter_mut().zip(tops) {
@@ -303,33 +339,28 @@ impl SweptRows {
         }
     }
 
-    /// Greatest so far.
+    /// Maximum so far.
     pub fn of(&self, loading: Loading) -> &[f32] {
         &self.tops[loading.index()]
     }
 }
 
-/// Factors of one body's life: `shares` against the reference `ln_reference`, with cycles by `profile` at the
-/// `depths`.
+/// Factors of one body's life: `shares` against the reference `ln_reference`, with cycles by `profile`.
 pub fn factors(
     law: LifeLaw,
     shares: &Shares,
     body: BodyId,
     ln_reference: f64,
     profile: CycleProfile,
-    depths: &[f64],
 ) -> LifeFactors {
     let full = shares.of(Loading::Full(body));
     let ln_full = shares.ln(Loading::Full(body));
     let n = match profile {
         CycleProfile::Global(n) => n,
-        CycleProfile::Depth { .. } | CycleProfile::Counted(_) => {
+        CycleProfile::Counted(_) => {
             let e = law.weibull_slope;
-            let weighted = full
-                .iter()
-                .zip(depths)
-                .enumerate()
-                .map(|(k, (ln, z))| (1.0, ln + e * profile.at(k, *z).ln()));
+            let weighted = full.iter().enumerate();
+            let weighted = weighted.map(|(k, ln)| (1.0, ln + e * profile.at(k).ln()));
             ((ln_sum(weighted) - ln_full) / e).exp()
         }
     };
@@ -373,7 +404,7 @@ mod tests {
         let mean = meter.mean().expect("sampled");
         assert_relative_eq!(mean.ln(FULL).exp(), 6.0, max_relative = 1e-12);
         let profile = CycleProfile::Global(4.0);
-        let f = factors(law, mean, BodyId::One, 0.0, profile, &[0.1, 0.2]);
+        let f = factors(law, mean, BodyId::One, 0.0, profile);
         assert_relative_eq!(f.peak, 3.0_f64.powf(-0.9), max_relative = 1e-12);
         assert_relative_eq!(f.traction, 2.0_f64.powf(-0.9), max_relative = 1e-12);
         assert_eq!(f.cycle, 0.25);
@@ -446,16 +477,12 @@ mod tests {
         shares
             .of_mut(FULL)
             .copy_from_slice(&[0.2_f64.ln(), 0.8_f64.ln()]);
-        let cycle = |profile| factors(law, &shares, BodyId::One, 0.0, profile, &[0.05, 0.9]).cycle;
+        let cycle = |profile| factors(law, &shares, BodyId::One, 0.0, profile).cycle;
         // n = 9 in a fifth of the integral: J_n/J = 0.2 · 9^e + 0.8.
         let expected = (0.2 * 9.0_f64.powf(law.weibull_slope) + 0.8).powf(-0.9);
-        let depth = CycleProfile::Depth {
-            n: 9.0,
-            wavelength: 0.2,
-        };
-        assert_relative_eq!(cycle(depth), expected, max_relative = 1e-12);
-        assert_relative_eq!(cycle(CycleProfile::Counted(&[9.0, 1.0])), expected);
-        assert!(cycle(CycleProfile::Global(9.0)) < cycle(depth));
+        let counted = CycleProfile::Counted(&[9.0, 1.0]);
+        assert_relative_eq!(cycle(counted), expected, max_relative = 1e-12);
+        assert!(cycle(CycleProfile::Global(9.0)) < cycle(counted));
     }
 
     #[test]
@@ -470,7 +497,8 @@ mod tests {
         }
         let ln = |meter: &LifeMeter| meter.mean().expect("sampled").ln(FULL);
         assert_relative_eq!(ln(&small), ln(&large), max_relative = 1e-12);
-        assert!(small.phases.len() <= 17 && small.phases.len() + small.spare.len() == 17);
+        let Phases { list, spare } = &small.phases;
+        assert!(list.len() <= 17 && list.len() + spare.len() == 17);
     }
 
     #[test]

@@ -21,6 +21,7 @@ use super::newton::{NewtonReport, Tolerance};
 use super::reynolds::Medium;
 use super::traction::TractionLaw;
 use crate::math::grid::Grid;
+use crate::saved::saved;
 use crate::scene::Order;
 
 /// What a restart needs: the last committed step and its past.
@@ -38,34 +39,22 @@ pub struct ContactState {
     pub history: History,
 }
 
-impl ContactState {
-    /// Whether every field has `len` nodes; `unlike`: with deflection by traction.
-    pub fn fits(&self, len: usize, unlike: bool) -> bool {
-        let Self {
-            pressure,
-            film,
-            h0: _,
-            sheared,
-            history,
-        } = self;
-        let sheared_len = if unlike { len } else { 0 };
-        pressure.len() == len
-            && film.len() == len
-            && sheared.len() == sheared_len
-            && history.fits(len)
-    }
+saved! {
+    ContactState { parts: pressure, film, sheared, history; free: h0; }
+    holds |_, saved| saved.pressure.iter().all(|p| *p >= 0.0)
+}
 
-    /// Whether no pressure and no length of a past step is below zero.
-    pub fn is_sound(&self) -> bool {
-        let history = &self.history;
-        let pressures = [
-            &self.pressure,
-            &history.pressure_1,
-            &history.pressure_2,
-            &history.pressure_slow,
-        ];
-        let mut values = pressures.into_iter().flatten();
-        values.all(|p| *p >= 0.0) && history.last_nodes >= 0.0 && history.earlier_nodes >= 0.0
+impl ContactState {
+    /// Nothing yet on `len` nodes; `unlike`: with deflection by traction.
+    pub fn empty(len: usize, unlike: bool) -> Self {
+        let field = vec![0.0; len];
+        Self {
+            history: History::steady(&field, &field, 0.0),
+            pressure: field.clone(),
+            sheared: if unlike { field.clone() } else { Vec::new() },
+            film: field,
+            h0: 0.0,
+        }
     }
 
     /// The same contact on `fine`, a grid with twice the intervals of `coarse`.

@@ -5,6 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::math::ln_sum::ln_list;
+use crate::saved::saved;
 
 /// Marks in a period; untuned.
 const IN_PERIOD: f64 = 8.0;
@@ -21,24 +22,18 @@ pub struct Marks {
     list: Vec<f64>,
 }
 
+saved! {
+    Marks { room: list; free: next; }
+    holds |_, saved| saved.list.len() <= 2 * KEPT && saved.list.len().is_multiple_of(2)
+}
+
 impl Marks {
     /// None, with room for all that are kept.
     pub fn new() -> Self {
-        let mut marks = Self::default();
-        marks.make_room();
-        marks
-    }
-
-    /// Makes the room again that a copy or a file does not keep.
-    pub fn make_room(&mut self) {
-        let room = 2 * (KEPT + 1);
-        self.list
-            .reserve_exact(room.saturating_sub(self.list.len()));
-    }
-
-    /// Whether marks that were read from a file can be so many.
-    pub fn is_sound(&self) -> bool {
-        self.list.len() <= 2 * KEPT && self.list.len().is_multiple_of(2)
+        Self {
+            next: 0.0,
+            list: Vec::with_capacity(2 * (KEPT + 1)),
+        }
     }
 
     /// Forgets all.

@@ -64,7 +64,7 @@ impl Session {
                 .fits(scene)
                 .map_err(|error| SimError::State(error.to_string()))?;
             let mut sim = Simulation::new(scene, plan, threads)?;
-            sim.restore(checkpoint.sim)?;
+            sim.restore(&checkpoint.sim)?;
             sim.count_from(checkpoint.stats)?;
             Ok(sim)
         })

@@ -80,8 +80,8 @@ impl Case {
     pub(super) fn new(index: usize, mut scene: Scene, chain: ChainKeys) -> Result<Self, PlanError> {
         let points_cross = scene.life.as_ref().is_some_and(|life| {
             let counts_points = match life.cycles {
-                CycleBasis::Damage | CycleBasis::Peaks | CycleBasis::Ranges => true,
-                CycleBasis::Global | CycleBasis::Depth => false,
+                CycleBasis::Damage | CycleBasis::Peaks => true,
+                CycleBasis::Global => false,
             };
             counts_points || life.maps() != [false; 2]
         });

@@ -4,9 +4,9 @@ use super::{LifeStage, Now};
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::LifeFactors;
 use crate::physics::life_models::CycleProfile;
-use crate::scene::{BodyChoice, CycleBasis, Spread, VolumeIntegral};
+use crate::scene::{BodyChoice, CycleBasis, Spread};
 use crate::sim::counting::Counting;
-use crate::sim::variant::Variant;
+use crate::sim::variant::{LifeIntegral, Variant};
 use crate::solve::life::factors;
 
 impl LifeStage {
@@ -15,15 +15,16 @@ impl LifeStage {
     pub(super) fn lives(
         &self,
         variant: &Variant,
-        (basis, form): (CycleBasis, VolumeIntegral),
+        basis: CycleBasis,
         now: &Now,
         counting: Option<&Counting>,
     ) -> Option<[Option<LifeFactors>; 2]> {
-        let shares = variant.shares(form)?;
+        let integral = LifeIntegral::of(basis);
+        let shares = variant.shares(integral)?;
         Some(BodyId::BOTH.map(|body| {
             let profile = self.profile(body, basis, now.n[body.index()], counting)?;
-            let ln_reference = self.ln_reference(variant, (body, form), now.size);
-            let f = factors(self.law, shares, body, ln_reference, profile, &self.depths);
+            let ln_reference = self.ln_reference(variant, body, integral, now.size);
+            let f = factors(self.law, shares, body, ln_reference, profile);
             f.relative.is_finite().then_some(f)
         }))
     }
@@ -39,11 +40,7 @@ impl LifeStage {
             // A body that stands has no cycles of its own, but those of the other.
             CycleBasis::Damage => counting?.profile(body, basis),
             CycleBasis::Global => Some(CycleProfile::Global(n?)),
-            CycleBasis::Depth => Some(CycleProfile::Depth {
-                n: n?,
-                wavelength: self.wavelengths[body.index()].unwrap_or(f64::INFINITY),
-            }),
-            CycleBasis::Peaks | CycleBasis::Ranges => {
+            CycleBasis::Peaks => {
                 n?;
                 counting?.profile(body, basis)
             }
@@ -72,7 +69,7 @@ impl LifeStage {
         let own = [1.0 - 0.5 * s, 1.0 + 0.5 * s].map(f64::abs);
         let turns = match self.asked.cycles {
             CycleBasis::Damage => [own[0].max(own[1]); 2],
-            _ => own,
+            CycleBasis::Global | CycleBasis::Peaks => own,
         };
         let time = |f: Option<LifeFactors>, turns: f64| Some(f?.relative / turns);
         let both = self
@@ -82,7 +79,7 @@ impl LifeStage {
         life.is_finite().then_some(life)
     }
 
-    /// Least and greatest life over the variants, cycle bases and forms of the integral, and how many.
+    /// Minimum and maximum life over the variants and cycle bases, and how many.
     pub(super) fn spread(
         &self,
         now: &Now,
@@ -95,16 +92,10 @@ impl LifeStage {
         }
         for variant in &self.variants {
             for basis in CycleBasis::ALL {
-                let forms = match basis {
-                    CycleBasis::Damage => &[VolumeIntegral::Material][..],
-                    _ => &[VolumeIntegral::Snapshot, VolumeIntegral::Swept],
-                };
-                for &form in forms {
-                    let lives = self.lives(variant, (basis, form), now, counting);
-                    if let Some((_, f)) = lives.and_then(|lives| self.governing(lives)) {
-                        (low, high) = (low.min(f.relative), high.max(f.relative));
-                        count += 1;
-                    }
+                let lives = self.lives(variant, basis, now, counting);
+                if let Some((_, f)) = lives.and_then(|lives| self.governing(lives)) {
+                    (low, high) = (low.min(f.relative), high.max(f.relative));
+                    count += 1;
                 }
             }
         }

@@ -10,10 +10,9 @@
 use super::LifeStage;
 use crate::physics::cycles::BodyId;
 use crate::physics::life_models::calibrated_reference;
-use crate::scene::VolumeIntegral;
 use crate::sim::smooth::LoadAndSpeed;
 use crate::sim::stress_stage::StressStage;
-use crate::sim::variant::Variant;
+use crate::sim::variant::{LifeIntegral, Variant};
 use crate::solve::stress::Loading;
 
 impl LifeStage {
@@ -81,7 +80,7 @@ impl LifeStage {
             weighted.map(|(ln, z)| (1.0, ln + model.ln_depth_weight(*z))),
         );
         let growth = model.growth(self.law, self.sides, false);
-        let ln_reference = self.variants[0].ln_reference(BodyId::One, VolumeIntegral::Snapshot);
+        let ln_reference = self.variants[0].ln_reference(BodyId::One, LifeIntegral::Snapshot);
         let ln = ln_point + growth * ratio.ln() - ln_reference;
         ln.is_finite()
             .then(|| cycles * (ln / self.law.weibull_slope).exp())
@@ -98,29 +97,28 @@ impl LifeStage {
     pub(super) fn ln_reference(
         &self,
         variant: &Variant,
-        (body, form): (BodyId, VolumeIntegral),
+        body: BodyId,
+        integral: LifeIntegral,
         size: f64,
     ) -> f64 {
         let ratio = size / self.reference_size;
-        variant.ln_reference(body, form) + self.growth(variant, form) * ratio.ln()
+        variant.ln_reference(body, integral) + self.growth(variant, integral) * ratio.ln()
     }
 
-    pub(super) fn growth(&self, variant: &Variant, form: VolumeIntegral) -> f64 {
-        let swept = form != VolumeIntegral::Snapshot;
+    pub(super) fn growth(&self, variant: &Variant, integral: LifeIntegral) -> f64 {
+        let swept = match integral {
+            LifeIntegral::Snapshot => false,
+            LifeIntegral::Material => true,
+        };
         variant.model.growth(self.law, self.sides, swept)
     }
 
-    /// Life of the smooth contact of `size` times the scene's over its life at the base.
-    pub(super) fn load_factor(
-        &self,
-        variant: &Variant,
-        (body, form): (BodyId, VolumeIntegral),
-        size: f64,
-    ) -> f64 {
-        let (ln_base, ln_now) = (
-            variant.ln_base(body, form),
-            self.ln_reference(variant, (body, form), size),
-        );
+    /// Life of the smooth contact of `size` times the scene's over its life at the base. What a load costs the smooth
+    /// contact is the same whatever is counted of the rough one.
+    pub(super) fn load_factor(&self, variant: &Variant, body: BodyId, size: f64) -> f64 {
+        let integral = LifeIntegral::Snapshot;
+        let ln_base = variant.ln_base(body, integral);
+        let ln_now = self.ln_reference(variant, body, integral, size);
         if ln_base == ln_now && size == 1.0 {
             // Below a fatigue limit both are −∞.
             return 1.0;

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::Simulation;
+use super::present::grounds;
+use super::view::View;
 use crate::physics::cycles::BodyId;
 use crate::plan::LINE_ROWS;
 use crate::scene::ContactKind;
@@ -12,11 +13,11 @@ use crate::sim::{DamageBlock, Frame, MaterialPoint, PassedPeak, StressPlane, Str
 use crate::solve::stress::{Cut, Plane};
 
 /// Writes the last step of `sim` into `frame`; allocates only while the sizes change.
-pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
+pub(super) fn fill(sim: View, frame: &mut Frame) {
     frame.step = sim.state.step;
-    frame.time_s = sim.time_s();
-    frame.stage = sim.stage();
-    frame.start_up = sim.start_up_progress();
+    frame.time_s = sim.state.time_of_passage_s();
+    frame.stage = sim.state.stage();
+    frame.start_up = sim.state.start_up_progress();
     frame.passages = if sim.state.step > 0 {
         sim.state.distance / sim.plan.decided.passage_a
     } else {
@@ -37,13 +38,13 @@ pub(super) fn fill(sim: &Simulation, frame: &mut Frame) {
         fill_damage(sim, body, &mut frame.damage[body.index()]);
     }
     frame.metrics.clone_from(&sim.state.metrics);
-    frame.grounds = sim.grounds();
+    frame.grounds = grounds(sim.plan, sim.state);
 }
 
 /// Nodes, edges and scales.
-fn fill_shape(sim: &Simulation, frame: &mut Frame) {
+fn fill_shape(sim: View, frame: &mut Frame) {
     let (grid, scaling) = (&sim.work.solver.grid, &sim.plan.scaling);
-    let scale = sim.size_now();
+    let scale = sim.plan.size_now(&sim.state.drive);
     frame.kind = scaling.kind;
     frame.nx = grid.nx;
     (frame.ny, frame.dy_m) = match scaling.kind {
@@ -62,7 +63,7 @@ fn fill_shape(sim: &Simulation, frame: &mut Frame) {
 }
 
 /// Pressure, film, traction, both surfaces, and where they touch.
-fn fill_fields(sim: &Simulation, frame: &mut Frame) {
+fn fill_fields(sim: View, frame: &mut Frame) {
     let (scaling, state) = (&sim.plan.scaling, &sim.state.contact);
     let [one, two] = &sim.work.roughness.heights;
     let along_x = scaling.heading.sign() * scaling.p_hertz_pa;
@@ -78,7 +79,7 @@ fn fill_fields(sim: &Simulation, frame: &mut Frame) {
     expand(sim, &sim.work.traction, along_x, &mut frame.traction_pa);
     expand(sim, one, scaling.film_m, &mut frame.roughness_1_m);
     expand(sim, two, scaling.film_m, &mut frame.roughness_2_m);
-    let contact_film = sim.contact_film_m() as f32;
+    let contact_film = sim.plan.scaling.m_from_h(sim.plan.law.contact_film) as f32;
     frame.contact.resize(frame.film_m.len(), 0);
     let fields = frame.film_m.iter().zip(&frame.pressure_pa);
     for (c, (&h, &p)) in frame.contact.iter_mut().zip(fields) {
@@ -87,7 +88,7 @@ fn fill_fields(sim: &Simulation, frame: &mut Frame) {
 }
 
 /// A field in SI over the whole domain, in the scene's direction; 0 where nothing is stored.
-fn expand(sim: &Simulation, from: &[f64], unit: f64, to: &mut Vec<f32>) {
+fn expand(sim: View, from: &[f64], unit: f64, to: &mut Vec<f32>) {
     let (grid, scaling) = (&sim.work.solver.grid, &sim.plan.scaling);
     let rows = match scaling.kind {
         ContactKind::Point => grid.ny_full(),
@@ -114,8 +115,13 @@ fn expand(sim: &Simulation, from: &[f64], unit: f64, to: &mut Vec<f32>) {
 }
 
 /// Stress of both bodies in the plane y = 0.
-fn fill_slices(sim: &Simulation, frame: &mut Frame) {
-    let Some(stress) = sim.work.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
+fn fill_slices(sim: View, frame: &mut Frame) {
+    let Some(stress) = sim
+        .work
+        .stress
+        .as_ref()
+        .filter(|_| sim.state.phase.has_stress())
+    else {
         (frame.slice, frame.slice_2) = (None, None);
         return;
     };
@@ -123,7 +129,7 @@ fn fill_slices(sim: &Simulation, frame: &mut Frame) {
     fill_slice(sim, stress, BodyId::Two, &mut frame.slice_2);
 }
 
-fn fill_slice(sim: &Simulation, stress: &StressStage, body: BodyId, to: &mut Option<StressSlice>) {
+fn fill_slice(sim: View, stress: &StressStage, body: BodyId, to: &mut Option<StressSlice>) {
     let from = stress.slice_in(body);
     let slice = to.get_or_insert_with(StressSlice::default);
     if slice.depths_m.len() != stress.depths().len() {
@@ -151,7 +157,7 @@ fn fill_slice(sim: &Simulation, stress: &StressStage, body: BodyId, to: &mut Opt
 }
 
 /// Distance from a crest along +x; the solver's x is a mirror image where the flow runs towards −x.
-pub(super) fn place_m(sim: &Simulation, place: f64, length: f64) -> f64 {
+pub(super) fn place_m(sim: View, place: f64, length: f64) -> f64 {
     match sim.plan.scaling.heading {
         Heading::Forward => sim.plan.scaling.m_from_x(place),
         Heading::Backward => sim.plan.scaling.m_from_x(length - place),
@@ -160,9 +166,14 @@ pub(super) fn place_m(sim: &Simulation, place: f64, length: f64) -> f64 {
 
 /// The planes that the scene asks for. They run along the solver's x, which is the scene's mirror image where
 /// the flow runs towards −x.
-fn fill_planes(sim: &Simulation, frame: &mut Frame) {
+fn fill_planes(sim: View, frame: &mut Frame) {
     frame.planes.clear();
-    let Some(stress) = sim.work.stress.as_ref().filter(|_| sim.stage_has_stress()) else {
+    let Some(stress) = sim
+        .work
+        .stress
+        .as_ref()
+        .filter(|_| sim.state.phase.has_stress())
+    else {
         return;
     };
     let sign = sim.plan.scaling.heading.sign();
@@ -183,7 +194,7 @@ fn fill_planes(sim: &Simulation, frame: &mut Frame) {
     }
 }
 
-fn plane_in_si(sim: &Simulation, plane: &Plane, (normal, at): (char, f64)) -> StressPlane {
+fn plane_in_si(sim: View, plane: &Plane, (normal, at): (char, f64)) -> StressPlane {
     let unit = sim.plan.scaling.p_hertz_pa;
     let mut out = StressPlane {
         normal,
@@ -222,9 +233,9 @@ fn mirror_columns(damage: &mut [f32], depths: usize) {
 }
 
 /// The damage map of a body.
-fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) {
+fn fill_damage(sim: View, body: BodyId, block: &mut Option<DamageBlock>) {
     let found = sim.state.counting.as_ref().and_then(|counting| {
-        let size = sim.size_now();
+        let size = sim.plan.size_now(&sim.state.drive);
         let (map, unit) = counting.map(body, size)?;
         Some((
             map,
@@ -259,7 +270,7 @@ fn fill_damage(sim: &Simulation, body: BodyId, block: &mut Option<DamageBlock>) 
 }
 
 /// The shown point, its stress interpolated in the slice of its body.
-fn material_point(sim: &Simulation) -> Option<MaterialPoint> {
+fn material_point(sim: View) -> Option<MaterialPoint> {
     let counting = sim.state.counting.as_ref()?;
     let shown = counting.shown?;
     let stress = sim.work.stress.as_ref()?;

@@ -14,10 +14,13 @@
 //! and the central film within 0.05 % of what they are after settling for 4 a in short steps (0.07 and 0.05 % after
 //! 2 a). Without the lead they are 1.3 % off at S = 0 (`tests/command_line/sweep.rs`, `a_warm_case_is_what_a_cold_one_is`).
 
-use super::Simulation;
+use super::start_up::develops;
+use super::state_check::check;
+use super::watching::see_again;
 use crate::sim::drive::Drive;
-use crate::sim::sim_plan::DEVELOP;
+use crate::sim::sim_plan::{DEVELOP, SimPlan};
 use crate::sim::state::Phase;
+use crate::sim::work::Work;
 use crate::sim::{Knob, SimError, State};
 
 /// Distance at U, in a, in which what entered under the neighbour's conditions leaves all but the end of the contact.
@@ -35,96 +38,126 @@ const LEAD: f64 = 0.5;
 /// Shortest distance over which surfaces are led, in a.
 const LEAST_LEAD: f64 = 0.5;
 
-impl Simulation {
-    /// Starts from the end of `neighbour`, a run of the same scene but for the slide-to-roll ratio and the
-    /// amplitudes, in place of the start-up.
-    ///
-    /// # Errors
-    /// [`SimError::State`] when the neighbour's passage had not begun or its fields do not fit; the simulation
-    /// is as it was.
-    pub fn follow(&mut self, neighbour: &State) -> Result<(), SimError> {
-        self.take_over(neighbour)?;
-        let dt = self.plan.stepping.usual() * self.plan.decided.domain.dx_a();
-        let goal = self.cold_distances(dt);
-        for knob in FREE {
-            let targets = self.state.targets.get(knob).target;
-            self.state.drive.jump(knob, neighbour.drive.get(knob).now);
-            self.state.drive.aim(knob, targets);
-        }
-        for knob in [Knob::ForceN, Knob::ForceNPerM, Knob::EntrainmentMS] {
-            self.state
-                .drive
-                .jump(knob, self.state.targets.get(knob).target);
-        }
-        let walk = FREE
-            .map(|knob| {
-                let setting = self.state.drive.get(knob);
-                (setting.target - setting.now).abs() / setting.rate
-            })
-            .into_iter()
-            .fold(0.0, f64::max);
-        // How far the surfaces must be led depends on how long settling takes, and the other way round: two
-        // rounds find a length that serves.
-        let mut plan = SettlingSteps::new(walk, dt);
-        let mut over = 0.0;
-        for _ in 0..2 {
-            let lead = self.lead_after(&plan, goal);
-            let longest = lead.into_iter().map(f64::abs).fold(0.0, f64::max);
-            over = (longest / LEAD).max(LEAST_LEAD);
-            plan = SettlingSteps::new(walk.max(over), dt);
-        }
-        let lead = self.lead_after(&plan, goal);
-        self.state.motion.lead(lead, over);
-        self.state.motion.disturb(plan.length());
-        self.state.phase = Phase::Settle {
-            coarse: plan.coarse,
-            fine: plan.fine,
-        };
-        self.state.start_up_steps = (0, plan.coarse + plan.fine);
-        self.state.watched = self.state.motion.travelled;
-        self.see_again();
-        Ok(())
+/// Starts from the end of `neighbour`, a run of the same scene but for the slide-to-roll ratio and the
+/// amplitudes, in place of the start-up.
+///
+/// # Errors
+/// [`SimError::State`] when the neighbour's passage had not begun or its fields do not fit; the simulation
+/// is as it was.
+pub(super) fn follow(
+    plan: &SimPlan,
+    state: &mut State,
+    work: &mut Work,
+    neighbour: &State,
+) -> Result<(), SimError> {
+    take_over(plan, state, work, neighbour)?;
+    let dt = plan.stepping.usual() * plan.decided.domain.dx_a();
+    let goal = cold_distances(plan, state, work, dt);
+    for knob in FREE {
+        let targets = state.targets.get(knob).target;
+        state.drive.jump(knob, neighbour.drive.get(knob).now);
+        state.drive.aim(knob, targets);
     }
+    for knob in [Knob::ForceN, Knob::ForceNPerM, Knob::EntrainmentMS] {
+        state.drive.jump(knob, state.targets.get(knob).target);
+    }
+    let walk = FREE
+        .map(|knob| {
+            let setting = state.drive.get(knob);
+            (setting.target - setting.now).abs() / setting.rate
+        })
+        .into_iter()
+        .fold(0.0, f64::max);
+    // How far the surfaces must be led depends on how long settling takes, and the other way round: two
+    // rounds find a length that serves.
+    let mut settling = SettlingSteps::new(walk, dt);
+    let mut over = 0.0;
+    for _ in 0..2 {
+        let lead = lead_after(state, work, &settling, goal);
+        let longest = lead.into_iter().map(f64::abs).fold(0.0, f64::max);
+        over = (longest / LEAD).max(LEAST_LEAD);
+        settling = SettlingSteps::new(walk.max(over), dt);
+    }
+    let lead = lead_after(state, work, &settling, goal);
+    state.motion.lead(lead, over);
+    state.motion.disturb(settling.length());
+    state.phase = Phase::Settle {
+        coarse: settling.coarse,
+        fine: settling.fine,
+    };
+    state.start_up_steps = (0, settling.coarse + settling.fine);
+    state.watched = state.motion.travelled;
+    see_again(plan, state, work);
+    Ok(())
+}
 
-    /// What both surfaces lack of their places after settling.
-    fn lead_after(&self, plan: &SettlingSteps, goal: [f64; 2]) -> [f64; 2] {
-        let half = distances(
-            &self.state.drive,
-            self.state.motion.travelled,
-            (plan.coarse, COARSE * plan.dt),
-        );
-        let end = distances(&half.0, half.1, (plan.fine, plan.dt)).1;
-        [0, 1].map(|body: usize| self.missing(body, goal[body] - end[body]))
-    }
+/// What both surfaces lack of their places after settling.
+fn lead_after(state: &State, work: &Work, plan: &SettlingSteps, goal: [f64; 2]) -> [f64; 2] {
+    let half = distances(
+        &state.drive,
+        state.motion.travelled,
+        (plan.coarse, COARSE * plan.dt),
+    );
+    let end = distances(&half.0, half.1, (plan.fine, plan.dt)).1;
+    [0, 1].map(|body: usize| missing(work, body, goal[body] - end[body]))
+}
 
-    /// What a distance is short of, modulo the body's wave: between −W/2 and W/2. A body without one wave along x
-    /// has no place to be led to.
-    fn missing(&self, body: usize, distance: f64) -> f64 {
-        match self.work.roughness.wavenumbers(body).map(f64::abs) {
-            [one, two] if one > 0.0 && (two == 0.0 || two == one) => {
-                let wave = std::f64::consts::TAU / one;
-                distance - wave * (distance / wave).round()
-            }
-            [0.0, two] if two > 0.0 => {
-                let wave = std::f64::consts::TAU / two;
-                distance - wave * (distance / wave).round()
-            }
-            _ => 0.0,
+/// What a distance is short of, modulo the body's wave: between −W/2 and W/2. A body without one wave along x
+/// has no place to be led to.
+fn missing(work: &Work, body: usize, distance: f64) -> f64 {
+    match work.roughness.wavenumbers(body).map(f64::abs) {
+        [one, two] if one > 0.0 && (two == 0.0 || two == one) => {
+            let wave = std::f64::consts::TAU / one;
+            distance - wave * (distance / wave).round()
         }
+        [0.0, two] if two > 0.0 => {
+            let wave = std::f64::consts::TAU / two;
+            distance - wave * (distance / wave).round()
+        }
+        _ => 0.0,
     }
+}
 
-    /// Where a cold start would have both surfaces when the passage begins, in a.
-    fn cold_distances(&self, dt: f64) -> [f64; 2] {
-        let smooth = self.plan.smooth_distance();
-        let steps = (DEVELOP / dt).ceil() as u64;
-        let mut drive = self.state.targets.clone();
-        for knob in FREE {
-            drive.jump(knob, 0.0);
-            drive.aim(knob, self.state.targets.get(knob).target);
-        }
-        let steps = if self.develops() { steps } else { 0 };
-        distances(&drive, [smooth; 2], (steps, dt)).1
+/// Where a cold start would have both surfaces when the passage begins, in a.
+fn cold_distances(plan: &SimPlan, state: &State, work: &Work, dt: f64) -> [f64; 2] {
+    let smooth = plan.smooth_distance();
+    let steps = (DEVELOP / dt).ceil() as u64;
+    let mut drive = state.targets.clone();
+    for knob in FREE {
+        drive.jump(knob, 0.0);
+        drive.aim(knob, state.targets.get(knob).target);
     }
+    let steps = if develops(state, work) { steps } else { 0 };
+    distances(&drive, [smooth; 2], (steps, dt)).1
+}
+
+/// Takes over what a neighbour leaves to [`follow`]: its contact and its references.
+///
+/// # Errors
+/// As [`super::Simulation::restore`].
+fn take_over(
+    plan: &SimPlan,
+    state: &mut State,
+    work: &mut Work,
+    neighbour: &State,
+) -> Result<(), SimError> {
+    check(plan, state, work, neighbour)?;
+    if neighbour.nodes != plan.decided.domain.nodes || neighbour.phase != Phase::Passage {
+        let early = "its passage has not begun".to_owned();
+        return Err(SimError::State(early));
+    }
+    work.solve_on(plan, neighbour.nodes);
+    state.nodes = neighbour.nodes;
+    state.contact.clone_from(&neighbour.contact);
+    if let (Some(own), Some(other)) = (&mut state.life, &neighbour.life) {
+        own.take_base(other, plan.base());
+    }
+    if let (Some(own), Some(other)) = (&mut state.counting, &neighbour.counting) {
+        own.take_reference(other);
+    }
+    (state.coarser, state.mesh_errors) = (neighbour.coarser, neighbour.mesh_errors);
+    state.motion.travelled = neighbour.motion.travelled;
+    Ok(())
 }
 
 /// Steps of settling.

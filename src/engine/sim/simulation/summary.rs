@@ -1,36 +1,39 @@
 //! The summary of a run so far.
 
-use super::Simulation;
 use super::fill::place_m;
+use super::present::grounds;
+use super::view::View;
+use super::watching::life_estimate;
 use crate::physics::cycles::BodyId;
 use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
 use crate::sim::caution;
 use crate::sim::fatigue_stage::LifeStage;
 use crate::sim::summary::PitStart;
-use crate::sim::{LifeEstimate, Summary};
+use crate::sim::{LifeEstimate, Stats, Summary};
 
-impl Simulation {
-    /// Result so far. What only its run knows (name, clock, steps planned, discretisation error) is left out.
-    pub fn summary(&self) -> Summary {
-        let m = self.metrics();
-        let size = self.size_now();
-        let hertz = &self.plan.decided.hertz;
-        let life = with_life(self.life_estimate().as_ref(), self.state.life.as_ref());
-        let known = Summary {
-            steps: self.passage_steps(),
-            a_m: hertz.a_m * size,
-            p_hertz_pa: hertz.p_max_pa * size,
-            cautions: caution::list(m, &self.grounds()),
-            counters: self.stats,
-            pit_body_1: pit(self, BodyId::One),
-            pit_body_2: pit(self, BodyId::Two),
-            cycles_end_depth_1_m: cycles_end(self, BodyId::One),
-            cycles_end_depth_2_m: cycles_end(self, BodyId::Two),
-            a_iso: a_iso(self),
-            ..life
-        };
-        self.state.totals.summary(m, known)
-    }
+/// Result so far. What only its run knows (name, clock, steps planned, discretisation error) is left out.
+pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
+    let m = &sim.state.metrics;
+    let size = sim.plan.size_now(&sim.state.drive);
+    let hertz = &sim.plan.decided.hertz;
+    let life = with_life(
+        life_estimate(sim.plan, sim.state).as_ref(),
+        sim.state.life.as_ref(),
+    );
+    let known = Summary {
+        steps: sim.state.step,
+        a_m: hertz.a_m * size,
+        p_hertz_pa: hertz.p_max_pa * size,
+        cautions: caution::list(m, &grounds(sim.plan, sim.state)),
+        counters: *stats,
+        pit_body_1: pit(sim, BodyId::One),
+        pit_body_2: pit(sim, BodyId::Two),
+        cycles_end_depth_1_m: cycles_end(sim, BodyId::One),
+        cycles_end_depth_2_m: cycles_end(sim, BodyId::Two),
+        a_iso: a_iso(sim),
+        ..life
+    };
+    sim.state.totals.summary(m, known)
 }
 
 /// What a summary says of the life.
@@ -48,7 +51,7 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
     let numbers = numbers!(
         i_ref i_mean cycle_factor stress_factor peak_factor traction_factor load_factor
         life_relative life_relative_low life_relative_high;
-        life_system life_global life_damage life_snapshot life_swept
+        life_system life_global life_damage
     );
     Summary {
         survival_ratio: stage.map(LifeStage::survival_ratio),
@@ -71,9 +74,9 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
 }
 
 /// Where the pit of a body starts.
-fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
+fn pit(sim: View, body: BodyId) -> Option<PitStart> {
     let counting = sim.state.counting.as_ref()?;
-    let size = sim.size_now();
+    let size = sim.plan.size_now(&sim.state.drive);
     let pit = counting.pit(body, size)?;
     let depth = *sim.work.stress.as_ref()?.depths().get(pit.depth)?;
     let length = counting.map(body, size)?.0.spec().length;
@@ -85,7 +88,7 @@ fn pit(sim: &Simulation, body: BodyId) -> Option<PitStart> {
 }
 
 /// Depth from which on a crossing counts less than 1.5 cycles of signed shear.
-fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
+fn cycles_end(sim: View, body: BodyId) -> Option<f64> {
     let counts = sim.state.counting.as_ref()?.shear_counts(body)?;
     let depths = sim.work.stress.as_ref()?.depths();
     let last = counts.iter().rposition(|count| *count >= 1.5);
@@ -94,8 +97,8 @@ fn cycles_end(sim: &Simulation, body: BodyId) -> Option<f64> {
 }
 
 /// a_ISO beside the result, from λ and e_C C_u/P at the load P of now.
-fn a_iso(sim: &Simulation) -> Option<f64> {
-    let m = sim.metrics();
+fn a_iso(sim: View) -> Option<f64> {
+    let m = &sim.state.metrics;
     let load_ratio =
         sim.plan.scene.life.as_ref()?.iso_load_ratio? * sim.plan.decided.force_n / m.load_n;
     a_iso_radial_ball(kappa_from_lambda(m.lambda_ratio?), load_ratio)

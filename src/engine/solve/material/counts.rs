@@ -2,7 +2,7 @@
 //!
 //! Part of `material.rs`.
 
-use super::{CycleCount, DamageBasis, MaterialTracker};
+use super::{CycleCount, MaterialTracker};
 use crate::solve::cycle_count::mean;
 
 impl MaterialTracker {
@@ -21,24 +21,16 @@ impl MaterialTracker {
         mean(self.points.iter().filter_map(|p| p.effective.get(k)?.last))
     }
 
-    /// Mean of the counts and of the equivalent cycles of every depth, on a basis, into `counted` and
-    /// `equivalent`; false until a crossing is finished.
-    pub fn cycles_by_depth(
-        &self,
-        basis: DamageBasis,
-        counted: &mut [f64],
-        equivalent: &mut [f64],
-    ) -> bool {
-        let mut known = !counted.is_empty();
-        for (k, (counted, equivalent)) in counted.iter_mut().zip(equivalent).enumerate() {
-            let cycles = match basis {
-                DamageBasis::Ranges => self.shear_cycles(k),
-                DamageBasis::Peaks => self.effective_cycles(k),
-            };
-            known &= cycles.is_some();
-            let cycles = cycles.unwrap_or_default();
+    /// Mean counts of the signed shear's cycles of every depth into `shear`, and of the effective stress's cycles, each by
+    /// its peak in cycles of the maximum, into `by_peaks`; false until a crossing is finished.
+    pub fn cycles_by_depth(&self, shear: &mut [f64], by_peaks: &mut [f64]) -> bool {
+        let mut known = !shear.is_empty();
+        for (k, (shear, by_peaks)) in shear.iter_mut().zip(by_peaks).enumerate() {
+            let (ranges, peaks) = (self.shear_cycles(k), self.effective_cycles(k));
+            known &= ranges.is_some() && peaks.is_some();
             // What never passes the gate is one loading cycle all the same.
-            (*counted, *equivalent) = (cycles.count.max(1.0), cycles.equivalent.max(1.0));
+            *shear = ranges.unwrap_or_default().count.max(1.0);
+            *by_peaks = peaks.unwrap_or_default().equivalent.max(1.0);
         }
         known
     }
@@ -47,10 +39,10 @@ impl MaterialTracker {
     /// this one moved by `own` (both in size, since the last restart):
     ///
     /// ```text
-    /// n(z) = U_i/U_fast + (Z/N d) Σ_small range^c / <greatest range^c>        Z: track, N: points, d: distance
+    /// n(z) = U_i/U_fast + (Z/N d) Σ_small range^c / <maximum range^c>        Z: track, N: points, d: distance
     /// ```
     /// Cycles count as they close, wherever the points then are, and so also for a body that hardly moves or stands;
-    /// the greatest of each crossing is the crossing's own. A depth without shear (a frictionless surface) takes the
+    /// the largest of each crossing is the crossing's own. A depth without shear (a frictionless surface) takes the
     /// count below it. False before anything moved.
     pub fn damage_cycles(&self, (own, fastest): (f64, f64), out: &mut [f64]) -> bool {
         if fastest <= 0.0 || self.spec.depths == 0 {
@@ -71,7 +63,7 @@ impl MaterialTracker {
         true
     }
 
-    /// Mean damage of the greatest cycle of a crossing at depth `k`: of all whole crossings, not of each point's last, which are
+    /// Mean damage of the largest cycle of a crossing at depth `k`: of all whole crossings, not of each point's last, which are
     /// milder where surfaces run in. As long as not every point has finished one, what all points together saw stands for the
     /// rest: those in the valleys of their own surface alone would be milder than the crests by orders of magnitude to the power of c.
     fn greatest_damage(&self, k: usize) -> f64 {

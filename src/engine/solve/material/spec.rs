@@ -4,7 +4,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::solve::cycle_count::DamageBasis;
 use crate::solve::damage::BlockSpec;
 
 /// What is followed.
@@ -31,7 +30,7 @@ pub struct TrackerSpec {
     /// Samples kept of the shown point's crossing.
     pub trace: usize,
     /// Damage map of a block of the surface; `None`: not kept.
-    pub map: Option<(BlockSpec, DamageBasis)>,
+    pub map: Option<BlockSpec>,
 }
 
 impl TrackerSpec {

@@ -19,7 +19,7 @@ pub enum LessonFigure {
     RippleLeft,
     /// Relative life by the paper's count: every crest a whole cycle.
     LifeByContacts,
-    /// Least and greatest life over the choices of count, model and integral.
+    /// Minimum and maximum life over the choices of count and model.
     ChoicesApart,
 }
 

@@ -143,7 +143,7 @@ fn state(data: &[u8], _: &PathBuf) {
     let Ok(mut sim) = Simulation::new(&scene, plan, 1) else {
         return;
     };
-    if let Err(error) = sim.restore(saved.sim) {
+    if let Err(error) = sim.restore(&saved.sim) {
         drop(error.to_string());
         return;
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use thiserror::Error;
 
-use super::message::{self, Ends};
+use super::messages::{self, Ends, FileRead};
 use super::note::Note;
 use asperity_engine::observe::{Began, SetBy};
 
@@ -61,16 +61,11 @@ impl Recorded {
             path: path.display().to_string(),
             reason,
         };
-        let unread = |error: std::io::Error| refused(format!("cannot be read: {error}"));
-        let file = asperity_engine::files::open_plain(path).map_err(unread)?;
-        let bytes = file.metadata().map_err(unread)?.len();
         let mut found = FileContents::default();
-        let file = std::io::BufReader::new(file);
-        let (ends, unreadable) = message::read(file, bytes, |data| {
+        let read = messages::read_file(path, |data| {
             Note::all_in(data, |note| found.take_up(note));
-        })
-        .map_err(refused)?;
-        found.judge(&ends, bytes, unreadable).map_err(refused)
+        });
+        read.and_then(|read| found.judge(&read)).map_err(refused)
     }
 }
 
@@ -115,8 +110,9 @@ impl FileContents {
     }
 
     /// The run, or why it cannot be repeated.
-    fn judge(mut self, ends: &Ends, bytes: u64, unreadable: u64) -> Result<Recorded, String> {
-        let unread = match ends {
+    fn judge(mut self, read: &FileRead) -> Result<Recorded, String> {
+        let (bytes, unreadable) = (read.bytes, read.unreadable);
+        let unread = match &read.ends {
             Ends::Early { at, reason } => Some(format!(
                 "it can be read up to byte {at} of {bytes} ({reason})"
             )),

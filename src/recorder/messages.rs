@@ -4,9 +4,11 @@
 //! file     "RRF2", 8 bytes; messages
 //! message  kind, length (u64 each, little-endian), that many bytes
 //! data     protobuf; field 2: compression, 3: length without it, 5: the bytes (Arrow IPC)
+//! end      a message of kind 0: the index; then 32 bytes: where it lies, "RRF2FOOT", how many there are (u32)
 //! ```
 
-use std::io::{ErrorKind, Read};
+use std::io::{BufReader, ErrorKind, Read};
+use std::path::Path;
 
 use rerun::external::re_log_encoding::external::lz4_flex;
 
@@ -16,6 +18,9 @@ const FILE_HEAD: u64 = 12;
 /// Bytes before a message's own.
 const MESSAGE_HEAD: u64 = 16;
 const END: u64 = 0;
+/// What follows the index: its place (20 bytes), what the file is, and that there is one such place.
+const FOOTER_BYTES: usize = 32;
+const FOOTER_END: &[u8] = b"RRF2FOOT\x01\0\0\0";
 const DATA: u64 = 2;
 /// Last kind of a message.
 const LAST_KIND: u64 = 3;
@@ -27,8 +32,8 @@ const LZ4: u64 = 2;
 
 /// Where the messages end.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Ends {
-    /// As its recorder closed it, with the index that follows the last message.
+pub(crate) enum Ends {
+    /// As its recorder closed it, with the index that follows the last message and all that belongs to it.
     Closed,
     /// With the file, after a whole message.
     WithTheFile,
@@ -40,9 +45,31 @@ pub(super) enum Ends {
     },
 }
 
+/// How a file could be read.
+pub(crate) struct FileRead {
+    pub(crate) ends: Ends,
+    /// Its length, bytes.
+    pub(crate) bytes: u64,
+    /// Messages that could not be read.
+    pub(crate) unreadable: u64,
+}
+
+/// Reads the messages of a recording. `take` gets the data of each.
+pub(crate) fn read_file(path: &Path, take: impl FnMut(&[u8])) -> Result<FileRead, String> {
+    let unread = |error: std::io::Error| format!("cannot be read: {error}");
+    let file = asperity_engine::files::open_plain(path).map_err(unread)?;
+    let bytes = file.metadata().map_err(unread)?.len();
+    let (ends, unreadable) = read(BufReader::new(file), bytes, take)?;
+    Ok(FileRead {
+        ends,
+        bytes,
+        unreadable,
+    })
+}
+
 /// Reads the messages of a file of so many bytes. `take` gets the data of each; it says whether they could be read.
 /// Where they end, and how many could not be read.
-pub(super) fn read(
+fn read(
     mut file: impl Read,
     bytes: u64,
     mut take: impl FnMut(&[u8]),
@@ -86,8 +113,8 @@ fn next(file: &mut impl Read, left: u64, message: &mut Vec<u8>) -> Result<Option
         return Err(format!("a message of unknown kind {kind}"));
     }
     let there = left - MESSAGE_HEAD;
-    if kind == END && length <= there {
-        return Ok(None);
+    if kind == END {
+        return end(file, length, there).map(|()| None);
     }
     if length > there.min(LONGEST) {
         return Err(format!("a message of {length} bytes where {there} follow"));
@@ -96,6 +123,21 @@ fn next(file: &mut impl Read, left: u64, message: &mut Vec<u8>) -> Result<Option
     message.resize(length as usize, 0);
     file.read_exact(message).map_err(broken)?;
     Ok(Some(kind))
+}
+
+/// Reads the index and what follows it, of a message of that length where so many bytes are there. A cut leaves less.
+fn end(file: &mut impl Read, length: u64, there: u64) -> Result<(), String> {
+    if length.checked_add(FOOTER_BYTES as u64) != Some(there) {
+        return Err(format!("an index of {length} bytes where {there} follow"));
+    }
+    let mut footer = [0; FOOTER_BYTES];
+    std::io::copy(&mut file.take(length), &mut std::io::sink())
+        .and_then(|_| file.read_exact(&mut footer))
+        .map_err(|error| error.to_string())?;
+    let is_whole = footer.ends_with(FOOTER_END);
+    is_whole
+        .then_some(())
+        .ok_or_else(|| "no end of an index".to_owned())
 }
 
 fn little_endian(bytes: &[u8]) -> u64 {
@@ -219,10 +261,21 @@ mod tests {
             assert_eq!(data.len(), 1);
             assert!(matches!(ends, Ends::Early { .. }), "{ends:?}");
         }
-        let end = |length| message(END, length, b"index");
-        let closed = |length| found(&file(&[good.clone(), end(length)])).1;
-        assert_eq!(closed(5), Ends::Closed);
-        assert!(matches!(closed(6), Ends::Early { .. }));
+        let footer = [&[7; 20][..], FOOTER_END].concat();
+        let end = |length| [message(END, length, b"index"), footer.clone()].concat();
+        let closed = |length| file(&[good.clone(), end(length)]);
+        assert_eq!(found(&closed(5)).1, Ends::Closed);
+        for length in [4, 6, u64::MAX] {
+            assert!(matches!(found(&closed(length)).1, Ends::Early { .. }));
+        }
+        let whole_file = closed(5);
+        let end_at = whole_file.len() - end(5).len();
+        for cut in end_at + 1..whole_file.len() {
+            assert!(
+                matches!(found(&whole_file[..cut]).1, Ends::Early { .. }),
+                "{cut}"
+            );
+        }
         // What cannot be that long, or is not, is not asked for.
         for length in [1_u64 << 62, 1 << 20, 5] {
             let forged = compressed(text, length);
