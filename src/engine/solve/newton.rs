@@ -287,7 +287,7 @@ impl Newton {
         }
         if let Some(yielding) = &mut self.yielding {
             let k00 = self.elastic.k00;
-            yielding.split((p, f, d), k00, &self.active, &mut self.fixed);
+            yielding.split(p, f, d, k00, &self.active, &mut self.fixed);
         }
         self.fixed.iter().any(|&v| v != 0.0)
     }
@@ -336,7 +336,8 @@ impl Newton {
             &self.jacobian,
             &self.reynolds.row_scale,
             &self.reynolds.conductance,
-            (pressed, held),
+            pressed,
+            held,
             self.elastic.k00,
         );
         self.krylov
@@ -462,8 +463,8 @@ impl Newton {
             let (mut moved, mut total) =
                 move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
             if let Some(yielding) = &mut self.yielding {
-                let films = (&self.v[..], self.elastic.k00);
-                (moved, total) = yielding.bound(&self.old_p, films, t, iterate.p);
+                let k00 = self.elastic.k00;
+                (moved, total) = yielding.bound(&self.old_p, &self.v, k00, t, iterate.p);
             }
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
